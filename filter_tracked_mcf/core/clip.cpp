@@ -1,0 +1,113 @@
+#include "filter_tracked_mcf/core/clip.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+namespace tracked_mcf {
+
+namespace {
+
+/// Which side of the plane is kept.
+enum class Keep { Above, Below };
+
+struct Extent {
+    double smallest, largest;
+};
+
+Extent extent_along(const Polygon& polygon, int axis) {
+    Extent extent{polygon.points[0][axis], polygon.points[0][axis]};
+    for (int i = 1; i < polygon.size; ++i) {
+        extent.smallest = std::min(extent.smallest, polygon.points[i][axis]);
+        extent.largest = std::max(extent.largest, polygon.points[i][axis]);
+    }
+    return extent;
+}
+
+/// Where the segment between two points on either side crosses the plane. The point below always
+/// comes first, so that both sides of the plane, and both triangles of an edge, get the same bits.
+Eigen::Vector3d cut(const Eigen::Vector3d& a, const Eigen::Vector3d& b, int axis, double plane) {
+    const Eigen::Vector3d& below = a[axis] < b[axis] ? a : b;
+    const Eigen::Vector3d& above = a[axis] < b[axis] ? b : a;
+    const double fraction = (plane - below[axis]) / (above[axis] - below[axis]);
+    Eigen::Vector3d point = below + fraction * (above - below);
+    point[axis] = plane;
+    return point;
+}
+
+/// Sutherland and Hodgman's step for one plane. Points in the plane are kept by both sides and
+/// never cut again.
+Polygon clip_to_half_space(const Polygon& polygon, int axis, double plane, Keep keep) {
+    const auto height = [&](int i) {
+        const double above = polygon.points[i][axis] - plane;
+        return keep == Keep::Above ? above : -above;
+    };
+    Polygon kept;
+    for (int i = 0; i < polygon.size; ++i) {
+        const int next = i + 1 < polygon.size ? i + 1 : 0;
+        const double here = height(i);
+        const double there = height(next);
+        if (here >= 0) {
+            const bool leaves_along_plane = here == 0 && there < 0;
+            kept.add(polygon.points[i], polygon.corner[i],
+                     leaves_along_plane ? Polygon::kNone : polygon.edge[i]);
+        }
+        if ((here > 0 && there < 0) || (here < 0 && there > 0)) {
+            kept.add(cut(polygon.points[i], polygon.points[next], axis, plane), Polygon::kNone,
+                     here > 0 ? Polygon::kNone : polygon.edge[i]);
+        }
+    }
+    return kept;
+}
+
+}  // namespace
+
+void Polygon::add(const Eigen::Vector3d& point, std::int8_t from_corner, std::int8_t on_edge) {
+    if (size == kCapacity) return;  // a sliver of rounding error: its area is nothing
+    points[size] = point;
+    corner[size] = from_corner;
+    edge[size] = on_edge;
+    ++size;
+}
+
+Polygon whole_triangle(const std::array<Eigen::Vector3d, 3>& corners) {
+    Polygon polygon;
+    for (std::int8_t i = 0; i < 3; ++i) polygon.add(corners[i], i, i);
+    return polygon;
+}
+
+Polygon clip_to_slab(const Polygon& polygon, int axis, std::int32_t coordinate) {
+    const Extent extent = extent_along(polygon, axis);
+    const double lower = coordinate;
+    const double upper = coordinate + 1.0;
+    if (extent.smallest >= lower && extent.largest <= upper) return polygon;
+    if (extent.largest <= upper) return clip_to_half_space(polygon, axis, lower, Keep::Above);
+    if (extent.smallest >= lower) return clip_to_half_space(polygon, axis, upper, Keep::Below);
+    return clip_to_half_space(clip_to_half_space(polygon, axis, lower, Keep::Above), axis, upper,
+                              Keep::Below);
+}
+
+SlabRange slabs_met(const Polygon& polygon, int axis, std::int32_t cells_per_side) {
+    const Extent extent = extent_along(polygon, axis);
+    const auto first = static_cast<std::int32_t>(std::floor(extent.smallest));
+    const auto last = static_cast<std::int32_t>(std::ceil(extent.largest)) - 1;
+    const std::int32_t top = cells_per_side - 1;
+    return {std::clamp(first, 0, top), std::clamp(std::max(first, last), 0, top)};
+}
+
+Polygon clip_to_cell(const std::array<Eigen::Vector3d, 3>& corners, const Cell& cell) {
+    Polygon polygon = whole_triangle(corners);
+    for (int axis = 0; axis < 3; ++axis) polygon = clip_to_slab(polygon, axis, cell[axis]);
+    return polygon;
+}
+
+Eigen::Vector3d twice_vector_area(const Polygon& polygon) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (int i = 2; i < polygon.size; ++i) {
+        sum += (polygon.points[i - 1] - polygon.points[0])
+                   .cross(polygon.points[i] - polygon.points[0]);
+    }
+    return sum;
+}
+
+}  // namespace tracked_mcf

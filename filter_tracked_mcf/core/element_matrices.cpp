@@ -1,0 +1,67 @@
+#include "filter_tracked_mcf/core/element_matrices.h"
+
+#include <algorithm>
+#include <iterator>
+#include <numeric>
+
+#include "filter_tracked_mcf/core/element_kernel.h"
+#include "filter_tracked_mcf/core/parallel.h"
+
+namespace tracked_mcf {
+
+namespace {
+
+ElementInput gather(const TrackedElements& elements, const Coefficients& displacement,
+                    std::int64_t element) {
+    ElementInput input;
+    const auto& unknowns = elements.finest().unknowns[element];
+    for (int axis = 0; axis < 3; ++axis) {
+        const double base = displacement(unknowns[0], axis);
+        for (int corner = 0; corner < 8; ++corner) {
+            input.displacement[axis][corner] =
+                static_cast<float>(displacement(unknowns[corner], axis) - base);
+        }
+    }
+    const Fragment* fragments = elements.fragments.data();
+    input.fragments = fragments + elements.fragment_begin[element];
+    input.fragments_end = fragments + elements.fragment_begin[element + 1];
+    input.samples = elements.samples.data() + elements.sample_begin[element];
+    return input;
+}
+
+Collapse collapse_of(std::int64_t element, const ElementTotals& totals) {
+    Collapse collapse;
+    collapse.element = static_cast<std::int32_t>(element);
+    collapse.samples = totals.collapsed_samples;
+    std::copy(std::begin(totals.collapsed_mass), std::end(totals.collapsed_mass), collapse.mass);
+    return collapse;
+}
+
+}  // namespace
+
+void assemble_elements(const TrackedElements& elements, const Coefficients& displacement,
+                       const SystemWeights& weights, ElementSystems& systems) {
+    const std::int64_t count = elements.finest().element_count();
+    systems.matrices.resize(static_cast<std::size_t>(count));
+    systems.right_sides.resize(static_cast<std::size_t>(count));
+    std::vector<double> areas(static_cast<std::size_t>(block_count(count)));
+    systems.collapses = parallel_collect<Collapse>(
+        count, [&](std::int64_t begin, std::int64_t end, std::vector<Collapse>& collapses) {
+            double area = 0;
+            for (std::int64_t element = begin; element < end; ++element) {
+                const ElementTotals totals =
+                    integrate_element(gather(elements, displacement, element), weights,
+                                      systems.matrices[element], systems.right_sides[element]);
+                area += totals.area;
+                if (totals.collapsed_samples > 0) collapses.push_back(collapse_of(element, totals));
+            }
+            areas[begin / kBlockSize] = area;
+        });
+    systems.area = std::accumulate(areas.begin(), areas.end(), 0.0);
+    systems.collapsed_samples = 0;
+    for (const Collapse& collapse : systems.collapses) {
+        systems.collapsed_samples += collapse.samples;
+    }
+}
+
+}  // namespace tracked_mcf

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "filter_tracked_mcf/core/tracked_elements.h"
+
+namespace tracked_mcf {
+
+/// The matrix of one element: a row and a column for each of its cell's eight functions. Symmetric.
+struct ElementMatrix {
+    alignas(32) float entry[8][8];
+};
+
+/// The displacement system's right side of one element: for each coordinate the eight functions'.
+struct ElementVector {
+    alignas(32) float entry[3][8];
+};
+
+/// Factors of the matrices in what is assembled: mass * D + stiffness * S, grid units.
+struct SystemWeights {
+    float mass = 1;
+    float stiffness = 0;
+};
+
+/// Samples whose deformed area is at most this fraction of their initial area have collapsed: the
+/// surface there has become a thread or a point and its metric means nothing. They contribute
+/// nothing (section 5.1).
+inline constexpr float kCollapsedAreaRatio = 1e-5F;
+
+/// What has collapsed of one element: of each function ∫ B_I² over that part of the initial
+/// surface.
+struct Collapse {
+    std::int32_t element;
+    std::int32_t samples;
+    float mass[8];
+};
+
+/// The finest level's element matrices and right sides, and what was noticed on the way.
+struct ElementSystems {
+    std::vector<ElementMatrix> matrices;
+    std::vector<ElementVector> right_sides;
+    double area = 0;  ///< of the embedded surface, grid units²
+    std::int64_t collapsed_samples = 0;
+    std::vector<Collapse> collapses;  ///< of the elements that have any, in order
+};
+
+/// SetSystemMatrices (section 4.3), element by element: under the metric of the embedding
+/// X_t(p) = p + Σ u_I B_I(p), whose displacement has the coefficients u (grid units),
+///
+///     matrices     mass * ∫ B_I B_J + stiffness * ∫ ∇B_I · ∇B_J      (equation 4)
+///     right sides  -stiffness * ∫ ∇B_I · ∇X_t
+///
+/// so that with mass 1 and stiffness δ, solving for d = X_{t+δ} - X_t is equation 2. Single
+/// precision: differences of u within a cell are taken in double first, so what is lost is relative
+/// to the deformation of one cell. Results are the same bits at any number of threads.
+void assemble_elements(const TrackedElements& elements, const Coefficients& displacement,
+                       const SystemWeights& weights, ElementSystems& systems);
+
+}  // namespace tracked_mcf

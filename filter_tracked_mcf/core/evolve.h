@@ -1,0 +1,20 @@
+#pragma once
+
+#include "filter_tracked_mcf/core/errors.h"
+#include "filter_tracked_mcf/core/flow_parameters.h"
+#include "filter_tracked_mcf/core/flow_report.h"
+#include "filter_tracked_mcf/core/progress.h"
+#include "filter_tracked_mcf/core/triangle_mesh.h"
+
+namespace tracked_mcf {
+
+/// Smooths `mesh` by mean-curvature flow with tracked octree finite elements: the one call that
+/// hosts make. Positions are written only after the last step has succeeded; vertices that do not
+/// move, those no triangle uses among them, keep their bits.
+///
+/// Throws InvalidMesh, InvalidParameter, NumericalFailure or Cancelled (errors.h), leaving the mesh
+/// as it was.
+FlowReport evolve(TriangleMesh& mesh, const FlowParameters& parameters,
+                  const Progress& progress = {});
+
+}  // namespace tracked_mcf

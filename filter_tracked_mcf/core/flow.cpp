@@ -1,0 +1,118 @@
+#include "filter_tracked_mcf/core/flow.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "filter_tracked_mcf/core/boundary.h"
+#include "filter_tracked_mcf/core/errors.h"
+#include "filter_tracked_mcf/core/parallel.h"
+#include "filter_tracked_mcf/core/stopwatch.h"
+
+namespace tracked_mcf {
+
+namespace {
+
+Grid grid_for(const TriangleMesh& mesh, int depth) {
+    return enclosing_grid(mesh, depth == 0 ? automatic_depth(mesh) : depth);
+}
+
+/// δ is given for the model scaled to longest side 1; the grid has scaled it to side / h.
+double to_grid_units(double step_size, const TriangleMesh& mesh, const Grid& grid) {
+    const double cells = longest_side(mesh) / grid.cell_size;
+    return step_size * cells * cells;
+}
+
+std::vector<std::vector<std::uint8_t>> locked_unknowns(const TrackedElements& elements,
+                                                       BoundaryCondition boundary) {
+    return boundary == BoundaryCondition::LockedCells ? unknowns_meeting_boundary(elements)
+                                                      : no_unknowns(elements);
+}
+
+bool all_finite(const Field& field) {
+    // A sum is finite only if every term is, and needs no branch for each.
+    return std::isfinite(norm(field));
+}
+
+}  // namespace
+
+Flow::Flow(const TriangleMesh& mesh, const FlowParameters& parameters)
+    : Flow(mesh, parameters, grid_for(mesh, parameters.depth)) {}
+
+Flow::Flow(const TriangleMesh& mesh, const FlowParameters& parameters, const Grid& grid)
+    : parameters_(parameters),
+      elements_(build_tracked_elements(mesh, grid, parameters.cubature)),
+      grid_step_size_(to_grid_units(parameters.step_size, mesh, grid)),
+      multigrid_(elements_, locked_unknowns(elements_, parameters.boundary)),
+      pinches_(elements_),
+      displacement_(Coefficients::Zero(elements_.finest().unknown_count(), 3)) {
+    fill_report(mesh);
+}
+
+void Flow::fill_report(const TriangleMesh& mesh) {
+    report_.vertices = elements_.referenced_vertex_count;
+    report_.triangles = static_cast<std::int64_t>(mesh.triangles.size());
+    report_.degenerate_triangles = elements_.degenerate_triangle_count;
+    report_.boundary_edges = elements_.boundary_edge_count;
+    report_.depth = elements_.grid.depth;
+    report_.cell_size = elements_.grid.cell_size;
+    report_.cells = elements_.finest().element_count();
+    report_.unknowns = elements_.finest().unknown_count();
+    report_.locked_unknowns = std::count(multigrid_.frozen().begin(), multigrid_.frozen().end(), 1);
+    report_.fragments = elements_.fragment_count;
+    report_.split_triangles = elements_.split_triangle_count;
+    report_.samples = static_cast<std::int64_t>(elements_.samples.size());
+}
+
+void Flow::step() {
+    StepReport report;
+    assemble(report);
+    solve(report);
+    report_.steps.push_back(report);
+}
+
+void Flow::assemble(StepReport& report) {
+    const Stopwatch stopwatch;
+    assemble_elements(elements_, displacement_, {1.0F, static_cast<float>(grid_step_size_)},
+                      systems_);
+    pinches_.freeze(systems_, multigrid_.frozen());
+    multigrid_.refresh(systems_.matrices);
+    multigrid_.finest().assemble(systems_.right_sides, right_side_);
+    report.area = systems_.area * elements_.grid.cell_size * elements_.grid.cell_size;
+    report.collapsed_samples = systems_.collapsed_samples;
+    report.assemble_seconds = stopwatch.seconds();
+}
+
+void Flow::solve(StepReport& report) {
+    const Stopwatch stopwatch;
+    solution_.setZero(4, elements_.finest().unknown_count());
+    multigrid_.finest().residual(right_side_, solution_, residual_);
+    report.residual_before = norm(residual_);
+    for (int i = 0; i < parameters_.cycles; ++i) {
+        multigrid_.cycle(CycleParameters(), right_side_, solution_);
+    }
+    multigrid_.finest().residual(right_side_, solution_, residual_);
+    report.residual_after = norm(residual_);
+    if (!all_finite(solution_)) {
+        throw NumericalFailure(
+            "The flow broke down: its numbers are no longer finite. Use a smaller step size or "
+            "fewer "
+            "iterations.");
+    }
+    displacement_ += solution_.topRows<3>().transpose().cast<double>();
+    report.solve_seconds = stopwatch.seconds();
+}
+
+void Flow::move_vertices(TriangleMesh& mesh) const {
+    parallel_for_blocks(static_cast<std::int64_t>(mesh.positions.size()), [&](std::int64_t begin,
+                                                                              std::int64_t end) {
+        for (std::int64_t i = begin; i < end; ++i) {
+            const VertexPlace& place = elements_.vertices[i];
+            if (place.element == VertexPlace::kNowhere) continue;
+            const Eigen::Vector3d moved =
+                elements_.grid.cell_size * evaluate_vertex(elements_, displacement_, place);
+            if (!moved.isZero(0)) mesh.positions[i] += moved;
+        }
+    });
+}
+
+}  // namespace tracked_mcf

@@ -1,0 +1,34 @@
+#include "filter_tracked_mcf/core/flow_parameters.h"
+
+#include <cmath>
+#include <string>
+
+#include "filter_tracked_mcf/core/errors.h"
+
+namespace tracked_mcf {
+
+namespace {
+
+void check_range(const char* name, int value, int smallest, int largest, const char* note) {
+    if (value >= smallest && value <= largest) return;
+    throw InvalidParameter(std::string(name) + " is " + std::to_string(value) + "; give " +
+                           std::to_string(smallest) + " to " + std::to_string(largest) + note +
+                           ".");
+}
+
+}  // namespace
+
+void validate(const FlowParameters& parameters) {
+    check_range("depth", parameters.depth, 0, kMaximumDepth, ", where 0 chooses automatically");
+    check_range("iterations", parameters.iterations, 1, kMaximumIterations, "");
+    check_range("cycles", parameters.cycles, 1, kMaximumCycles, "");
+    check_range("threads", parameters.threads, 0, kMaximumThreads,
+                ", where 0 takes all that OpenMP offers");
+    const double step = parameters.step_size;
+    if (!(std::isfinite(step) && step > 0)) {
+        throw InvalidParameter("step_size is " + std::to_string(step) +
+                               "; give a finite number greater than 0, such as 1e-5.");
+    }
+}
+
+}  // namespace tracked_mcf

@@ -1,0 +1,50 @@
+#pragma once
+
+namespace tracked_mcf {
+
+/// What happens at the boundary of an open mesh.
+enum class BoundaryCondition {
+    LockedCells,  ///< test functions whose support meets the boundary keep their coefficient (5.3)
+    Free          ///< nothing is held
+};
+
+/// Where a triangle of a clipped polygon is sampled (section 4.2, Figure 8).
+enum class Cubature {
+    OnePoint,     ///< the centroid: exact to degree 1; for comparison only, it is inaccurate
+    ThreePoints,  ///< the paper's rule: exact to degree 2
+    Degree6       ///< exact to degree 6, as many as the mass matrix needs; for validation
+};
+
+inline constexpr int kMaximumDepth = 12;
+inline constexpr int kMaximumIterations = 1000000;
+inline constexpr int kMaximumCycles = 1000;
+inline constexpr int kMaximumThreads = 1024;
+
+/// The knobs of the flow, with the defaults that suit a scan.
+struct FlowParameters {
+    /// Octree depth: 2^depth cells along the side of its cube. 0 chooses the depth whose number of
+    /// unknowns is nearest the number of referenced vertices; else 1 to kMaximumDepth.
+    int depth = 0;
+
+    /// Step size δ for the model scaled so that the longest side of its bounding box is 1. δ is a
+    /// time, so a squared length: detail smaller than about √δ is smoothed away by one step.
+    double step_size = 1e-5;
+
+    /// Number of semi-implicit steps, 1 to kMaximumIterations.
+    int iterations = 10;
+
+    BoundaryCondition boundary = BoundaryCondition::LockedCells;
+    Cubature cubature = Cubature::ThreePoints;
+
+    /// W-cycles of the multigrid solver in each step, at least 1; the paper uses one.
+    int cycles = 1;
+
+    /// OpenMP threads; 0 takes what OpenMP offers (OMP_NUM_THREADS is respected). The result is
+    /// the same bits whatever the number.
+    int threads = 0;
+};
+
+/// Throws InvalidParameter naming the first knob that lies outside its range, with the range.
+void validate(const FlowParameters& parameters);
+
+}  // namespace tracked_mcf

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace tracked_mcf {
+
+/// What one semi-implicit step did.
+struct StepReport {
+    double assemble_seconds = 0;  ///< metric, element matrices, Galerkin products, right side
+    double solve_seconds = 0;     ///< W-cycles and the update of the coefficients
+    /// 2-norm of the residual b - A d of the displacement's system, over the three coordinates, in
+    /// grid units, before (d = 0, so the norm of b) and after the solve.
+    double residual_before = 0;
+    double residual_after = 0;
+    double area = 0;  ///< of the tracked surface at the start of the step, mesh units²
+    std::int64_t collapsed_samples = 0;  ///< left out because their area has collapsed
+};
+
+/// What a whole flow did: sizes, seconds by phase, residuals.
+struct FlowReport {
+    std::int64_t vertices = 0;  ///< that triangles refer to
+    std::int64_t triangles = 0;
+    std::int64_t degenerate_triangles = 0;  ///< without area: they have no say in the flow
+    std::int64_t boundary_edges = 0;
+    int depth = 0;
+    double cell_size = 0;              ///< of the finest level, mesh units
+    std::int64_t cells = 0;            ///< occupied cells of the finest level
+    std::int64_t unknowns = 0;         ///< test functions of the finest level
+    std::int64_t locked_unknowns = 0;  ///< of those, held by the boundary
+    std::int64_t fragments = 0;        ///< triangles clipped to cells
+    std::int64_t split_triangles = 0;  ///< fragments fanned into triangles
+    std::int64_t samples = 0;          ///< cubature samples
+    double area_before = 0;            ///< of the mesh, its units²
+    double area_after = 0;
+    double setup_seconds = 0;
+    std::vector<StepReport> steps;
+    std::int64_t peak_memory_bytes = 0;  ///< of the whole process; 0 where the system does not say
+};
+
+}  // namespace tracked_mcf

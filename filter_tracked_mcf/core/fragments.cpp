@@ -1,0 +1,90 @@
+#include "filter_tracked_mcf/core/fragments.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+#include "filter_tracked_mcf/core/clip.h"
+#include "filter_tracked_mcf/core/errors.h"
+#include "filter_tracked_mcf/core/parallel.h"
+#include "filter_tracked_mcf/core/sorting.h"
+
+namespace tracked_mcf {
+
+namespace {
+
+constexpr double kDegenerateShape = 1e-12;
+
+// The payload of a sorted pair: the triangle below, the size of the fan above.
+constexpr unsigned kFanShift = 32;
+
+void add_fragments(const GridMesh& mesh, std::int32_t triangle, std::int32_t cells_per_side,
+                   std::vector<KeyValue>& pairs) {
+    const auto corners = mesh.corners(triangle);
+    const bool degenerate = is_degenerate(corners);
+    for_each_fragment(corners, cells_per_side, [&](const Cell& cell, const Polygon& polygon) {
+        const int fan = degenerate ? 0 : std::max(polygon.size - 2, 0);
+        pairs.push_back({morton_code(cell), static_cast<std::uint64_t>(fan) << kFanShift |
+                                                static_cast<std::uint64_t>(triangle)});
+    });
+}
+
+void check_inside(const GridMesh& mesh, const Grid& grid) {
+    const double side = grid.cells_per_side();
+    for (const Eigen::Vector3d& position : mesh.positions) {
+        if (!(position.minCoeff() >= 0 && position.maxCoeff() <= side)) {
+            throw InvalidMesh("The mesh does not lie inside the cube of the grid.");
+        }
+    }
+}
+
+}  // namespace
+
+std::array<Eigen::Vector3d, 3> GridMesh::corners(std::int32_t triangle) const {
+    const Triangle& vertices = triangles[triangle];
+    return {positions[vertices[0]], positions[vertices[1]], positions[vertices[2]]};
+}
+
+GridMesh to_grid(const TriangleMesh& mesh, const Grid& grid) {
+    const std::vector<bool> referenced = referenced_vertices(mesh);
+    GridMesh result{std::vector<Eigen::Vector3d>(mesh.positions.size(), Eigen::Vector3d::Zero()),
+                    mesh.triangles};
+    for (std::size_t vertex = 0; vertex < mesh.positions.size(); ++vertex) {
+        if (referenced[vertex]) result.positions[vertex] = grid.to_grid(mesh.positions[vertex]);
+    }
+    return result;
+}
+
+bool is_degenerate(const std::array<Eigen::Vector3d, 3>& corners) {
+    const Eigen::Vector3d a = corners[1] - corners[0];
+    const Eigen::Vector3d b = corners[2] - corners[0];
+    const double longest = std::max({a.squaredNorm(), b.squaredNorm(), (a - b).squaredNorm()});
+    return 0.5 * a.cross(b).norm() <= kDegenerateShape * longest;
+}
+
+std::vector<FragmentEntry> list_fragments(const GridMesh& mesh, const Grid& grid) {
+    check_inside(mesh, grid);
+    const auto count = static_cast<std::int64_t>(mesh.triangles.size());
+    auto pairs = parallel_collect<KeyValue>(count, [&](std::int64_t begin, std::int64_t end,
+                                                       std::vector<KeyValue>& out) {
+        for (std::int64_t triangle = begin; triangle < end; ++triangle) {
+            add_fragments(mesh, static_cast<std::int32_t>(triangle), grid.cells_per_side(), out);
+        }
+    });
+    sort_by_key(pairs);
+    std::vector<FragmentEntry> entries(pairs.size());
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+        entries[i] = {pairs[i].key, static_cast<std::int32_t>(pairs[i].value),
+                      static_cast<std::int32_t>(pairs[i].value >> kFanShift)};
+    }
+    return entries;
+}
+
+std::vector<MortonCode> occupied_cells(const std::vector<FragmentEntry>& entries) {
+    std::vector<MortonCode> cells;
+    for (const FragmentEntry& entry : entries) {
+        if (cells.empty() || cells.back() != entry.cell) cells.push_back(entry.cell);
+    }
+    return cells;
+}
+
+}  // namespace tracked_mcf

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "filter_tracked_mcf/core/grid.h"
+#include "filter_tracked_mcf/core/morton.h"
+#include "filter_tracked_mcf/core/triangle_mesh.h"
+
+namespace tracked_mcf {
+
+/// A mesh in the coordinates of a grid.
+struct GridMesh {
+    std::vector<Eigen::Vector3d> positions;  ///< grid coordinates; zero where unreferenced
+    const std::vector<Triangle>& triangles;
+
+    std::array<Eigen::Vector3d, 3> corners(std::int32_t triangle) const;
+};
+
+GridMesh to_grid(const TriangleMesh& mesh, const Grid& grid);
+
+/// Whether a triangle has, to the accuracy of doubles, no area and so no plane: less than 1e-12 of
+/// the square of its longest edge.
+bool is_degenerate(const std::array<Eigen::Vector3d, 3>& corners);
+
+/// Which triangle has a part in which cell. Degenerate triangles are listed too: they carry no
+/// area, but they hold the surface together and their vertices need functions.
+struct FragmentEntry {
+    MortonCode cell;
+    std::int32_t triangle;
+    std::int32_t split_triangles;  ///< triangles in the polygon's fan; 0 if degenerate
+};
+
+/// All fragments of a mesh, sorted by cell, then by triangle. Throws InvalidMesh if a vertex lies
+/// outside the grid's cube.
+std::vector<FragmentEntry> list_fragments(const GridMesh& mesh, const Grid& grid);
+
+/// The cells that fragments lie in, increasing, each once.
+std::vector<MortonCode> occupied_cells(const std::vector<FragmentEntry>& entries);
+
+}  // namespace tracked_mcf

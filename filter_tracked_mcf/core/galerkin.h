@@ -1,0 +1,23 @@
+#pragma once
+
+#include <vector>
+
+#include "filter_tracked_mcf/core/element_matrices.h"
+#include "filter_tracked_mcf/core/octree.h"
+#include "filter_tracked_mcf/core/sorting.h"
+
+namespace tracked_mcf {
+
+/// The element matrices of the next coarser level: every parent's is Σ P_cᵀ K_c P_c over its
+/// children c, with P_c the refinement weights of the child's octant. Assembled, that is exactly
+/// the Galerkin product PᵀAP, at a fraction of its cost.
+///
+/// `fine` is the finer level, `children` its elements grouped by parent, `frozen` tells which of
+/// its unknowns do not move: their rows and columns count as zero, so that coarse corrections are
+/// made for what can follow them.
+void coarsen_element_matrices(const Level& fine, const Groups& children,
+                              const std::vector<std::uint8_t>& frozen,
+                              const std::vector<ElementMatrix>& fine_matrices,
+                              std::vector<ElementMatrix>& coarse_matrices);
+
+}  // namespace tracked_mcf

@@ -1,0 +1,56 @@
+#include "filter_tracked_mcf/core/grid.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "filter_tracked_mcf/core/errors.h"
+
+namespace tracked_mcf {
+
+namespace {
+
+/// Room around the model, so that nothing lies on the outermost faces.
+constexpr double kCubeToModel = 1.1;
+
+/// Sides whose squares, cells and reciprocals are all normal doubles.
+constexpr double kSmallestSide = 1e-140;
+constexpr double kLargestSide = 1e140;
+
+Eigen::AlignedBox3d bounding_box(const TriangleMesh& mesh) {
+    Eigen::AlignedBox3d box;
+    for (const Triangle& triangle : mesh.triangles) {
+        for (const std::int32_t vertex : triangle) box.extend(mesh.positions[vertex]);
+    }
+    return box;
+}
+
+double checked_longest_side(const Eigen::AlignedBox3d& box) {
+    const double side = box.sizes().maxCoeff();
+    if (side == 0) {
+        throw InvalidMesh("All faces are degenerate: every vertex lies at the same point.");
+    }
+    if (!(side >= kSmallestSide && side <= kLargestSide)) {
+        throw InvalidMesh(
+            "The mesh is too large or too small to compute with; scale it so that its "
+            "bounding box has sides between 1e-140 and 1e140.");
+    }
+    return side;
+}
+
+}  // namespace
+
+double longest_side(const TriangleMesh& mesh) {
+    return checked_longest_side(bounding_box(mesh));
+}
+
+Grid enclosing_grid(const TriangleMesh& mesh, int depth) {
+    const Eigen::AlignedBox3d box = bounding_box(mesh);
+    const double cube_side = kCubeToModel * checked_longest_side(box);
+    Grid grid;
+    grid.depth = depth;
+    grid.cell_size = std::ldexp(cube_side, -depth);
+    grid.origin = box.center() - Eigen::Vector3d::Constant(0.5 * cube_side);
+    return grid;
+}
+
+}  // namespace tracked_mcf

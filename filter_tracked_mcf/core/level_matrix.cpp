@@ -1,0 +1,128 @@
+#include "filter_tracked_mcf/core/level_matrix.h"
+
+#include <algorithm>
+
+#include "filter_tracked_mcf/core/parallel.h"
+
+namespace tracked_mcf {
+
+namespace {
+
+/// Diagonals below this would overflow when inverted; whatever so small a function does, the
+/// surface does not see it.
+constexpr float kSmallestDiagonal = 1e-30F;
+
+std::vector<std::int32_t> flatten(const std::vector<std::array<std::int32_t, 8>>& unknowns) {
+    std::vector<std::int32_t> flat;
+    flat.reserve(8 * unknowns.size());
+    for (const auto& of_element : unknowns)
+        flat.insert(flat.end(), of_element.begin(), of_element.end());
+    return flat;
+}
+
+}  // namespace
+
+LevelMatrix::LevelMatrix(const Level& level)
+    : level_(level),
+      places_(flatten(level.unknowns), level.unknown_count()),
+      matrix_(level.unknown_count(), level.unknown_count()) {
+    make_pattern();
+}
+
+void LevelMatrix::make_pattern() {
+    const std::int32_t count = level_.unknown_count();
+    std::vector<std::int32_t> row_size(static_cast<std::size_t>(count));
+    const auto columns = parallel_collect<std::int32_t>(
+        count, [&](std::int64_t begin, std::int64_t end, std::vector<std::int32_t>& out) {
+            for (auto row = static_cast<std::int32_t>(begin); row < end; ++row) {
+                const auto first = static_cast<std::ptrdiff_t>(out.size());
+                for (const std::int32_t place : places_.members(row)) {
+                    const auto& unknowns = level_.unknowns[place / 8];
+                    out.insert(out.end(), unknowns.begin(), unknowns.end());
+                }
+                std::sort(out.begin() + first, out.end());
+                out.erase(std::unique(out.begin() + first, out.end()), out.end());
+                row_size[row] =
+                    static_cast<std::int32_t>(out.size()) - static_cast<std::int32_t>(first);
+            }
+        });
+    matrix_.resizeNonZeros(static_cast<Eigen::Index>(columns.size()));
+    std::int32_t* const row_begin = matrix_.outerIndexPtr();
+    row_begin[0] = 0;
+    for (std::int32_t row = 0; row < count; ++row)
+        row_begin[row + 1] = row_begin[row] + row_size[row];
+    std::copy(columns.begin(), columns.end(), matrix_.innerIndexPtr());
+}
+
+void LevelMatrix::assemble(const std::vector<ElementMatrix>& elements,
+                           const std::vector<std::uint8_t>& frozen) {
+    inverse_diagonal_.resize(static_cast<std::size_t>(level_.unknown_count()));
+    parallel_for_slices(level_.unknown_count(), [&](std::int64_t begin, std::int64_t end) {
+        // One number for every unknown: where the entries of a row are summed.
+        std::vector<float> sums(static_cast<std::size_t>(level_.unknown_count()), 0.0F);
+        for (auto row = static_cast<std::int32_t>(begin); row < end; ++row) {
+            assemble_row(row, elements, sums);
+            const float diagonal = sums[row];
+            const bool moves = frozen[row] == 0 && diagonal > kSmallestDiagonal;
+            inverse_diagonal_[row] = moves ? 1 / diagonal : 0;
+            store_row(row, sums);
+        }
+    });
+}
+
+void LevelMatrix::assemble_row(std::int32_t row, const std::vector<ElementMatrix>& elements,
+                               std::vector<float>& sums) const {
+    for (const std::int32_t place : places_.members(row)) {
+        const auto& unknowns = level_.unknowns[place / 8];
+        const float* const entries = elements[place / 8].entry[place % 8];
+        for (int corner = 0; corner < 8; ++corner) sums[unknowns[corner]] += entries[corner];
+    }
+}
+
+void LevelMatrix::store_row(std::int32_t row, std::vector<float>& sums) {
+    const std::int32_t end = matrix_.outerIndexPtr()[row + 1];
+    for (std::int32_t k = matrix_.outerIndexPtr()[row]; k < end; ++k) {
+        float& sum = sums[matrix_.innerIndexPtr()[k]];
+        matrix_.valuePtr()[k] = sum;
+        sum = 0;
+    }
+}
+
+void LevelMatrix::assemble(const std::vector<ElementVector>& elements, Field& vector) const {
+    vector.resize(4, level_.unknown_count());
+    parallel_for_blocks(level_.unknown_count(), [&](std::int64_t begin, std::int64_t end) {
+        for (auto row = static_cast<std::int32_t>(begin); row < end; ++row) {
+            Eigen::Vector4f sum = Eigen::Vector4f::Zero();
+            for (const std::int32_t place : places_.members(row)) {
+                const auto& entry = elements[place / 8].entry;
+                sum += Eigen::Vector4f(entry[0][place % 8], entry[1][place % 8],
+                                       entry[2][place % 8], 0);
+            }
+            vector.col(row) = sum;
+        }
+    });
+}
+
+Eigen::Vector4f LevelMatrix::row_times(std::int32_t row, const Field& x) const {
+    Eigen::Vector4f sum = Eigen::Vector4f::Zero();
+    const std::int32_t end = matrix_.outerIndexPtr()[row + 1];
+    for (std::int32_t k = matrix_.outerIndexPtr()[row]; k < end; ++k) {
+        sum += matrix_.valuePtr()[k] * x.col(matrix_.innerIndexPtr()[k]);
+    }
+    return sum;
+}
+
+void LevelMatrix::residual(const Field& right_side, const Field& x, Field& residual) const {
+    residual.resize(4, level_.unknown_count());
+    parallel_for_blocks(level_.unknown_count(), [&](std::int64_t begin, std::int64_t end) {
+        for (auto row = static_cast<std::int32_t>(begin); row < end; ++row) {
+            if (inverse_diagonal_[row] == 0) {
+                residual.col(row).setZero();
+            } else {
+                residual.col(row) = right_side.col(row) - row_times(row, x);
+            }
+        }
+    });
+}
+
+}  // namespace tracked_mcf

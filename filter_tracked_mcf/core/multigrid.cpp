@@ -1,0 +1,109 @@
+#include "filter_tracked_mcf/core/multigrid.h"
+
+#include <utility>
+
+#include "filter_tracked_mcf/core/galerkin.h"
+#include "filter_tracked_mcf/core/parallel.h"
+
+namespace tracked_mcf {
+
+namespace {
+
+/// Row `row` of matrix * x.
+Eigen::Vector4f row_times(const SparseMatrix& matrix, std::int64_t row, const Field& x) {
+    Eigen::Vector4f sum = Eigen::Vector4f::Zero();
+    const std::int32_t end = matrix.outerIndexPtr()[row + 1];
+    for (std::int32_t k = matrix.outerIndexPtr()[row]; k < end; ++k) {
+        sum += matrix.valuePtr()[k] * x.col(matrix.innerIndexPtr()[k]);
+    }
+    return sum;
+}
+
+}  // namespace
+
+Multigrid::LevelData::LevelData(const TrackedElements& elements, std::size_t level)
+    : matrix(elements.levels[level]), smoother(elements.levels[level]) {
+    if (level > 0) {
+        prolongation =
+            tracked_mcf::prolongation(elements.levels[level], elements.levels[level - 1]);
+        restriction = prolongation.transpose();
+    }
+    if (level + 1 < elements.levels.size()) {
+        const std::int32_t count = elements.levels[level].element_count();
+        children = Groups(elements.levels[level + 1].parents, count);
+        element_matrices.resize(static_cast<std::size_t>(count));
+    }
+}
+
+Multigrid::Multigrid(const TrackedElements& elements, std::vector<std::vector<std::uint8_t>> frozen)
+    : elements_(elements), frozen_(std::move(frozen)) {
+    levels_.reserve(elements.levels.size());
+    for (std::size_t level = 0; level < elements.levels.size(); ++level) {
+        levels_.emplace_back(elements, level);
+    }
+}
+
+void Multigrid::refresh(const std::vector<ElementMatrix>& finest) {
+    const std::vector<ElementMatrix>* fine = &finest;
+    for (std::size_t level = levels_.size(); level-- > 0;) {
+        levels_[level].matrix.assemble(*fine, frozen_[level]);
+        if (level == 0) break;
+        coarsen_element_matrices(elements_.levels[level], levels_[level - 1].children,
+                                 frozen_[level], *fine, levels_[level - 1].element_matrices);
+        fine = &levels_[level - 1].element_matrices;
+    }
+    coarse_solver_.factorise(levels_.front().matrix);
+}
+
+void Multigrid::cycle(const CycleParameters& parameters, const Field& right_side, Field& x) {
+    cycle(parameters, levels_.size() - 1, right_side, x);
+}
+
+void Multigrid::cycle(const CycleParameters& parameters, std::size_t level, const Field& right_side,
+                      Field& x) {
+    LevelData& here = levels_[level];
+    if (level == 0) {
+        here.matrix.residual(right_side, x, here.residual);
+        Field correction;
+        coarse_solver_.solve(here.residual, correction);
+        x += correction;
+        return;
+    }
+    for (int sweep = 0; sweep < parameters.sweeps_before; ++sweep) {
+        here.smoother.sweep(here.matrix, right_side, x);
+    }
+    here.matrix.residual(right_side, x, here.residual);
+    restrict_residual(level);
+    LevelData& coarser = levels_[level - 1];
+    coarser.x.setZero(4, elements_.levels[level - 1].unknown_count());
+    for (int visit = 0; visit < parameters.coarse_visits; ++visit) {
+        cycle(parameters, level - 1, coarser.right_side, coarser.x);
+    }
+    add_correction(level, x);
+    for (int sweep = 0; sweep < parameters.sweeps_after; ++sweep) {
+        here.smoother.sweep(here.matrix, right_side, x);
+    }
+}
+
+void Multigrid::restrict_residual(std::size_t level) {
+    Field& coarse = levels_[level - 1].right_side;
+    coarse.resize(4, elements_.levels[level - 1].unknown_count());
+    parallel_for_blocks(coarse.cols(), [&](std::int64_t begin, std::int64_t end) {
+        for (std::int64_t row = begin; row < end; ++row) {
+            coarse.col(row) = row_times(levels_[level].restriction, row, levels_[level].residual);
+        }
+    });
+}
+
+void Multigrid::add_correction(std::size_t level, Field& x) const {
+    parallel_for_blocks(x.cols(), [&](std::int64_t begin, std::int64_t end) {
+        for (std::int64_t row = begin; row < end; ++row) {
+            // Where everything has collapsed nothing constrains a coefficient; it keeps its place
+            // and anchors the vertices (section 5.1).
+            if (levels_[level].matrix.inverse_diagonal()[row] == 0) continue;
+            x.col(row) += row_times(levels_[level].prolongation, row, levels_[level - 1].x);
+        }
+    });
+}
+
+}  // namespace tracked_mcf

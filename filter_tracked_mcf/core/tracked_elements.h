@@ -1,0 +1,78 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "filter_tracked_mcf/core/flow_parameters.h"
+#include "filter_tracked_mcf/core/grid.h"
+#include "filter_tracked_mcf/core/octree.h"
+#include "filter_tracked_mcf/core/triangle_mesh.h"
+
+namespace tracked_mcf {
+
+/// A point at which the integrals of equation 4 are sampled.
+struct Sample {
+    float local[3];  ///< local coordinates in its cell, 0 to 1
+    float weight;    ///< w_p: area it stands for on the initial surface, grid units²
+};
+
+/// The part of a triangle in a cell, as the integrals see it.
+struct Fragment {
+    float normal[3];            ///< unit normal of the initial triangle; 0 if degenerate
+    std::int32_t sample_count;  ///< consecutive in TrackedElements::samples
+};
+
+/// Where a vertex lies: a finest element and local coordinates in its cell. Vertices that no
+/// triangle uses have element kNowhere.
+struct VertexPlace {
+    static constexpr std::int32_t kNowhere = -1;
+    std::int32_t element = kNowhere;
+    Eigen::Vector3d local = Eigen::Vector3d::Zero();
+};
+
+/// Coefficients of a map from the surface to space, one row per unknown of the finest level.
+using Coefficients = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
+
+/// Everything that is computed once, from the initial surface, and tracked from then on (section
+/// 4.1): the octree, the test functions pulled back to the mesh, and the samples. Immutable during
+/// the flow. All lengths are in grid units.
+struct TrackedElements {
+    Grid grid;
+    std::vector<Level> levels;  ///< coarsest first
+
+    std::vector<Fragment> fragments;           ///< sorted by finest element
+    std::vector<Sample> samples;               ///< sorted by fragment
+    std::vector<std::int64_t> fragment_begin;  ///< of every finest element, and the end
+    std::vector<std::int64_t> sample_begin;    ///< of every finest element, and the end
+
+    std::vector<VertexPlace> vertices;      ///< of every vertex; coincident vertices share theirs
+    std::vector<std::uint8_t> on_boundary;  ///< of every finest element: a boundary edge meets it
+
+    std::int64_t split_triangle_count = 0;
+    std::int64_t fragment_count = 0;  ///< of triangles that are not degenerate
+    std::int64_t referenced_vertex_count = 0;
+    std::int64_t degenerate_triangle_count = 0;
+    std::int64_t boundary_edge_count = 0;
+
+    const Level& finest() const { return levels.back(); }
+};
+
+/// Clips the mesh to the grid, builds the octree over it and places samples and vertices. Throws
+/// InvalidMesh if all triangles are degenerate or a vertex lies outside the grid's cube.
+TrackedElements build_tracked_elements(const TriangleMesh& mesh, const Grid& grid,
+                                       Cubature cubature);
+
+/// The depth, 1 to kMaximumDepth, whose number of unknowns is nearest the number of referenced
+/// vertices.
+int automatic_depth(const TriangleMesh& mesh);
+
+/// Coefficients of the identity, Σ (i, j, k) B_ijk(p) = p (section 5.3): of every unknown of the
+/// finest level its corner, grid coordinates.
+Coefficients identity_coefficients(const TrackedElements& elements);
+
+/// EvaluateVertex (section 4.3): the map with these coefficients at a vertex that is somewhere.
+Eigen::Vector3d evaluate_vertex(const TrackedElements& elements, const Coefficients& coefficients,
+                                const VertexPlace& vertex);
+
+}  // namespace tracked_mcf

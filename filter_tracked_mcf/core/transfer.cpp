@@ -1,0 +1,69 @@
+#include "filter_tracked_mcf/core/transfer.h"
+
+#include <algorithm>
+#include <array>
+
+#include "filter_tracked_mcf/core/bspline.h"
+
+namespace tracked_mcf {
+
+namespace {
+
+/// Where an unknown can be found: as this corner of this element (any of several).
+struct Home {
+    std::int32_t element;
+    int corner;
+};
+
+std::vector<Home> homes_of_unknowns(const Level& level) {
+    std::vector<Home> homes(static_cast<std::size_t>(level.unknown_count()));
+    for (std::int32_t element = 0; element < level.element_count(); ++element) {
+        for (int corner = 0; corner < 8; ++corner) {
+            homes[level.unknowns[element][corner]] = {element, corner};
+        }
+    }
+    return homes;
+}
+
+/// Of a fine function, the coarse ones that contain it; all with the same weight, 1 / size.
+struct CoarseFunctions {
+    int size = 0;
+    std::array<std::int32_t, 8> unknowns;
+};
+
+CoarseFunctions coarse_functions(const Level& fine, const Level& coarse, const Home& home,
+                                 const std::array<Eigen::Matrix<double, 8, 8>, 8>& weights) {
+    const auto& parent_unknowns = coarse.unknowns[fine.parents[home.element]];
+    const auto& octant_weights = weights[octant_of(fine.cells[home.element])];
+    CoarseFunctions functions;
+    for (int corner = 0; corner < 8; ++corner) {
+        if (octant_weights(home.corner, corner) == 0) continue;
+        functions.unknowns[functions.size++] = parent_unknowns[corner];
+    }
+    std::sort(functions.unknowns.begin(), functions.unknowns.begin() + functions.size);
+    return functions;
+}
+
+}  // namespace
+
+SparseMatrix prolongation(const Level& fine, const Level& coarse) {
+    std::array<Eigen::Matrix<double, 8, 8>, 8> weights;
+    for (int octant = 0; octant < 8; ++octant) weights[octant] = refinement_weights(octant);
+
+    SparseMatrix matrix(fine.unknown_count(), coarse.unknown_count());
+    matrix.reserve(4 * static_cast<Eigen::Index>(fine.unknown_count()));
+    std::int32_t row = 0;
+    for (const Home& home : homes_of_unknowns(fine)) {
+        matrix.startVec(row);
+        const CoarseFunctions functions = coarse_functions(fine, coarse, home, weights);
+        for (int i = 0; i < functions.size; ++i) {
+            matrix.insertBack(row, functions.unknowns[i]) =
+                1.0F / static_cast<float>(functions.size);
+        }
+        ++row;
+    }
+    matrix.finalize();
+    return matrix;
+}
+
+}  // namespace tracked_mcf

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <Eigen/SparseCore>
+
+#include "filter_tracked_mcf/core/octree.h"
+
+namespace tracked_mcf {
+
+using SparseMatrix = Eigen::SparseMatrix<float, Eigen::RowMajor, std::int32_t>;
+
+/// The prolongation P from the unknowns of `coarse` (columns) to those of `fine` (rows): a coarse
+/// B-spline is Σ_i P_iJ b_i, the sum of finer ones with weights 1, 1/2, 1/4 and 1/8. Fine functions
+/// that the tree lacks vanish on the surface, so that holds exactly there.
+SparseMatrix prolongation(const Level& fine, const Level& coarse);
+
+}  // namespace tracked_mcf

@@ -1,0 +1,139 @@
+#include "filter_tracked_mcf/core/triangle_mesh.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <string>
+#include <tuple>
+
+#include "filter_tracked_mcf/core/errors.h"
+
+namespace tracked_mcf {
+
+namespace {
+
+bool index_in_range(std::int32_t index, const TriangleMesh& mesh) {
+    return index >= 0 && static_cast<std::size_t>(index) < mesh.positions.size();
+}
+
+void check_triangle(const TriangleMesh& mesh, const Triangle& triangle) {
+    for (const std::int32_t vertex : triangle) {
+        if (!index_in_range(vertex, mesh)) {
+            throw InvalidMesh("A triangle refers to vertex " + std::to_string(vertex) +
+                              ", which does not exist: the mesh file is damaged.");
+        }
+        if (!mesh.positions[vertex].allFinite()) {
+            throw InvalidMesh("Vertex " + std::to_string(vertex) +
+                              " has a coordinate that is not a finite number; remove or repair it "
+                              "first.");
+        }
+    }
+}
+
+/// Lexicographic order of positions; -0 and 0 are equal.
+bool position_less(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+    return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
+}
+
+/// An edge between welded vertices, smaller index first, and where it comes from.
+struct Edge {
+    std::int32_t first, second;
+    std::int32_t triangle;
+    int side;
+
+    bool joins_same_as(const Edge& other) const {
+        return first == other.first && second == other.second;
+    }
+};
+
+/// All edges but those between equal vertices, sorted by their vertices.
+std::vector<Edge> sorted_edges(const TriangleMesh& mesh, const std::vector<std::int32_t>& welded) {
+    std::vector<Edge> edges;
+    edges.reserve(3 * mesh.triangles.size());
+    for (std::size_t triangle = 0; triangle < mesh.triangles.size(); ++triangle) {
+        for (int side = 0; side < 3; ++side) {
+            const std::int32_t a = welded[mesh.triangles[triangle][side]];
+            const std::int32_t b = welded[mesh.triangles[triangle][(side + 1) % 3]];
+            if (a == b) continue;
+            edges.push_back(
+                {std::min(a, b), std::max(a, b), static_cast<std::int32_t>(triangle), side});
+        }
+    }
+    std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
+        return std::tie(a.first, a.second, a.triangle) < std::tie(b.first, b.second, b.triangle);
+    });
+    return edges;
+}
+
+}  // namespace
+
+void validate(const TriangleMesh& mesh) {
+    if (mesh.positions.empty()) throw InvalidMesh("The mesh is empty: it has no vertices.");
+    if (mesh.triangles.empty()) {
+        throw InvalidMesh(
+            "The mesh has no faces; mean-curvature flow needs a surface, not a point cloud.");
+    }
+    constexpr std::size_t most = std::numeric_limits<std::int32_t>::max();
+    if (mesh.positions.size() > most || mesh.triangles.size() > most) {
+        throw InvalidMesh(
+            "The mesh has more than 2147483647 vertices or faces; simplify it first.");
+    }
+    for (const Triangle& triangle : mesh.triangles) check_triangle(mesh, triangle);
+}
+
+std::vector<bool> referenced_vertices(const TriangleMesh& mesh) {
+    std::vector<bool> referenced(mesh.positions.size(), false);
+    for (const Triangle& triangle : mesh.triangles) {
+        for (const std::int32_t vertex : triangle) referenced[vertex] = true;
+    }
+    return referenced;
+}
+
+std::vector<std::int32_t> weld_coincident_vertices(const TriangleMesh& mesh) {
+    std::vector<std::int32_t> welded(mesh.positions.size());
+    std::iota(welded.begin(), welded.end(), 0);
+
+    const std::vector<bool> referenced = referenced_vertices(mesh);
+    std::vector<std::int32_t> order;
+    for (const std::int32_t vertex : welded) {
+        if (referenced[vertex]) order.push_back(vertex);
+    }
+    std::sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) {
+        if (position_less(mesh.positions[a], mesh.positions[b])) return true;
+        if (position_less(mesh.positions[b], mesh.positions[a])) return false;
+        return a < b;
+    });
+    for (std::size_t i = 1; i < order.size(); ++i) {
+        if (mesh.positions[order[i]] == mesh.positions[order[i - 1]]) {
+            welded[order[i]] = welded[order[i - 1]];
+        }
+    }
+    return welded;
+}
+
+std::vector<std::uint8_t> boundary_edges(const TriangleMesh& mesh,
+                                         const std::vector<std::int32_t>& welded) {
+    std::vector<std::uint8_t> boundary(mesh.triangles.size(), 0);
+    const std::vector<Edge> edges = sorted_edges(mesh, welded);
+    for (std::size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
+        while (end < edges.size() && edges[end].joins_same_as(edges[begin])) ++end;
+        if (end - begin == 1) {
+            boundary[edges[begin].triangle] |= static_cast<std::uint8_t>(1 << edges[begin].side);
+        }
+    }
+    return boundary;
+}
+
+double surface_area(const TriangleMesh& mesh) {
+    double twice = 0;
+    for (const Triangle& triangle : mesh.triangles) {
+        const Eigen::Vector3d& origin = mesh.positions[triangle[0]];
+        twice += (mesh.positions[triangle[1]] - origin)
+                     .cross(mesh.positions[triangle[2]] - origin)
+                     .norm();
+    }
+    return 0.5 * twice;
+}
+
+}  // namespace tracked_mcf

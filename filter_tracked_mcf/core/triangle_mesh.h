@@ -1,0 +1,43 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace tracked_mcf {
+
+/// Vertex indices of a triangle.
+using Triangle = std::array<std::int32_t, 3>;
+
+/// A plain triangle mesh, in the user's units. Anything is allowed that has a surface: several
+/// components, non-manifold edges, inconsistent orientation, soups of unconnected triangles,
+/// unreferenced vertices, and some degenerate triangles.
+struct TriangleMesh {
+    std::vector<Eigen::Vector3d> positions;  ///< one per vertex
+    std::vector<Triangle> triangles;         ///< indices into positions
+};
+
+/// Throws InvalidMesh unless the mesh has vertices and triangles, every index is in range, every
+/// vertex that a triangle uses is finite, and the mesh has an extent that doubles can divide by.
+/// Unreferenced vertices are ignored, whatever they hold.
+void validate(const TriangleMesh& mesh);
+
+/// For every vertex: whether some triangle uses it.
+std::vector<bool> referenced_vertices(const TriangleMesh& mesh);
+
+/// For every vertex: the smallest index of a referenced vertex at exactly the same position; an
+/// unreferenced vertex is its own. A triangle soup welded this way is the mesh it came from.
+std::vector<std::int32_t> weld_coincident_vertices(const TriangleMesh& mesh);
+
+/// For every triangle, bit i is set if its edge from corner i to corner (i + 1) % 3 is on the
+/// boundary: no other triangle has an edge between the same two vertices, coincident vertices
+/// counting as one (`welded` as weld_coincident_vertices returns it). An edge between two equal
+/// vertices is never on the boundary.
+std::vector<std::uint8_t> boundary_edges(const TriangleMesh& mesh,
+                                         const std::vector<std::int32_t>& welded);
+
+/// Surface area, in squared units of the mesh.
+double surface_area(const TriangleMesh& mesh);
+
+}  // namespace tracked_mcf

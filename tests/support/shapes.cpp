@@ -1,0 +1,166 @@
+#include "tests/support/shapes.h"
+
+#include <array>
+#include <cmath>
+#include <functional>
+#include <map>
+
+namespace tracked_mcf::shapes {
+
+namespace {
+
+using Eigen::Vector3d;
+
+/// Collects triangles by their corners' positions and welds corners that agree to rounding.
+class Welder {
+public:
+    std::int32_t vertex(const Vector3d& position) {
+        const std::array<std::int64_t, 3> key = {round(position[0]), round(position[1]),
+                                                 round(position[2])};
+        const auto [entry, is_new] =
+            index_.try_emplace(key, static_cast<std::int32_t>(mesh_.positions.size()));
+        if (is_new) mesh_.positions.push_back(position);
+        return entry->second;
+    }
+    void triangle(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
+        mesh_.triangles.push_back({vertex(a), vertex(b), vertex(c)});
+    }
+    TriangleMesh mesh() && { return std::move(mesh_); }
+
+private:
+    static std::int64_t round(double x) { return std::llround(x * 1e9); }
+
+    TriangleMesh mesh_;
+    std::map<std::array<std::int64_t, 3>, std::int32_t> index_;
+};
+
+/// Splits the square spanned by two edges into n by n quads of two triangles.
+void add_square(Welder& welder, const Vector3d& origin, const Vector3d& u, const Vector3d& v,
+                int n) {
+    const auto point = [&](int i, int j) -> Vector3d {
+        return origin + (static_cast<double>(i) / n) * u + (static_cast<double>(j) / n) * v;
+    };
+    for (int i = 0; i < n; ++i) {
+        for (int j = 0; j < n; ++j) {
+            welder.triangle(point(i, j), point(i + 1, j), point(i + 1, j + 1));
+            welder.triangle(point(i, j), point(i + 1, j + 1), point(i, j + 1));
+        }
+    }
+}
+
+/// Splits a face of an icosahedron into frequency² triangles on the sphere.
+void add_face(Welder& welder, const Vector3d& a, const Vector3d& b, const Vector3d& c,
+              int frequency) {
+    const auto point = [&](int i, int j) -> Vector3d {
+        return (a * (frequency - i - j) + b * i + c * j).normalized();
+    };
+    for (int i = 0; i < frequency; ++i) {
+        for (int j = 0; i + j < frequency; ++j) {
+            welder.triangle(point(i, j), point(i + 1, j), point(i, j + 1));
+            if (i + j + 1 < frequency) {
+                welder.triangle(point(i + 1, j), point(i + 1, j + 1), point(i, j + 1));
+            }
+        }
+    }
+}
+
+}  // namespace
+
+TriangleMesh geodesic_sphere(int frequency) {
+    const double g = (1 + std::sqrt(5.0)) / 2;
+    const std::array<Vector3d, 12> corners = {
+        Vector3d(-1, g, 0), Vector3d(1, g, 0), Vector3d(-1, -g, 0), Vector3d(1, -g, 0),
+        Vector3d(0, -1, g), Vector3d(0, 1, g), Vector3d(0, -1, -g), Vector3d(0, 1, -g),
+        Vector3d(g, 0, -1), Vector3d(g, 0, 1), Vector3d(-g, 0, -1), Vector3d(-g, 0, 1)};
+    const std::array<std::array<int, 3>, 20> faces = {
+        {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+         {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
+         {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}}};
+    Welder welder;
+    for (const auto& face : faces) {
+        add_face(welder, corners[face[0]], corners[face[1]], corners[face[2]], frequency);
+    }
+    return std::move(welder).mesh();
+}
+
+TriangleMesh square(int n) {
+    Welder welder;
+    add_square(welder, Vector3d::Zero(), Vector3d::UnitX(), Vector3d::UnitY(), n);
+    return std::move(welder).mesh();
+}
+
+TriangleMesh box(int n, const Vector3d& sizes) {
+    const Vector3d x(sizes[0], 0, 0);
+    const Vector3d y(0, sizes[1], 0);
+    const Vector3d z(0, 0, sizes[2]);
+    Welder welder;
+    add_square(welder, Vector3d::Zero(), y, x, n);
+    add_square(welder, z, x, y, n);
+    add_square(welder, Vector3d::Zero(), x, z, n);
+    add_square(welder, y, z, x, n);
+    add_square(welder, Vector3d::Zero(), z, y, n);
+    add_square(welder, x, y, z, n);
+    return std::move(welder).mesh();
+}
+
+TriangleMesh torus(int n, int m, double radius, double tube_radius) {
+    const double turn = 2 * std::acos(-1.0);
+    const auto point = [&](int i, int j) -> Vector3d {
+        const double u = turn * i / n;
+        const double v = turn * j / m;
+        const double r = radius + tube_radius * std::cos(v);
+        return {r * std::cos(u), r * std::sin(u), tube_radius * std::sin(v)};
+    };
+    Welder welder;
+    for (int i = 0; i < n; ++i) {
+        for (int j = 0; j < m; ++j) {
+            welder.triangle(point(i, j), point(i + 1, j), point(i + 1, j + 1));
+            welder.triangle(point(i, j), point(i + 1, j + 1), point(i, j + 1));
+        }
+    }
+    return std::move(welder).mesh();
+}
+
+TriangleMesh bumpy_sphere(int frequency) {
+    TriangleMesh mesh = geodesic_sphere(frequency);
+    for (Vector3d& p : mesh.positions) {
+        p *= 1 + 0.1 * std::sin(3 * p[0] + 1) * std::cos(4 * p[1]) +
+             0.07 * std::sin(5 * p[2] + p[0]);
+    }
+    return mesh;
+}
+
+TriangleMesh transformed(TriangleMesh mesh, const Eigen::Affine3d& transformation) {
+    for (Vector3d& position : mesh.positions) position = transformation * position;
+    return mesh;
+}
+
+TriangleMesh merged(TriangleMesh first, const TriangleMesh& second) {
+    const auto offset = static_cast<std::int32_t>(first.positions.size());
+    first.positions.insert(first.positions.end(), second.positions.begin(), second.positions.end());
+    for (const Triangle& t : second.triangles) {
+        first.triangles.push_back({t[0] + offset, t[1] + offset, t[2] + offset});
+    }
+    return first;
+}
+
+TriangleMesh soup(const TriangleMesh& mesh) {
+    TriangleMesh loose;
+    for (const Triangle& triangle : mesh.triangles) {
+        const auto first = static_cast<std::int32_t>(loose.positions.size());
+        for (const std::int32_t vertex : triangle)
+            loose.positions.push_back(mesh.positions[vertex]);
+        loose.triangles.push_back({first, first + 1, first + 2});
+    }
+    return loose;
+}
+
+double volume(const TriangleMesh& mesh) {
+    double six = 0;
+    for (const Triangle& t : mesh.triangles) {
+        six += mesh.positions[t[0]].dot(mesh.positions[t[1]].cross(mesh.positions[t[2]]));
+    }
+    return six / 6;
+}
+
+}  // namespace tracked_mcf::shapes

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <Eigen/Geometry>
+
+#include "filter_tracked_mcf/core/triangle_mesh.h"
+
+namespace tracked_mcf::shapes {
+
+/// Unit sphere: the faces of an icosahedron, each split into frequency² triangles, projected.
+/// 10 frequency² + 2 vertices.
+TriangleMesh geodesic_sphere(int frequency);
+
+/// The unit square [0, 1]² in the plane z = 0, n by n quads of two triangles each.
+TriangleMesh square(int n);
+
+/// The surface of the box [0, sizes], each face of n by n quads of two triangles; welded.
+TriangleMesh box(int n, const Eigen::Vector3d& sizes);
+
+/// A torus around the z axis with these radii, n by m quads of two triangles.
+TriangleMesh torus(int n, int m, double radius, double tube_radius);
+
+/// A sphere with bumps and no symmetry: a stand-in for a scan.
+TriangleMesh bumpy_sphere(int frequency);
+
+/// Every vertex moved by a transformation.
+TriangleMesh transformed(TriangleMesh mesh, const Eigen::Affine3d& transformation);
+
+/// Both meshes in one.
+TriangleMesh merged(TriangleMesh first, const TriangleMesh& second);
+
+/// Every triangle with three vertices of its own.
+TriangleMesh soup(const TriangleMesh& mesh);
+
+/// Sum of the triangles' signed volumes towards the origin: the volume inside a closed mesh.
+double volume(const TriangleMesh& mesh);
+
+}  // namespace tracked_mcf::shapes

@@ -1,0 +1,319 @@
+#include "filter_tracked_mcf/core/flow.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <limits>
+#include <memory>
+
+#include "filter_tracked_mcf/core/errors.h"
+#include "filter_tracked_mcf/core/evolve.h"
+#include "tests/support/shapes.h"
+
+namespace tracked_mcf {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+FlowParameters parameters(int depth, double step_size, int iterations) {
+    FlowParameters p;
+    p.depth = depth;
+    p.step_size = step_size;
+    p.iterations = iterations;
+    return p;
+}
+
+TriangleMesh evolved(TriangleMesh mesh, const FlowParameters& p) {
+    evolve(mesh, p);
+    return mesh;
+}
+
+/// Largest distance between vertices of the same index.
+double distance(const TriangleMesh& a, const TriangleMesh& b) {
+    double largest = 0;
+    for (std::size_t i = 0; i < a.positions.size(); ++i) {
+        largest = std::max(largest, (a.positions[i] - b.positions[i]).norm());
+    }
+    return largest;
+}
+
+bool same_bits(const TriangleMesh& a, const TriangleMesh& b) {
+    return a.positions.size() == b.positions.size() &&
+           std::memcmp(a.positions.data(), b.positions.data(),
+                       a.positions.size() * sizeof(Eigen::Vector3d)) == 0;
+}
+
+TEST(Flow, OneStepOfTheSphereIsTheSemiImplicitOne) {
+    // r(t+δ) = r³ / (r² + 2δ), section 5.2; the unit sphere's longest side is 2.
+    TriangleMesh mesh = shapes::geodesic_sphere(40);
+    FlowParameters p = parameters(5, 1e-3, 1);
+    p.cycles = 3;
+    evolve(mesh, p);
+    for (const Eigen::Vector3d& position : mesh.positions) {
+        EXPECT_NEAR(position.norm(), 1 / (1 + 2 * 4e-3), 3e-4);
+    }
+}
+
+TEST(Flow, FlatPatchWithLockedBoundaryStaysToTheRoundingOfSinglePrecision) {
+    // In a grid plane, and oblique to the grid.
+    for (const double angle : {0.0, 0.7}) {
+        const Eigen::Affine3d turn(
+            Eigen::AngleAxisd(angle, Eigen::Vector3d(1, 2, 0.5).normalized()));
+        const TriangleMesh patch = shapes::transformed(shapes::square(30), turn);
+        EXPECT_LT(distance(evolved(patch, parameters(5, 1e-3, 10)), patch), 1e-6);
+    }
+}
+
+TEST(Flow, LockedBoundaryVerticesKeepTheirBits) {
+    TriangleMesh cap = shapes::bumpy_sphere(20);
+    cap.triangles.resize(cap.triangles.size() / 2);
+    const TriangleMesh after = evolved(cap, parameters(5, 1e-4, 5));
+    const auto boundary = boundary_edges(cap, weld_coincident_vertices(cap));
+    int checked = 0;
+    for (std::size_t t = 0; t < cap.triangles.size(); ++t) {
+        for (int edge = 0; edge < 3; ++edge) {
+            if (((boundary[t] >> edge) & 1) == 0) continue;
+            const std::int32_t vertex = cap.triangles[t][edge];
+            EXPECT_EQ(after.positions[vertex], cap.positions[vertex]);
+            ++checked;
+        }
+    }
+    EXPECT_GT(checked, 40);
+    EXPECT_GT(distance(after, cap), 1e-3);
+}
+
+TEST(Flow, FreeBoundaryMoves) {
+    FlowParameters p = parameters(5, 1e-3, 3);
+    p.boundary = BoundaryCondition::Free;
+    const TriangleMesh patch = shapes::square(30);
+    const TriangleMesh after = evolved(patch, p);
+    EXPECT_LT(surface_area(after), 0.95);
+    for (const auto& position : after.positions) EXPECT_NEAR(position[2], 0, 1e-6);
+}
+
+TEST(Flow, ResultIsTheSameBitsWhateverTheNumberOfThreads) {
+    // Large enough for many blocks and several slabs.
+    const TriangleMesh mesh = shapes::bumpy_sphere(60);
+    FlowParameters p = parameters(7, 1e-4, 2);
+    p.threads = 1;
+    const TriangleMesh one = evolved(mesh, p);
+    for (const int threads : {2, 3, 5}) {
+        p.threads = threads;
+        EXPECT_TRUE(same_bits(evolved(mesh, p), one)) << threads;
+    }
+}
+
+TEST(Flow, CommutesWithTranslation) {
+    const TriangleMesh mesh = shapes::bumpy_sphere(20);
+    const Eigen::Affine3d shift(Eigen::Translation3d(3.7, -11.3, 5.1));
+    const FlowParameters p = parameters(5, 1e-4, 5);
+    EXPECT_LT(distance(evolved(shapes::transformed(mesh, shift), p),
+                       shapes::transformed(evolved(mesh, p), shift)),
+              1e-6);
+}
+
+TEST(Flow, CommutesWithScaling) {
+    const TriangleMesh mesh = shapes::bumpy_sphere(20);
+    const FlowParameters p = parameters(5, 1e-4, 5);
+    for (const double scale : {1e-9, 0.3, 7.0, 1e12}) {
+        const Eigen::Affine3d scaling(Eigen::Scaling(scale));
+        EXPECT_LT(distance(evolved(shapes::transformed(mesh, scaling), p),
+                           shapes::transformed(evolved(mesh, p), scaling)),
+                  1e-6 * scale);
+    }
+}
+
+TEST(Flow, CommutesWithQuarterTurnsAsTheSolverConverges) {
+    // The equations are the same to rounding, but Gauss-Seidel goes through them in another order,
+    // so what is left is the solver's error: it falls with the number of cycles.
+    const TriangleMesh mesh = shapes::bumpy_sphere(20);
+    for (int axis = 0; axis < 3; ++axis) {
+        const Eigen::Affine3d turn(
+            Eigen::AngleAxisd(0.5 * std::acos(-1.0), Eigen::Vector3d::Unit(axis)));
+        const auto difference = [&](int cycles) {
+            FlowParameters p = parameters(4, 1e-3, 1);
+            p.cycles = cycles;
+            return distance(evolved(shapes::transformed(mesh, turn), p),
+                            shapes::transformed(evolved(mesh, p), turn));
+        };
+        const double of_one_cycle = difference(1);
+        EXPECT_LT(difference(10), 0.2 * of_one_cycle);
+        EXPECT_LT(difference(100), 1e-6);  // rounding of single precision
+    }
+}
+
+TEST(Flow, SoupFlowsLikeItsMesh) {
+    const TriangleMesh mesh = shapes::bumpy_sphere(15);
+    const TriangleMesh soup = shapes::soup(mesh);
+    const FlowParameters p = parameters(4, 1e-3, 4);
+    EXPECT_TRUE(same_bits(evolved(soup, p), shapes::soup(evolved(mesh, p))));
+}
+
+TEST(Flow, LongFlowStaysFiniteAndItsAreaNeverIncreases) {
+    // A thin torus pinches to a circle, a sphere to a point. Increases are measured against the
+    // area at the beginning, since in the end only rounding errors are left of it.
+    for (const TriangleMesh& mesh : {shapes::torus(60, 20, 1, 0.15), shapes::bumpy_sphere(12)}) {
+        TriangleMesh flowing = mesh;
+        const FlowReport report = evolve(flowing, parameters(5, 2e-3, 100));
+        ASSERT_EQ(report.steps.size(), 100U);
+        for (std::size_t i = 1; i < report.steps.size(); ++i) {
+            EXPECT_LE(report.steps[i].area, report.steps[i - 1].area + 1e-6 * report.area_before)
+                << i;
+        }
+        for (const auto& position : flowing.positions) EXPECT_TRUE(position.allFinite());
+        EXPECT_LT(report.area_after, 0.05 * report.area_before);
+    }
+}
+
+TEST(Flow, PinchedPartsStayWhereTheyAre) {
+    // A dumbbell: two spheres joined by a thin bar, which pinches first. No vertex may leave the
+    // convex hull of the initial shape, which mean-curvature flow only ever shrinks.
+    TriangleMesh mesh = shapes::geodesic_sphere(40);
+    for (auto& p : mesh.positions) {
+        const double waist = 0.06 + 0.94 * p[0] * p[0];
+        p = Eigen::Vector3d(2 * p[0], waist * p[1], waist * p[2]);
+    }
+    const TriangleMesh before = mesh;
+    const FlowReport report = evolve(mesh, parameters(6, 2e-4, 60));
+    EXPECT_GT(report.steps.back().collapsed_samples, 100);
+    Eigen::AlignedBox3d box;
+    for (const auto& position : before.positions) box.extend(position);
+    for (const auto& position : mesh.positions) EXPECT_TRUE(box.contains(position));
+}
+
+TEST(Flow, UnreferencedVerticesKeepTheirBits) {
+    TriangleMesh mesh = shapes::bumpy_sphere(10);
+    mesh.positions.emplace_back(1000, -0.0, kNaN);
+    const TriangleMesh after = evolved(mesh, parameters(4, 1e-3, 2));
+    EXPECT_EQ(std::memcmp(&after.positions.back(), &mesh.positions.back(), sizeof(Eigen::Vector3d)),
+              0);
+}
+
+TEST(Flow, TakesNonManifoldAndMisorientedMeshes) {
+    TriangleMesh mesh = shapes::bumpy_sphere(10);
+    const TriangleMesh as_it_was = evolved(mesh, parameters(4, 1e-3, 2));
+    for (std::size_t i = 0; i < mesh.triangles.size(); i += 3) {
+        std::swap(mesh.triangles[i][0], mesh.triangles[i][1]);
+    }
+    EXPECT_LT(distance(evolved(mesh, parameters(4, 1e-3, 2)), as_it_was), 1e-3);
+    mesh.triangles.push_back(mesh.triangles[7]);
+    mesh.triangles.push_back({0, 5, 300});
+    EXPECT_NO_THROW(evolve(mesh, parameters(4, 1e-3, 2)));
+}
+
+TEST(Evolve, ReportsSizesAndResiduals) {
+    TriangleMesh mesh = shapes::bumpy_sphere(20);
+    const FlowReport report = evolve(mesh, parameters(5, 1e-3, 3));
+    EXPECT_EQ(report.vertices, 4002);
+    EXPECT_EQ(report.triangles, 8000);
+    EXPECT_EQ(report.depth, 5);
+    EXPECT_GT(report.cells, 1000);
+    EXPECT_GT(report.unknowns, report.cells);
+    EXPECT_GT(report.fragments, report.triangles);
+    EXPECT_GT(report.split_triangles, report.fragments);
+    EXPECT_EQ(report.samples, 3 * report.split_triangles);
+    EXPECT_EQ(report.locked_unknowns, 0);
+    EXPECT_LT(report.area_after, report.area_before);
+    EXPECT_GT(report.peak_memory_bytes, 1000000);
+    ASSERT_EQ(report.steps.size(), 3U);
+    for (const StepReport& step : report.steps) {
+        EXPECT_LT(step.residual_after, 0.2 * step.residual_before);
+        EXPECT_EQ(step.collapsed_samples, 0);
+    }
+    EXPECT_NEAR(report.steps[0].area, report.area_before, 1e-6 * report.area_before);
+}
+
+TEST(Evolve, ProgressRisesFromZeroToOne) {
+    TriangleMesh mesh = shapes::bumpy_sphere(5);
+    std::vector<double> fractions;
+    evolve(mesh, parameters(3, 1e-3, 4), [&](double fraction, std::string_view phase) {
+        EXPECT_FALSE(phase.empty());
+        fractions.push_back(fraction);
+        return true;
+    });
+    EXPECT_EQ(fractions.front(), 0);
+    EXPECT_EQ(fractions.back(), 1);
+    EXPECT_TRUE(std::is_sorted(fractions.begin(), fractions.end()));
+    EXPECT_GE(fractions.size(), 6U);
+}
+
+TEST(Evolve, CancellingLeavesTheMeshAsItWas) {
+    const TriangleMesh mesh = shapes::bumpy_sphere(5);
+    int calls = 0;
+    evolve(*std::make_unique<TriangleMesh>(mesh), parameters(3, 1e-3, 4),
+           [&](double, std::string_view) { return ++calls > 0; });
+    for (int last = 1; last <= calls; ++last) {
+        TriangleMesh stopped = mesh;
+        int left = last;
+        EXPECT_THROW(evolve(stopped, parameters(3, 1e-3, 4),
+                            [&](double, std::string_view) { return --left > 0; }),
+                     Cancelled);
+        EXPECT_TRUE(same_bits(stopped, mesh));
+    }
+}
+
+template <class Exception>
+void expect_rejected(const TriangleMesh& mesh, const FlowParameters& p, const std::string& named) {
+    TriangleMesh untouched = mesh;
+    try {
+        evolve(untouched, p);
+        ADD_FAILURE() << "accepted: " << named;
+    } catch (const Exception& error) {
+        EXPECT_NE(std::string(error.what()).find(named), std::string::npos) << error.what();
+    }
+    EXPECT_TRUE(same_bits(untouched, mesh));
+}
+
+TEST(Evolve, RejectsParametersOutOfRangeAndNamesThem) {
+    const TriangleMesh mesh = shapes::bumpy_sphere(5);
+    for (const int depth : {-1, 13, 1000}) {
+        expect_rejected<InvalidParameter>(mesh, parameters(depth, 1e-3, 1), "depth");
+    }
+    for (const int iterations : {-5, 0, 1000001}) {
+        expect_rejected<InvalidParameter>(mesh, parameters(3, 1e-3, iterations), "iterations");
+    }
+    for (const double step : {0.0, -1e-5, kNaN, kInfinity, -kInfinity}) {
+        expect_rejected<InvalidParameter>(mesh, parameters(3, step, 1), "step_size");
+    }
+    FlowParameters p = parameters(3, 1e-3, 1);
+    p.cycles = 0;
+    expect_rejected<InvalidParameter>(mesh, p, "cycles");
+    p.cycles = 1;
+    p.threads = -2;
+    expect_rejected<InvalidParameter>(mesh, p, "threads");
+}
+
+TEST(Evolve, RejectsMeshesThatCannotFlow) {
+    const FlowParameters p = parameters(3, 1e-3, 1);
+    expect_rejected<InvalidMesh>(TriangleMesh(), p, "empty");
+    TriangleMesh mesh = shapes::bumpy_sphere(5);
+    mesh.triangles.clear();
+    expect_rejected<InvalidMesh>(mesh, p, "no faces");
+    for (const double bad : {kNaN, kInfinity}) {
+        mesh = shapes::bumpy_sphere(5);
+        mesh.positions[3][1] = bad;
+        expect_rejected<InvalidMesh>(mesh, p, "finite");
+    }
+    mesh = shapes::bumpy_sphere(5);
+    for (auto& position : mesh.positions) position.tail<2>().setZero();
+    expect_rejected<InvalidMesh>(mesh, p, "degenerate");
+    for (auto& position : mesh.positions) position.setZero();
+    expect_rejected<InvalidMesh>(mesh, p, "degenerate");
+}
+
+TEST(Evolve, HugeStepsAndTinyMeshesStayFinite) {
+    for (const double step : {1e-12, 1.0, 1e6}) {
+        const TriangleMesh after = evolved(shapes::bumpy_sphere(8), parameters(4, step, 3));
+        for (const auto& position : after.positions) EXPECT_TRUE(position.allFinite());
+    }
+    TriangleMesh triangle;
+    triangle.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    triangle.triangles = {{0, 1, 2}};
+    FlowParameters p;
+    p.boundary = BoundaryCondition::Free;
+    for (const auto& position : evolved(triangle, p).positions) EXPECT_TRUE(position.allFinite());
+}
+
+}  // namespace
+}  // namespace tracked_mcf

@@ -1,0 +1,201 @@
+#include "filter_tracked_mcf/core/multigrid.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <random>
+
+#include "filter_tracked_mcf/core/boundary.h"
+#include "filter_tracked_mcf/core/bspline.h"
+#include "filter_tracked_mcf/core/galerkin.h"
+#include "tests/support/shapes.h"
+
+namespace tracked_mcf {
+namespace {
+
+/// A flow's system on some mesh, at the first step.
+struct System {
+    explicit System(const TriangleMesh& mesh, int depth, float step, bool lock = false)
+        : elements(
+              build_tracked_elements(mesh, enclosing_grid(mesh, depth), Cubature::ThreePoints)),
+          frozen(lock ? unknowns_meeting_boundary(elements) : no_unknowns(elements)),
+          multigrid(elements, frozen) {
+        assemble_elements(elements, Coefficients::Zero(elements.finest().unknown_count(), 3),
+                          {1, step}, systems);
+        multigrid.refresh(systems.matrices);
+        multigrid.finest().assemble(systems.right_sides, right_side);
+    }
+
+    double residual(const Field& x) const {
+        Field r;
+        multigrid.finest().residual(right_side, x, r);
+        return norm(r);
+    }
+    Field zero() const { return Field::Zero(4, elements.finest().unknown_count()); }
+
+    TrackedElements elements;
+    std::vector<std::vector<std::uint8_t>> frozen;
+    Multigrid multigrid;
+    ElementSystems systems;
+    Field right_side;
+};
+
+using Dense = Eigen::MatrixXd;
+Dense dense(const SparseMatrix& matrix) {
+    return Eigen::MatrixXf(matrix).cast<double>();
+}
+
+TEST(LevelMatrix, IsTheSumOfItsElementMatrices) {
+    const System system(shapes::bumpy_sphere(6), 3, 0.5F);
+    const Level& finest = system.elements.finest();
+    Dense expected = Dense::Zero(finest.unknown_count(), finest.unknown_count());
+    for (std::int32_t element = 0; element < finest.element_count(); ++element) {
+        for (int i = 0; i < 8; ++i) {
+            for (int j = 0; j < 8; ++j) {
+                expected(finest.unknowns[element][i], finest.unknowns[element][j]) +=
+                    system.systems.matrices[element].entry[i][j];
+            }
+        }
+    }
+    const Dense matrix = dense(system.multigrid.finest().matrix());
+    EXPECT_LT((matrix - expected).norm(), 1e-6 * expected.norm());
+    EXPECT_LT((matrix - matrix.transpose()).norm(), 1e-6 * matrix.norm());
+}
+
+TEST(Hierarchy, CoarseMatricesAreTheGalerkinProducts) {
+    const System system(shapes::bumpy_sphere(8), 4, 0.5F);
+    for (int level = 4; level > 0; --level) {
+        const Dense fine = dense(system.multigrid.matrix(level).matrix());
+        const Dense p = dense(system.multigrid.prolongation(level));
+        const Dense coarse = dense(system.multigrid.matrix(level - 1).matrix());
+        EXPECT_LT((coarse - p.transpose() * fine * p).norm(), 1e-6 * coarse.norm()) << level;
+    }
+}
+
+TEST(Hierarchy, ParentsElementMatrixIsTheSumOverItsChildren) {
+    const System system(shapes::bumpy_sphere(8), 4, 0.5F);
+    const Level& fine = system.elements.levels[4];
+    const std::int32_t parents = system.elements.levels[3].element_count();
+    std::vector<ElementMatrix> coarse(static_cast<std::size_t>(parents));
+    coarsen_element_matrices(fine, Groups(fine.parents, parents), system.frozen[4],
+                             system.systems.matrices, coarse);
+
+    using Matrix8 = Eigen::Matrix<float, 8, 8, Eigen::RowMajor>;
+    std::vector<Matrix8> expected(static_cast<std::size_t>(parents), Matrix8::Zero());
+    for (std::int32_t child = 0; child < fine.element_count(); ++child) {
+        const Matrix8 p = refinement_weights(octant_of(fine.cells[child])).cast<float>();
+        const Eigen::Map<const Matrix8> k(system.systems.matrices[child].entry[0]);
+        expected[fine.parents[child]] += p.transpose() * k * p;
+    }
+    for (std::int32_t parent = 0; parent < parents; ++parent) {
+        const Eigen::Map<const Matrix8> sum(coarse[parent].entry[0]);
+        EXPECT_LT((sum - expected[parent]).norm(), 1e-6F * expected[parent].norm());
+    }
+}
+
+TEST(Hierarchy, ProlongationKeepsConstants) {
+    const System system(shapes::bumpy_sphere(8), 4, 0.5F);
+    for (int level = 1; level <= 4; ++level) {
+        const SparseMatrix& p = system.multigrid.prolongation(level);
+        const Eigen::VectorXf ones = p * Eigen::VectorXf::Ones(p.cols());
+        EXPECT_EQ(ones, Eigen::VectorXf::Ones(p.rows()));
+    }
+}
+
+TEST(GaussSeidel, IsAForwardSubstitution) {
+    // Small enough for one slab, so one sweep is (D + L)⁻¹ (b - U x) in the order of the unknowns.
+    const System system(shapes::bumpy_sphere(6), 3, 0.5F);
+    const Dense a = dense(system.multigrid.finest().matrix());
+    Field x = Field::Random(4, a.rows());
+    x.row(3).setZero();
+    const Dense b = system.right_side.cast<double>().transpose();
+    const Dense upper = a.triangularView<Eigen::StrictlyUpper>();
+    const Dense start = x.cast<double>().transpose();
+    const Dense expected = a.triangularView<Eigen::Lower>().solve(b - upper * start);
+    GaussSeidel(system.elements.finest()).sweep(system.multigrid.finest(), system.right_side, x);
+    // Entries of functions that barely meet the surface are large and ill determined: compare what
+    // the sweep makes of the equations.
+    const Dense difference = a * (x.cast<double>().transpose() - expected);
+    EXPECT_LT(difference.norm(), 1e-5 * (a * expected).norm());
+}
+
+TEST(CoarseSolver, SolvesASingularSystemInTheLeastSquaresSense) {
+    // A flat patch in a grid plane: the four functions off the plane have empty rows.
+    const System system(shapes::square(4), 1, 0.5F);
+    const LevelMatrix& coarsest = system.multigrid.matrix(0);
+    CoarseSolver solver;
+    solver.factorise(coarsest);
+    const Dense a = dense(coarsest.matrix());
+    const Field exact = Field::Random(4, a.rows());
+    const Field b = (a * exact.cast<double>().transpose()).transpose().cast<float>();
+    Field x;
+    solver.solve(b, x);
+    EXPECT_TRUE(x.allFinite());
+    EXPECT_LT((a * x.cast<double>().transpose() - b.cast<double>().transpose()).norm(),
+              1e-4 * b.norm());
+}
+
+TEST(Multigrid, ACycleReducesTheResidualIndependentlyOfDepth) {
+    for (const int depth : {4, 5, 6}) {
+        const TriangleMesh mesh = shapes::geodesic_sphere(64);
+        // The same step on the surface at every depth: δ' = δ / h².
+        System system(mesh, depth, 1e-3F * std::pow(4.0F, static_cast<float>(depth)));
+        Field x = system.zero();
+        const double before = system.residual(x);
+        system.multigrid.cycle(CycleParameters(), system.right_side, x);
+        EXPECT_LT(system.residual(x), 0.1 * before) << depth;
+    }
+}
+
+TEST(Multigrid, TwoLevelsWithAnExactCoarseSolveApproachTheSolution) {
+    System system(shapes::bumpy_sphere(10), 3, 2.0F);
+    const Dense a = dense(system.multigrid.finest().matrix());
+    const Dense b = system.right_side.cast<double>().transpose();
+    const Dense exact = a.completeOrthogonalDecomposition().solve(b);
+    Field x = system.zero();
+    double previous = exact.cwiseProduct(a * exact).sum();
+    for (int i = 0; i < 3; ++i) {
+        system.multigrid.cycle(CycleParameters(), system.right_side, x);
+        const Dense error = x.cast<double>().transpose() - exact;
+        const double energy = error.cwiseProduct(a * error).sum();
+        EXPECT_LT(energy, previous);
+        previous = energy;
+    }
+    EXPECT_LT(previous, 1e-4 * exact.cwiseProduct(a * exact).sum());
+}
+
+TEST(BoundaryLock, NoUnlockedCoarseFunctionContainsALockedFineOne) {
+    const System system(shapes::square(20), 4, 0.5F, true);
+    for (int level = 1; level <= 4; ++level) {
+        const SparseMatrix& p = system.multigrid.prolongation(level);
+        for (std::int32_t fine = 0; fine < p.rows(); ++fine) {
+            if (system.frozen[level][fine] == 0) continue;
+            for (SparseMatrix::InnerIterator entry(p, fine); entry; ++entry) {
+                EXPECT_EQ(system.frozen[level - 1][entry.col()], 1);
+            }
+        }
+    }
+}
+
+TEST(BoundaryLock, LockedUnknownsStayExactlyZero) {
+    TriangleMesh cap = shapes::bumpy_sphere(20);
+    cap.triangles.resize(cap.triangles.size() / 2);
+    System system(cap, 5, 0.5F, true);
+    Field x = system.zero();
+    for (int i = 0; i < 3; ++i) system.multigrid.cycle(CycleParameters(), system.right_side, x);
+    int locked = 0;
+    int moved = 0;
+    for (std::int32_t i = 0; i < x.cols(); ++i) {
+        if (system.frozen.back()[i] != 0) {
+            ++locked;
+            EXPECT_TRUE(x.col(i).isZero(0));
+        } else if (!x.col(i).isZero(0)) {
+            ++moved;
+        }
+    }
+    EXPECT_GT(locked, 50);
+    EXPECT_GT(moved, 50);
+}
+
+}  // namespace
+}  // namespace tracked_mcf
