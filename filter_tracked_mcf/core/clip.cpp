@@ -62,7 +62,7 @@ Polygon clip_to_half_space(const Polygon& polygon, int axis, double plane, Keep 
 
 }  // namespace
 
-void Polygon::add(const Eigen::Vector3d& point, std::int8_t from_corner, std::int8_t on_edge) {
+void Polygon::add(const Eigen::Vector3d& point, int from_corner, int on_edge) {
     if (size == kCapacity) return;  // a sliver of rounding error: its area is nothing
     points[size] = point;
     corner[size] = from_corner;
@@ -72,7 +72,7 @@ void Polygon::add(const Eigen::Vector3d& point, std::int8_t from_corner, std::in
 
 Polygon whole_triangle(const std::array<Eigen::Vector3d, 3>& corners) {
     Polygon polygon;
-    for (std::int8_t i = 0; i < 3; ++i) polygon.add(corners[i], i, i);
+    for (int i = 0; i < 3; ++i) polygon.add(corners[i], i, i);
     return polygon;
 }
 

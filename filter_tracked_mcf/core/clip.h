@@ -14,17 +14,17 @@ struct Polygon {
     /// Three corners and one more for each of a cell's six planes; the rest is for polygons so thin
     /// that rounding makes them cross a plane twice.
     static constexpr int kCapacity = 16;
-    static constexpr std::int8_t kNone = -1;
+    static constexpr int kNone = -1;
 
     int size = 0;
     std::array<Eigen::Vector3d, kCapacity> points;  ///< in order, grid coordinates
     /// Corner of the triangle (0 to 2) that point i is, or kNone for a cut.
-    std::array<std::int8_t, kCapacity> corner;
+    std::array<int, kCapacity> corner;
     /// Edge of the triangle (e from corner e to (e + 1) % 3) in which the side from point i to the
     /// next lies, or kNone for a side that a cut made.
-    std::array<std::int8_t, kCapacity> edge;
+    std::array<int, kCapacity> edge;
 
-    void add(const Eigen::Vector3d& point, std::int8_t from_corner, std::int8_t on_edge);
+    void add(const Eigen::Vector3d& point, int from_corner, int on_edge);
 };
 
 /// The polygon that is all of a triangle with these corners.

@@ -1,6 +1,7 @@
 #include "filter_tracked_mcf/core/flow_parameters.h"
 
 #include <cmath>
+#include <sstream>
 #include <string>
 
 #include "filter_tracked_mcf/core/errors.h"
@@ -26,8 +27,10 @@ void validate(const FlowParameters& parameters) {
                 ", where 0 takes all that OpenMP offers");
     const double step = parameters.step_size;
     if (!(std::isfinite(step) && step > 0)) {
-        throw InvalidParameter("step_size is " + std::to_string(step) +
-                               "; give a finite number greater than 0, such as 1e-5.");
+        std::ostringstream message;
+        message << "step_size is " << step
+                << "; give a finite number greater than 0, such as 1e-5.";
+        throw InvalidParameter(message.str());
     }
 }
 

@@ -12,10 +12,10 @@ namespace {
 /// parent's middle is half of each of the parent's two.
 template <int Axis>
 void coarsen_axis(ElementMatrix& m, bool upper_child) {
-    constexpr int kStep = 1 << Axis;
+    constexpr int step = 1 << Axis;
     for (int lower = 0; lower < 8; ++lower) {
-        if ((lower & kStep) != 0) continue;
-        const int upper = lower + kStep;
+        if ((lower & step) != 0) continue;
+        const int upper = lower + step;
         float* const outer = upper_child ? m.entry[upper] : m.entry[lower];
         float* const middle = upper_child ? m.entry[lower] : m.entry[upper];
         for (int column = 0; column < 8; ++column) {
@@ -23,12 +23,12 @@ void coarsen_axis(ElementMatrix& m, bool upper_child) {
             outer[column] += middle[column];
         }
     }
-    for (int row = 0; row < 8; ++row) {
+    for (auto& row : m.entry) {
         for (int lower = 0; lower < 8; ++lower) {
-            if ((lower & kStep) != 0) continue;
-            const int upper = lower + kStep;
-            float& outer = upper_child ? m.entry[row][upper] : m.entry[row][lower];
-            float& middle = upper_child ? m.entry[row][lower] : m.entry[row][upper];
+            if ((lower & step) != 0) continue;
+            const int upper = lower + step;
+            float& outer = upper_child ? row[upper] : row[lower];
+            float& middle = upper_child ? row[lower] : row[upper];
             middle *= 0.5F;
             outer += middle;
         }
@@ -39,7 +39,8 @@ void leave_out(ElementMatrix& m, int corner) {
     for (int i = 0; i < 8; ++i) m.entry[corner][i] = m.entry[i][corner] = 0;
 }
 
-void add_child(ElementMatrix& parent, ElementMatrix child, int octant) {
+/// Overwrites the child.
+void add_child(ElementMatrix& parent, ElementMatrix& child, int octant) {
     coarsen_axis<0>(child, corner_bit(octant, 0) != 0);
     coarsen_axis<1>(child, corner_bit(octant, 1) != 0);
     coarsen_axis<2>(child, corner_bit(octant, 2) != 0);

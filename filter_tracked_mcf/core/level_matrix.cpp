@@ -90,16 +90,14 @@ void LevelMatrix::store_row(std::int32_t row, std::vector<float>& sums) {
 
 void LevelMatrix::assemble(const std::vector<ElementVector>& elements, Field& vector) const {
     vector.resize(4, level_.unknown_count());
-    parallel_for_blocks(level_.unknown_count(), [&](std::int64_t begin, std::int64_t end) {
-        for (auto row = static_cast<std::int32_t>(begin); row < end; ++row) {
-            Eigen::Vector4f sum = Eigen::Vector4f::Zero();
-            for (const std::int32_t place : places_.members(row)) {
-                const auto& entry = elements[place / 8].entry;
-                sum += Eigen::Vector4f(entry[0][place % 8], entry[1][place % 8],
-                                       entry[2][place % 8], 0);
-            }
-            vector.col(row) = sum;
+    parallel_for_rows(level_.unknown_count(), [&](std::int32_t row) {
+        Eigen::Vector4f sum = Eigen::Vector4f::Zero();
+        for (const std::int32_t place : places_.members(row)) {
+            const auto& entry = elements[place / 8].entry;
+            const int corner = place % 8;
+            sum += Eigen::Vector4f(entry[0][corner], entry[1][corner], entry[2][corner], 0);
         }
+        vector.col(row) = sum;
     });
 }
 
@@ -114,13 +112,11 @@ Eigen::Vector4f LevelMatrix::row_times(std::int32_t row, const Field& x) const {
 
 void LevelMatrix::residual(const Field& right_side, const Field& x, Field& residual) const {
     residual.resize(4, level_.unknown_count());
-    parallel_for_blocks(level_.unknown_count(), [&](std::int64_t begin, std::int64_t end) {
-        for (auto row = static_cast<std::int32_t>(begin); row < end; ++row) {
-            if (inverse_diagonal_[row] == 0) {
-                residual.col(row).setZero();
-            } else {
-                residual.col(row) = right_side.col(row) - row_times(row, x);
-            }
+    parallel_for_rows(level_.unknown_count(), [&](std::int32_t row) {
+        if (inverse_diagonal_[row] == 0) {
+            residual.col(row).setZero();
+        } else {
+            residual.col(row) = right_side.col(row) - row_times(row, x);
         }
     });
 }

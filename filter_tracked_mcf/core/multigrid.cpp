@@ -10,7 +10,7 @@ namespace tracked_mcf {
 namespace {
 
 /// Row `row` of matrix * x.
-Eigen::Vector4f row_times(const SparseMatrix& matrix, std::int64_t row, const Field& x) {
+Eigen::Vector4f row_times(const SparseMatrix& matrix, std::int32_t row, const Field& x) {
     Eigen::Vector4f sum = Eigen::Vector4f::Zero();
     const std::int32_t end = matrix.outerIndexPtr()[row + 1];
     for (std::int32_t k = matrix.outerIndexPtr()[row]; k < end; ++k) {
@@ -88,21 +88,17 @@ void Multigrid::cycle(const CycleParameters& parameters, std::size_t level, cons
 void Multigrid::restrict_residual(std::size_t level) {
     Field& coarse = levels_[level - 1].right_side;
     coarse.resize(4, elements_.levels[level - 1].unknown_count());
-    parallel_for_blocks(coarse.cols(), [&](std::int64_t begin, std::int64_t end) {
-        for (std::int64_t row = begin; row < end; ++row) {
-            coarse.col(row) = row_times(levels_[level].restriction, row, levels_[level].residual);
-        }
+    parallel_for_rows(coarse.cols(), [&](std::int32_t row) {
+        coarse.col(row) = row_times(levels_[level].restriction, row, levels_[level].residual);
     });
 }
 
 void Multigrid::add_correction(std::size_t level, Field& x) const {
-    parallel_for_blocks(x.cols(), [&](std::int64_t begin, std::int64_t end) {
-        for (std::int64_t row = begin; row < end; ++row) {
-            // Where everything has collapsed nothing constrains a coefficient; it keeps its place
-            // and anchors the vertices (section 5.1).
-            if (levels_[level].matrix.inverse_diagonal()[row] == 0) continue;
-            x.col(row) += row_times(levels_[level].prolongation, row, levels_[level - 1].x);
-        }
+    parallel_for_rows(x.cols(), [&](std::int32_t row) {
+        // Where everything has collapsed nothing constrains a coefficient; it keeps its place and
+        // anchors the vertices (section 5.1).
+        if (levels_[level].matrix.inverse_diagonal()[row] == 0) return;
+        x.col(row) += row_times(levels_[level].prolongation, row, levels_[level - 1].x);
     });
 }
 

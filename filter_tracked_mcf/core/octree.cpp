@@ -29,7 +29,8 @@ struct CornerNumbering {
 
     std::uint64_t number(const Cell& cell, int corner) const {
         const auto coordinate = [&](int axis) {
-            return static_cast<std::uint64_t>(cell[axis] + corner_bit(corner, axis));
+            return static_cast<std::uint64_t>(cell[axis]) +
+                   static_cast<std::uint64_t>(corner_bit(corner, axis));
         };
         return (coordinate(2) * corners_per_side + coordinate(1)) * corners_per_side +
                coordinate(0);

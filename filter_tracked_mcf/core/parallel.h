@@ -25,12 +25,13 @@ private:
 /// Slices to cut a loop into, so that the threads there are finish at about the same time.
 std::int64_t slice_count();
 
-/// Calls body(i) for every i in [0, count), in any order and in parallel. An exception of a body is
-/// thrown on after the loop; it must not leave an OpenMP region by itself.
+/// Calls body(i) for every i in [0, count), in any order and, from `worth_threads` of them on, in
+/// parallel. An exception of a body is thrown on after the loop; it must not leave an OpenMP region
+/// by itself.
 template <class Body>
-void parallel_for(std::int64_t count, const Body& body) {
+void parallel_for(std::int64_t count, const Body& body, std::int64_t worth_threads = 2) {
     std::exception_ptr failure;
-#pragma omp parallel for schedule(dynamic, 1) if (count > 1)
+#pragma omp parallel for schedule(dynamic, 1) if (count >= worth_threads)
     for (std::int64_t i = 0; i < count; ++i) {
         try {
             body(i);
@@ -56,6 +57,23 @@ void parallel_for_blocks(std::int64_t count, const Body& body) {
     parallel_for(block_count(count), [&](std::int64_t block) {
         body(block * kBlockSize, std::min(count, (block + 1) * kBlockSize));
     });
+}
+
+/// Blocks of light work that outweigh waking and joining threads.
+inline constexpr std::int64_t kBlocksWorthThreads = 16;
+
+/// Calls body(row) for the rows of a matrix or vector, in parallel where there are enough of them.
+template <class Body>
+void parallel_for_rows(std::int64_t count, const Body& body) {
+    parallel_for(
+        block_count(count),
+        [&](std::int64_t block) {
+            const auto end = static_cast<std::int32_t>(std::min(count, (block + 1) * kBlockSize));
+            for (auto row = static_cast<std::int32_t>(block * kBlockSize); row < end; ++row) {
+                body(row);
+            }
+        },
+        kBlocksWorthThreads);
 }
 
 /// Calls body(begin, end) for a few slices that cover [0, count), in parallel, for bodies that need

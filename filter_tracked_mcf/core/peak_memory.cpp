@@ -10,8 +10,7 @@ std::int64_t peak_memory_bytes() {
 #if __has_include(<sys/resource.h>)
     rusage usage{};
     if (getrusage(RUSAGE_SELF, &usage) != 0) return 0;
-    constexpr std::int64_t kUnit = 1024;  // Linux counts in kilobytes
-    return usage.ru_maxrss * kUnit;
+    return std::int64_t{1024} * usage.ru_maxrss;  // Linux counts in kilobytes
 #else
     return 0;
 #endif

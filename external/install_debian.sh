@@ -1,0 +1,50 @@
+#!/usr/bin/env bash
+# Installs what a task needs, on Debian: install_debian.sh TASK...
+#
+#   core     building the core: a compiler, CMake, Eigen
+#   program  also the command-line program
+#   plugin   also the MeshLab plugin, and MeshLab itself
+#   demo     running the plugin without a screen and drawing pictures of surfaces
+#   tests    building and running all tests
+#   checks   formatting and static analysis
+#
+# Asks apt only if something is missing; with sudo unless run as root.
+set -euo pipefail
+
+packages_of() {
+    case $1 in
+        core) echo g++ make cmake libeigen3-dev ;;
+        program) echo "$(packages_of core)" libcli11-dev nlohmann-json3-dev dpkg-dev ;;
+        plugin) echo "$(packages_of program)" meshlab qtbase5-dev libqt5opengl5-dev libglew-dev \
+            libglu1-mesa-dev ;;
+        demo) echo "$(packages_of plugin)" xvfb xauth python3-vtk9 python3-numpy ;;
+        tests) echo "$(packages_of plugin)" libgtest-dev xvfb xauth xdotool imagemagick python3 \
+            xz-utils ;;
+        checks) echo clang-format clang-tidy libomp-dev git ;;
+        *) echo "install_debian.sh: unknown task '$1'" >&2 && return 1 ;;
+    esac
+}
+
+is_installed() { dpkg-query -W -f '${db:Status-Status}' "$1" 2> /dev/null | grep -qx installed; }
+
+[ $# -gt 0 ] || { sed -n '2,11s/^# \{0,1\}//p' "$0" >&2 && exit 2; }
+if ! command -v apt-get > /dev/null; then
+    echo "install_debian.sh: this system has no apt-get. Install the equivalents of these Debian" \
+        "packages, then go on: $(for task in "$@"; do packages_of "$task"; done)" >&2
+    exit 1
+fi
+
+missing=()
+for task in "$@"; do
+    packages=$(packages_of "$task")
+    for package in $packages; do
+        is_installed "$package" || missing+=("$package")
+    done
+done
+[ ${#missing[@]} -gt 0 ] || exit 0
+
+as_root=()
+[ "$(id -u)" = 0 ] || as_root=(sudo)
+"${as_root[@]}" apt-get -q update
+"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -q install -y --no-install-recommends \
+    "${missing[@]}"
