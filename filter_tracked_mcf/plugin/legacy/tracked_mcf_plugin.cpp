@@ -1,0 +1,139 @@
+#include "filter_tracked_mcf/plugin/legacy/tracked_mcf_plugin.h"
+
+#include <optional>
+
+#include "filter_tracked_mcf/parameters/parameter_table.h"
+#include "filter_tracked_mcf/plugin/run_filter.h"
+
+namespace tracked_mcf {
+
+namespace {
+
+constexpr int kMeanCurvatureFlow = 0;
+
+using Integer = ParameterDescription::Integer;
+using Real = ParameterDescription::Real;
+using Choice = ParameterDescription::Choice;
+
+QString text(const std::string& string) {
+    return QString::fromStdString(string);
+}
+
+QStringList texts(const std::vector<std::string>& strings) {
+    QStringList result;
+    for (const std::string& string : strings) result << text(string);
+    return result;
+}
+
+/// Adds a description of the table to what a dialog shows.
+struct AddParameter {
+    RichParameterList& list;
+    const ParameterDescription& description;
+
+    void operator()(const Integer& type) const { add<RichInt>(type.default_value); }
+    void operator()(const Real& type) const {
+        add<RichFloat>(static_cast<float>(type.default_value));
+    }
+    void operator()(const Choice& type) const {
+        add<RichEnum>(type.default_value, texts(type.labels));
+    }
+
+    template <class RichType, class... Arguments>
+    void add(const Arguments&... arguments) const {
+        list.addParam(RichType(text(description.name), arguments..., text(description.label),
+                               text(description.tooltip)));
+    }
+};
+
+/// Reads what a dialog or script gives for a description of the table. What has another type is
+/// left out, since the release's own getters would end the program.
+struct ReadValue {
+    const Value& value;
+
+    using Result = std::optional<ParameterValue>;
+    Result operator()(const Integer&) const {
+        return value.isInt() ? Result(value.getInt()) : std::nullopt;
+    }
+    Result operator()(const Real&) const {
+        return value.isFloat() ? Result(shortest_decimal(value.getFloat())) : std::nullopt;
+    }
+    Result operator()(const Choice&) const {
+        return value.isEnum() ? Result(value.getEnum()) : std::nullopt;
+    }
+};
+
+ParameterValues read_values(const RichParameterList& list) {
+    ParameterValues values;
+    for (const ParameterDescription& description : parameter_table()) {
+        const QString name = text(description.name);
+        if (!list.hasParameter(name)) continue;
+        const ReadValue read{list.getParameterByName(name).value()};
+        if (const auto value = std::visit(read, description.type)) {
+            values[description.name] = *value;
+        }
+    }
+    return values;
+}
+
+}  // namespace
+
+TrackedMcfPlugin::TrackedMcfPlugin() {
+    typeList << kMeanCurvatureFlow;
+    actionList << new QAction(filterName(kMeanCurvatureFlow), this);
+}
+
+QString TrackedMcfPlugin::pluginName() const {
+    return "FilterTrackedMcf";
+}
+
+QString TrackedMcfPlugin::filterName(FilterIDType) const {
+    return kFilterName;
+}
+
+QString TrackedMcfPlugin::filterInfo(FilterIDType) const {
+    return kFilterHelp;
+}
+
+MeshFilterInterface::FilterClass TrackedMcfPlugin::getClass(QAction*) {
+    return Smoothing;
+}
+
+MeshFilterInterface::FILTER_ARITY TrackedMcfPlugin::filterArity(QAction*) const {
+    return SINGLE_MESH;
+}
+
+int TrackedMcfPlugin::getPreConditions(QAction*) const {
+    return MeshModel::MM_FACENUMBER;
+}
+
+// Neither vertices nor faces come or go: with either in the mask a dialog offers no preview.
+int TrackedMcfPlugin::postCondition(QAction*) const {
+    return MeshModel::MM_VERTCOORD | MeshModel::MM_VERTNORMAL | MeshModel::MM_FACENORMAL;
+}
+
+// Of the two overloads this is the one that hosts call; it must not look at the current layer, for
+// meshlabserver calls it without one too.
+void TrackedMcfPlugin::initParameterSet(QAction*, MeshDocument&, RichParameterList& parameters) {
+    for (const ParameterDescription& parameter : parameter_table()) {
+        std::visit(AddParameter{parameters, parameter}, parameter.type);
+    }
+}
+
+bool TrackedMcfPlugin::applyFilter(QAction*, MeshDocument& document,
+                                   const RichParameterList& parameters,
+                                   vcg::CallBackPos* callback) {
+    MeshModel* const layer = document.mm();
+    const FilterOutcome outcome =
+        layer == nullptr ? FilterOutcome{false, "There is no layer to smooth; open a mesh first."}
+                         : run_filter(layer->cm, read_values(parameters), callback);
+    if (outcome.succeeded) {
+        layer->UpdateBoxAndNormals();
+    } else {
+        errorMessage = text(outcome.message);
+    }
+    // Of a failure, too: meshlabserver prints the log but not the error message.
+    Log(outcome.message);
+    return outcome.succeeded;
+}
+
+}  // namespace tracked_mcf

@@ -1,0 +1,65 @@
+#include "filter_tracked_mcf/plugin/parameter_values.h"
+
+#include <array>
+#include <charconv>
+
+#include "filter_tracked_mcf/core/errors.h"
+#include "filter_tracked_mcf/parameters/parameter_table.h"
+
+namespace tracked_mcf {
+
+namespace {
+
+template <class Type>
+Type read(const ParameterValues& values, const std::string& name) {
+    const auto found = values.find(name);
+    const Type* const value = found == values.end() ? nullptr : std::get_if<Type>(&found->second);
+    if (value == nullptr) {
+        throw InvalidParameter(name +
+                               " is missing, or is not of the right type; a script made by "
+                               "MeshLab itself shows how it is written.");
+    }
+    return *value;
+}
+
+[[noreturn]] void refuse_choice(const std::string& name, int index,
+                                const std::vector<std::string>& labels) {
+    std::string message = name + " is " + std::to_string(index) + "; give";
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+        message += (i == 0 ? " " : ", ") + std::to_string(i) + " (" + labels[i] + ")";
+    }
+    throw InvalidParameter(message + ".");
+}
+
+void check_choices(const ParameterValues& values) {
+    for (const ParameterDescription& parameter : parameter_table()) {
+        const auto* const choice = std::get_if<ParameterDescription::Choice>(&parameter.type);
+        if (choice == nullptr) continue;
+        const int index = read<int>(values, parameter.name);
+        const bool has_label =
+            index >= 0 && static_cast<std::size_t>(index) < choice->labels.size();
+        if (!has_label) refuse_choice(parameter.name, index, choice->labels);
+    }
+}
+
+}  // namespace
+
+FlowParameters flow_parameters(const ParameterValues& values) {
+    check_choices(values);
+    FlowParameters parameters;
+    parameters.depth = read<int>(values, "depth");
+    parameters.step_size = read<double>(values, "step_size");
+    parameters.iterations = read<int>(values, "iterations");
+    parameters.boundary = static_cast<BoundaryCondition>(read<int>(values, "boundary"));
+    return parameters;
+}
+
+double shortest_decimal(float value) {
+    std::array<char, 32> text;
+    const auto [end, error] = std::to_chars(text.data(), text.data() + text.size(), value);
+    double result = value;
+    if (error == std::errc()) std::from_chars(text.data(), end, result);
+    return result;
+}
+
+}  // namespace tracked_mcf

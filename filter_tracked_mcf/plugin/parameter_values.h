@@ -1,0 +1,27 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <variant>
+
+#include "filter_tracked_mcf/core/flow_parameters.h"
+
+namespace tracked_mcf {
+
+/// The value of an Integer or a Real, or the index of a Choice's label.
+using ParameterValue = std::variant<int, double>;
+
+/// What a host gives for the parameters of the table, by name.
+using ParameterValues = std::map<std::string, ParameterValue>;
+
+/// What the core is to do. Throws InvalidParameter where a value is absent or of another type, or
+/// where a Choice's index has no label: hosts pass on what a script holds. The other ranges are the
+/// core's to check.
+FlowParameters flow_parameters(const ParameterValues& values);
+
+/// The double that the shortest decimal notation of `value` denotes: 1e-5 for 1e-5f, which is
+/// 9.99999974737875e-06. MeshLab keeps real parameters as floats, but what was typed is a decimal;
+/// this recovers it, up to six digits, so that the plugin flows exactly as the command-line tool.
+double shortest_decimal(float value);
+
+}  // namespace tracked_mcf

@@ -1,0 +1,54 @@
+#include "filter_tracked_mcf/plugin/run_filter.h"
+
+#include <exception>
+#include <new>
+#include <numeric>
+#include <sstream>
+
+namespace tracked_mcf::run_filter_detail {
+
+namespace {
+
+double seconds_of(const std::vector<StepReport>& steps) {
+    return std::accumulate(steps.begin(), steps.end(), 0.0, [](double sum, const StepReport& step) {
+        return sum + step.assemble_seconds + step.solve_seconds;
+    });
+}
+
+}  // namespace
+
+FilterOutcome guard(const std::function<std::string()>& work) {
+    try {
+        return {true, work()};
+    } catch (const std::bad_alloc&) {
+        return {false, "There is not enough memory for this; choose a smaller depth."};
+    } catch (const std::exception& error) {
+        return {false, error.what()};
+    } catch (...) {
+        return {false, "An unknown error occurred."};
+    }
+}
+
+Progress as_progress(HostCallback* callback) {
+    if (callback == nullptr) return {};
+    return [callback](double fraction, std::string_view phase) {
+        return callback(static_cast<int>(100 * fraction), std::string(phase).c_str());
+    };
+}
+
+std::string summary(const FlowReport& report) {
+    std::ostringstream text;
+    text.precision(3);
+    text << "Moved " << report.vertices << " vertices by " << report.steps.size()
+         << " steps of mean-curvature flow: depth " << report.depth << ", " << report.unknowns
+         << " unknowns";
+    if (report.locked_unknowns > 0) text << " (" << report.locked_unknowns << " locked)";
+    text << ", " << report.setup_seconds << " s for the set-up and " << seconds_of(report.steps)
+         << " s for the steps.";
+    if (report.degenerate_triangles > 0) {
+        text << " " << report.degenerate_triangles << " faces have no area and had no say.";
+    }
+    return text.str();
+}
+
+}  // namespace tracked_mcf::run_filter_detail

@@ -1,0 +1,90 @@
+// The part of the plugin that no host is needed for: what it makes of the values that hosts pass.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "filter_tracked_mcf/core/errors.h"
+#include "filter_tracked_mcf/parameters/parameter_table.h"
+#include "filter_tracked_mcf/plugin/parameter_values.h"
+#include "filter_tracked_mcf/plugin/run_filter.h"
+
+namespace tracked_mcf {
+
+namespace {
+
+ParameterValues values_other_than_default() {
+    return {{"depth", 7}, {"step_size", 2e-4}, {"iterations", 3}, {"boundary", 1}};
+}
+
+TEST(ParameterValues, EveryParameterOfTheTableIsRead) {
+    for (const ParameterDescription& parameter : parameter_table()) {
+        ParameterValues values = values_other_than_default();
+        values.erase(parameter.name);
+        EXPECT_THROW(flow_parameters(values), InvalidParameter) << parameter.name;
+    }
+}
+
+TEST(ParameterValues, ReachTheCoreUnchanged) {
+    const FlowParameters parameters = flow_parameters(values_other_than_default());
+    EXPECT_EQ(parameters.depth, 7);
+    EXPECT_EQ(parameters.step_size, 2e-4);
+    EXPECT_EQ(parameters.iterations, 3);
+    EXPECT_EQ(parameters.boundary, BoundaryCondition::Free);
+}
+
+TEST(ParameterValues, AChoiceWithoutALabelIsRefusedWithTheLabels) {
+    for (const int index : {-1, 2, std::numeric_limits<int>::max()}) {
+        ParameterValues values = values_other_than_default();
+        values["boundary"] = index;
+        try {
+            flow_parameters(values);
+            ADD_FAILURE() << index << " was accepted";
+        } catch (const InvalidParameter& error) {
+            EXPECT_EQ(error.what(), "boundary is " + std::to_string(index) +
+                                        "; give 0 (Locked cells), 1 (Free).");
+        }
+    }
+}
+
+TEST(ParameterValues, AValueOfTheWrongTypeIsRefused) {
+    ParameterValues values = values_other_than_default();
+    values["step_size"] = 1;
+    EXPECT_THROW(flow_parameters(values), InvalidParameter);
+}
+
+TEST(ShortestDecimal, RecoversWhatWasTyped) {
+    EXPECT_EQ(shortest_decimal(1e-5f), 1e-5);
+    EXPECT_EQ(shortest_decimal(0.1f), 0.1);
+    EXPECT_EQ(shortest_decimal(-2.5e-7f), -2.5e-7);
+    EXPECT_EQ(shortest_decimal(0.0f), 0.0);
+    EXPECT_TRUE(std::isnan(shortest_decimal(std::numeric_limits<float>::quiet_NaN())));
+    EXPECT_EQ(shortest_decimal(-std::numeric_limits<float>::infinity()),
+              -std::numeric_limits<double>::infinity());
+}
+
+TEST(Guard, TurnsEveryExceptionIntoAMessage) {
+    using run_filter_detail::guard;
+    EXPECT_TRUE(guard([] { return std::string("done"); }).succeeded);
+    const auto message_of = [](auto thrown) {
+        const FilterOutcome outcome = guard([&]() -> std::string { throw thrown; });
+        EXPECT_FALSE(outcome.succeeded);
+        return outcome.message;
+    };
+    EXPECT_EQ(message_of(InvalidMesh("No faces.")), "No faces.");
+    EXPECT_NE(message_of(std::bad_alloc()).find("memory"), std::string::npos);
+    EXPECT_FALSE(message_of(42).empty());
+}
+
+TEST(Progress, CountsInPercentAndPassesOnTheWishToStop) {
+    EXPECT_FALSE(run_filter_detail::as_progress(nullptr));
+    const Progress progress = run_filter_detail::as_progress(
+        +[](int percent, const char* phase) { return percent == 50 && phase == std::string("x"); });
+    EXPECT_TRUE(progress(0.5, std::string_view("xyz").substr(0, 1)));
+    EXPECT_FALSE(progress(1.0, "x"));
+}
+
+}  // namespace
+
+}  // namespace tracked_mcf

@@ -1,0 +1,36 @@
+#!/usr/bin/env python3
+"""Writes an open surface with noise, for the hosts to smooth: bumpy_bowl.py OUTPUT.off"""
+
+import random
+import sys
+
+# In vertices. MeshLab shows meshes of fewer than 50,000 faces with flat shading until a filter has
+# run, which would spoil pictures of before and after.
+SIDE = 180
+
+
+def vertices():
+    noise = random.Random(1)
+    ticks = [2 * i / (SIDE - 1) - 1 for i in range(SIDE)]
+    return [(x, y, (x * x + y * y) / 2 + noise.gauss(0, 0.004)) for y in ticks for x in ticks]
+
+
+def faces():
+    for row in range(SIDE - 1):
+        for first in range(row * SIDE, (row + 1) * SIDE - 1):
+            opposite = first + SIDE + 1
+            yield first, first + 1, opposite
+            yield first, opposite, first + SIDE
+
+
+def main(output):
+    with open(output, "w") as file:
+        print(f"OFF\n{SIDE**2} {2 * (SIDE - 1)**2} 0", file=file)
+        for vertex in vertices():
+            print(*vertex, file=file)
+        for face in faces():
+            print(3, *face, file=file)
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])

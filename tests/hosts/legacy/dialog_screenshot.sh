@@ -1,0 +1,66 @@
+#!/usr/bin/env bash
+# Works the filter's dialog in stock MeshLab as a person would and takes pictures on the way; fails
+# if the preview does not show the result, take it back, and agree with what Apply does:
+# xvfb-run -a -s "-screen 0 1280x960x24" dialog_screenshot.sh PREFIX MESH OUT_DIR
+set -euo pipefail
+
+prefix=$1 mesh=$2 out=$(realpath -m "$3")
+rm -rf "$out"
+mkdir -p "$out"
+mkdir -m 700 "$out/home"
+export HOME="$out/home" XDG_RUNTIME_DIR="$out/home" LIBGL_ALWAYS_SOFTWARE=1
+
+"$prefix/bin/meshlab" "$mesh" > "$out/log.txt" 2>&1 &
+meshlab=$!
+trap 'kill $meshlab' EXIT
+
+wait_for() { # WHAT COMMAND...: until it succeeds
+    for _ in {1..300}; do
+        if "${@:2}" > /dev/null 2>&1; then return; fi
+        sleep 0.2
+    done
+    import -window root "$out/failed.png"
+    echo "failed: $1 (see $out/failed.png and log.txt)" >&2
+    exit 1
+}
+# MeshLab gives its window a size of its own as it starts, at any moment.
+fill_screen() {
+    xdotool windowsize "$window" 1280 960 sleep 1
+    xdotool getwindowgeometry "$window" | grep -q 1280x960
+}
+picture() { sleep 0.5; import -window root "$out/$1.png"; }
+# The mesh's part of the window: left of where the dialog is put, above the frame rate.
+surface() { import -window root -crop 740x740+5+75 +repage "$out/$1.png"; }
+differing_pixels() { # PICTURE: of the surface at another time
+    surface now
+    { compare -metric AE "$out/$1.png" "$out/now.png" null: 2>&1 || true; } | cut -d' ' -f1
+}
+same_as() { [ "$(differing_pixels "$1")" -le 50 ]; }
+unlike() { [ "$(differing_pixels "$1")" -ge 5000 ]; }
+
+wait_for "MeshLab opens the mesh" grep -q "All files opened" "$out/log.txt"
+window=$(timeout 30 xdotool search --sync --onlyvisible --name "Project_1")
+wait_for "the window fills the screen" fill_screen
+
+xdotool windowfocus --sync "$window" key ctrl+f sleep 1 type "Mean Curvature Flow"
+xdotool sleep 1 key Down sleep 0.5 key Return
+dialog=$(timeout 30 xdotool search --sync --onlyvisible --name "^Mean Curvature Flow$")
+xdotool windowmove --sync "$dialog" 750 80 windowfocus --sync "$dialog"
+picture dialog
+surface before
+
+# The focus starts at Apply; Tab goes on to Default and Preview, and backwards to Close and Help.
+xdotool key shift+Tab shift+Tab space
+picture dialog_with_help
+xdotool key space sleep 0.5 key Tab Tab Tab Tab space
+wait_for "the preview shows the result" unlike before
+wait_for "the filter logs what it did" grep -q "steps of mean-curvature flow" "$out/log.txt"
+picture preview
+surface previewed
+xdotool key space
+wait_for "the preview is taken back" same_as before
+xdotool key shift+Tab shift+Tab space
+wait_for "Apply agrees with the preview" same_as previewed
+picture applied
+if grep -i "filter failed" "$out/log.txt"; then exit 1; fi
+echo "pictures are in $out"

@@ -1,0 +1,282 @@
+// The real plugin, loaded as MeshLab 2020.09 loads it, in a program without a display.
+
+#include <gtest/gtest.h>
+
+#include <QApplication>
+#include <QPluginLoader>
+#include <functional>
+#include <limits>
+#include <stdexcept>
+
+#include "filter_tracked_mcf/parameters/parameter_table.h"
+#include "tests/hosts/legacy/layer.h"
+
+namespace tracked_mcf {
+
+namespace {
+
+MeshFilterInterface& plugin() {
+    static QPluginLoader loader(TRACKED_MCF_PLUGIN_FILE);
+    auto* const filter = qobject_cast<MeshFilterInterface*>(loader.instance());
+    if (filter == nullptr) throw std::runtime_error(loader.errorString().toStdString());
+    return *filter;
+}
+
+QAction* action() {
+    return plugin().actions().first();
+}
+
+/// A document with one layer, the plugin's parameters as a dialog starts with them, and its log.
+class Plugin : public testing::Test {
+protected:
+    Plugin() : layer(*document.addNewMesh("", "layer", true)) {
+        make_layer(layer);
+        plugin().initParameterSet(action(), document, parameters);
+        parameters.setValue("iterations", IntValue(2));
+        parameters.setValue("depth", IntValue(4));
+        plugin().setLog(&log);
+    }
+
+    bool apply(vcg::CallBackPos* callback = nullptr) {
+        return plugin().applyFilter(action(), document, parameters, callback);
+    }
+
+    QString log_text() const {
+        QStringList lines;
+        log.print(lines);
+        return lines.join("\n");
+    }
+
+    MeshDocument document;
+    MeshModel& layer;
+    RichParameterList parameters;
+    GLLogStream log;
+};
+
+TEST_F(Plugin, DeclaresItselfAsAPreviewableSmoother) {
+    EXPECT_EQ(plugin().actions().size(), 1);
+    EXPECT_EQ(action()->text(), kFilterName);
+    EXPECT_EQ(plugin().filterInfo(action()), kFilterHelp);
+    EXPECT_EQ(plugin().getClass(action()), MeshFilterInterface::Smoothing);
+    EXPECT_EQ(plugin().filterArity(action()), MeshFilterInterface::SINGLE_MESH);
+    EXPECT_EQ(plugin().getRequirements(action()), MeshModel::MM_NONE);
+    EXPECT_EQ(plugin().postCondition(action()),
+              MeshModel::MM_VERTCOORD | MeshModel::MM_VERTNORMAL | MeshModel::MM_FACENORMAL);
+}
+
+TEST_F(Plugin, IsApplicableToFacesOnly) {
+    QStringList missing;
+    EXPECT_TRUE(plugin().isFilterApplicable(action(), layer, missing));
+    EXPECT_FALSE(plugin().isFilterApplicable(action(), *document.addNewMesh("", "empty"), missing));
+}
+
+/// Expects of a parameter what the table says about it.
+struct ExpectParameter {
+    const RichParameter& actual;
+
+    void operator()(const ParameterDescription::Integer& expected) const {
+        EXPECT_EQ(actual.stringType(), "RichInt");
+        EXPECT_EQ(actual.value().getInt(), expected.default_value);
+    }
+    void operator()(const ParameterDescription::Real& expected) const {
+        EXPECT_EQ(actual.stringType(), "RichFloat");
+        EXPECT_EQ(actual.value().getFloat(), static_cast<float>(expected.default_value));
+    }
+    void operator()(const ParameterDescription::Choice& expected) const {
+        ASSERT_EQ(actual.stringType(), "RichEnum");
+        EXPECT_EQ(actual.value().getEnum(), expected.default_value);
+        const QStringList& labels = dynamic_cast<const RichEnum&>(actual).enumvalues;
+        ASSERT_EQ(static_cast<std::size_t>(labels.size()), expected.labels.size());
+        for (int i = 0; i < labels.size(); ++i) {
+            EXPECT_EQ(labels[i].toStdString(), expected.labels[static_cast<std::size_t>(i)]);
+        }
+    }
+};
+
+TEST_F(Plugin, ParametersAreThoseOfTheTable) {
+    RichParameterList defaults;
+    plugin().initParameterSet(action(), document, defaults);
+    ASSERT_EQ(defaults.size(), parameter_table().size());
+    for (unsigned int i = 0; i < defaults.size(); ++i) {
+        const ParameterDescription& expected = parameter_table()[i];
+        EXPECT_EQ(defaults.at(i).name().toStdString(), expected.name);
+        EXPECT_EQ(defaults.at(i).fieldDescription().toStdString(), expected.label);
+        EXPECT_EQ(defaults.at(i).toolTip().toStdString(), expected.tooltip);
+        std::visit(ExpectParameter{defaults.at(i)}, expected.type);
+    }
+}
+
+TEST_F(Plugin, ParametersNeedNoLayer) {
+    MeshDocument empty;
+    RichParameterList defaults;
+    plugin().initParameterSet(action(), empty, defaults);
+    EXPECT_EQ(defaults.size(), parameter_table().size());
+}
+
+TEST_F(Plugin, MovesPositionsAndNothingElse) {
+    const Belongings belongings(layer);
+    const auto before = position_bits(layer);
+    ASSERT_TRUE(apply()) << log_text().toStdString();
+    const auto after = position_bits(layer);
+    for (std::size_t i = 0; i < before.size(); ++i) EXPECT_NE(before[i], after[i]) << i;
+    EXPECT_TRUE(Belongings(layer) == belongings);
+    EXPECT_TRUE(log_text().contains("1800 vertices")) << log_text().toStdString();
+}
+
+TEST_F(Plugin, UpdatesBoxAndNormals) {
+    ASSERT_TRUE(apply());
+    const Box3m box = layer.cm.bbox;
+    const Point3m vertex_normal = layer.cm.vert[11].cN(), face_normal = layer.cm.face[11].cN();
+    layer.UpdateBoxAndNormals();
+    EXPECT_EQ(box, layer.cm.bbox);
+    EXPECT_EQ(vertex_normal, layer.cm.vert[11].cN());
+    EXPECT_EQ(face_normal, layer.cm.face[11].cN());
+}
+
+TEST_F(Plugin, DeletedElementsHaveNoSay) {
+    delete_first_vertex(layer);
+    const Belongings belongings(layer);
+    const auto before = position_bits(layer);
+    ASSERT_TRUE(apply()) << log_text().toStdString();
+    EXPECT_EQ(position_bits(layer)[0], before[0]);
+    EXPECT_TRUE(Belongings(layer) == belongings);
+
+    MeshModel& compact = *document.addNewMesh("", "compact", true);
+    make_layer(compact);
+    delete_first_vertex(compact);
+    vcg::tri::Allocator<CMeshO>::CompactEveryVector(compact.cm);
+    ASSERT_TRUE(apply());
+    const auto with_deleted = position_bits(layer);
+    EXPECT_EQ(std::vector(with_deleted.begin() + 1, with_deleted.end()), position_bits(compact));
+}
+
+TEST_F(Plugin, OnlyTheCurrentLayerMoves) {
+    make_layer(*document.addNewMesh("", "other", true));
+    const auto before = position_bits(layer);
+    ASSERT_TRUE(apply());
+    EXPECT_EQ(position_bits(layer), before);
+}
+
+int last_percent = 0;
+
+TEST_F(Plugin, ReportsProgressInPercent) {
+    last_percent = 0;
+    ASSERT_TRUE(apply([](int percent, const char* phase) {
+        EXPECT_LE(last_percent, percent);
+        EXPECT_LE(percent, 100);
+        EXPECT_STRNE(phase, "");
+        last_percent = percent;
+        return true;
+    }));
+    EXPECT_EQ(last_percent, 100);
+}
+
+TEST_F(Plugin, StopsWhenTheCallbackSaysSo) {
+    const auto before = position_bits(layer);
+    EXPECT_FALSE(apply([](int percent, const char*) { return percent < 50; }));
+    EXPECT_EQ(position_bits(layer), before);
+    EXPECT_FALSE(plugin().errorMsg().isEmpty());
+}
+
+TEST_F(Plugin, WithoutALayerThereIsAMessage) {
+    MeshDocument empty;
+    EXPECT_FALSE(plugin().applyFilter(action(), empty, parameters, nullptr));
+    EXPECT_TRUE(log_text().contains("no layer"));
+}
+
+/// Something that must not work: what spoils it, and a word that the message must hold.
+struct BadInput {
+    const char* name;
+    std::function<void(MeshModel&, RichParameterList&)> spoil;
+    const char* word;
+};
+
+std::ostream& operator<<(std::ostream& stream, const BadInput& input) {
+    return stream << input.name;
+}
+
+class PluginRefuses : public Plugin, public testing::WithParamInterface<BadInput> {};
+
+TEST_P(PluginRefuses, WithAMessageAndTheLayerUntouched) {
+    GetParam().spoil(layer, parameters);
+    const Belongings belongings(layer);
+    const auto before = position_bits(layer);
+    EXPECT_FALSE(apply());
+    EXPECT_EQ(position_bits(layer), before);
+    EXPECT_TRUE(Belongings(layer) == belongings);
+    const QString message = plugin().errorMsg();
+    EXPECT_TRUE(message.contains(GetParam().word)) << message.toStdString();
+    EXPECT_TRUE(log_text().contains(message)) << log_text().toStdString();
+}
+
+constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+/// Spoils one parameter.
+template <class ValueType, class Number>
+auto set(const char* name, Number value) {
+    return [=](MeshModel&, RichParameterList& list) { list.setValue(name, ValueType(value)); };
+}
+
+/// Spoils one coordinate.
+auto put(float value) {
+    return [=](MeshModel& layer, RichParameterList&) { layer.cm.vert[17].P()[1] = value; };
+}
+
+void remove_everything(MeshModel& layer, RichParameterList&) {
+    layer.cm.Clear();
+}
+
+void remove_faces(MeshModel& layer, RichParameterList&) {
+    for (CFaceO& face : layer.cm.face) vcg::tri::Allocator<CMeshO>::DeleteFace(layer.cm, face);
+}
+
+void flatten_every_face(MeshModel& layer, RichParameterList&) {
+    for (CFaceO& face : layer.cm.face) face.V(2) = face.V(1);
+}
+
+void break_a_face(MeshModel& layer, RichParameterList&) {
+    layer.cm.face[3].V(1) = nullptr;
+}
+
+void make_depth_a_real(MeshModel&, RichParameterList& list) {
+    RichParameterList other;
+    for (const RichParameter& parameter : list) {
+        if (parameter.name() != "depth") other.addParam(parameter);
+    }
+    other.addParam(RichFloat("depth", 5));
+    list = other;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    BadInputs, PluginRefuses,
+    testing::Values(
+        BadInput{"EmptyMesh", remove_everything, "empty"},
+        BadInput{"NoFaces", remove_faces, "no faces"},
+        BadInput{"NaNCoordinate", put(kNaN), "finite"},
+        BadInput{"InfiniteCoordinate", put(-kInfinity), "finite"},
+        BadInput{"AllFacesDegenerate", flatten_every_face, "degenerate"},
+        BadInput{"FaceWithoutAVertex", break_a_face, "does not exist"},
+        BadInput{"DepthNegative", set<IntValue>("depth", -1), "depth"},
+        BadInput{"DepthTooLarge", set<IntValue>("depth", 13), "depth"},
+        BadInput{"NoIterations", set<IntValue>("iterations", 0), "iterations"},
+        BadInput{"TooManyIterations", set<IntValue>("iterations", 1000001), "iterations"},
+        BadInput{"StepSizeZero", set<FloatValue>("step_size", 0.0f), "step_size"},
+        BadInput{"StepSizeNegative", set<FloatValue>("step_size", -1e-5f), "step_size"},
+        BadInput{"StepSizeNaN", set<FloatValue>("step_size", kNaN), "step_size"},
+        BadInput{"StepSizeInfinite", set<FloatValue>("step_size", kInfinity), "step_size"},
+        BadInput{"BoundaryTooLarge", set<EnumValue>("boundary", 2), "boundary"},
+        BadInput{"BoundaryNegative", set<EnumValue>("boundary", -1), "boundary"},
+        BadInput{"DepthOfTheWrongType", make_depth_a_real, "depth"}),
+    [](const auto& test) { return std::string(test.param.name); });
+
+}  // namespace
+
+}  // namespace tracked_mcf
+
+int main(int argc, char** argv) {
+    qputenv("QT_QPA_PLATFORM", "offscreen");
+    QApplication application(argc, argv);
+    testing::InitGoogleTest(&argc, argv);
+    return RUN_ALL_TESTS();
+}
