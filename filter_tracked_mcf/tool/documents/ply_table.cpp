@@ -1,0 +1,276 @@
+#include "filter_tracked_mcf/tool/documents/ply_table.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <utility>
+
+#include "filter_tracked_mcf/tool/documents/number_text.h"
+#include "filter_tracked_mcf/tool/file_error.h"
+
+namespace tracked_mcf {
+
+namespace {
+
+struct TypeDescription {
+    PlyType type;
+    std::size_t size;
+    const char* name;
+    const char* other_name;
+};
+
+constexpr std::array<TypeDescription, 9> kTypes = {{{PlyType::None, 0, "", ""},
+                                                    {PlyType::Int8, 1, "char", "int8"},
+                                                    {PlyType::UInt8, 1, "uchar", "uint8"},
+                                                    {PlyType::Int16, 2, "short", "int16"},
+                                                    {PlyType::UInt16, 2, "ushort", "uint16"},
+                                                    {PlyType::Int32, 4, "int", "int32"},
+                                                    {PlyType::UInt32, 4, "uint", "uint32"},
+                                                    {PlyType::Float, 4, "float", "float32"},
+                                                    {PlyType::Double, 8, "double", "float64"}}};
+
+const TypeDescription& describe(PlyType type) {
+    return kTypes[static_cast<std::size_t>(type)];
+}
+
+template <class Number>
+Number load(const char* bytes) {
+    Number number;
+    std::memcpy(&number, bytes, sizeof number);
+    return number;
+}
+
+template <class Number>
+void append(Number number, std::string& bytes) {
+    bytes.append(reinterpret_cast<const char*>(&number), sizeof number);
+}
+
+template <class Integer>
+void append_integer(std::string_view text, std::string& bytes) {
+    const std::int64_t number = parse_integer(text);
+    if (number < std::numeric_limits<Integer>::min() ||
+        number > std::numeric_limits<Integer>::max()) {
+        throw UnreadableFile(std::string(text) + " is too large for its property's type");
+    }
+    append(static_cast<Integer>(number), bytes);
+}
+
+void append_text(std::string_view text, PlyType type, std::string& bytes) {
+    switch (type) {
+        case PlyType::None:
+            return;
+        case PlyType::Int8:
+            return append_integer<std::int8_t>(text, bytes);
+        case PlyType::UInt8:
+            return append_integer<std::uint8_t>(text, bytes);
+        case PlyType::Int16:
+            return append_integer<std::int16_t>(text, bytes);
+        case PlyType::UInt16:
+            return append_integer<std::uint16_t>(text, bytes);
+        case PlyType::Int32:
+            return append_integer<std::int32_t>(text, bytes);
+        case PlyType::UInt32:
+            return append_integer<std::uint32_t>(text, bytes);
+        case PlyType::Float:
+            return append(static_cast<float>(parse_number(text)), bytes);
+        case PlyType::Double:
+            return append(parse_number(text), bytes);
+    }
+}
+
+/// The part of the file that has not been read yet.
+class Content {
+public:
+    explicit Content(std::string_view text) : rest_(text) {}
+
+    std::string_view line() {
+        const std::size_t end = rest_.find('\n');
+        if (end == std::string_view::npos) throw UnreadableFile("it ends within its header");
+        const std::string_view result = rest_.substr(0, end);
+        rest_.remove_prefix(end + 1);
+        return result;
+    }
+
+    std::string_view word() {
+        constexpr std::string_view blanks = " \t\r\n\f\v";
+        rest_.remove_prefix(std::min(rest_.find_first_not_of(blanks), rest_.size()));
+        return bytes(std::min(rest_.find_first_of(blanks), rest_.size()));
+    }
+
+    std::string_view bytes(std::size_t count) {
+        if (count > rest_.size() || rest_.empty()) {
+            throw UnreadableFile("it ends before all that its header announces; it is truncated");
+        }
+        const std::string_view result = rest_.substr(0, count);
+        rest_.remove_prefix(count);
+        return result;
+    }
+
+private:
+    std::string_view rest_;
+};
+
+enum class Encoding { Ascii, LittleEndian, BigEndian };
+
+/// Appends the next number of the file to `bytes`.
+void read_number(Content& content, Encoding encoding, PlyType type, std::string& bytes) {
+    if (encoding == Encoding::Ascii) return append_text(content.word(), type, bytes);
+    bytes.append(content.bytes(size_of(type)));
+    if (encoding == Encoding::BigEndian) {
+        std::reverse(bytes.end() - static_cast<std::ptrdiff_t>(size_of(type)), bytes.end());
+    }
+}
+
+void read_list(Content& content, Encoding encoding, const PlyProperty& list, std::string& bytes) {
+    const std::size_t begin = bytes.size();
+    read_number(content, encoding, list.count_type, bytes);
+    if (number_at(bytes.data() + begin, list.count_type) < 0) {
+        throw UnreadableFile("a list " + list.name + " has a negative length");
+    }
+    const std::size_t length = list_length(list, bytes.data() + begin);
+    for (std::size_t i = 0; i < length; ++i) read_number(content, encoding, list.type, bytes);
+}
+
+void read_rows(Content& content, Encoding encoding, PlyElement& element) {
+    if (element.properties.empty()) return;
+    for (std::size_t row = 0; row < element.count; ++row) {
+        for (const PlyProperty& property : element.properties) {
+            if (property.is_list()) {
+                read_list(content, encoding, property, element.rows);
+            } else {
+                read_number(content, encoding, property.type, element.rows);
+            }
+        }
+    }
+}
+
+using Words = std::vector<std::string_view>;
+
+PlyType type_named(std::string_view name) {
+    for (const TypeDescription& type : kTypes) {
+        if (!name.empty() && (name == type.name || name == type.other_name)) return type.type;
+    }
+    throw UnreadableFile("its header has the unknown type '" + std::string(name) + "'");
+}
+
+PlyProperty parse_property(const Words& words) {
+    if (words.size() == 3) return {std::string(words[2]), type_named(words[1]), PlyType::None};
+    if (words.size() != 5 || words[1] != "list") {
+        throw UnreadableFile("its header has a property that is not 'property TYPE NAME'");
+    }
+    PlyProperty list{std::string(words[4]), type_named(words[3]), type_named(words[2])};
+    if (list.count_type == PlyType::Float || list.count_type == PlyType::Double) {
+        throw UnreadableFile("the length of list " + list.name + " is not a whole number");
+    }
+    return list;
+}
+
+PlyElement parse_element(const Words& words, const PlyTable& table) {
+    if (words.size() != 3) throw UnreadableFile("an element of its header is not 'element NAME N'");
+    PlyElement element;
+    element.name = words[1];
+    const std::int64_t count = parse_integer(words[2]);
+    if (count < 0 || count > std::numeric_limits<std::int32_t>::max()) {
+        throw UnreadableFile("the number of " + element.name + " elements is out of range");
+    }
+    if (table.find(element.name)) throw UnreadableFile("it has two elements " + element.name);
+    element.count = static_cast<std::size_t>(count);
+    return element;
+}
+
+Encoding parse_format(const Words& words) {
+    const std::string_view name = words.size() == 3 ? words[1] : "";
+    if (name == "ascii") return Encoding::Ascii;
+    if (name == "binary_little_endian") return Encoding::LittleEndian;
+    if (name == "binary_big_endian") return Encoding::BigEndian;
+    throw UnreadableFile("its header has no format that PLY knows");
+}
+
+std::pair<PlyTable, Encoding> parse_header(Content& content) {
+    if (content.line().substr(0, 3) != "ply") {
+        throw UnreadableFile("it is not a PLY file: it does not begin with 'ply'");
+    }
+    std::pair<PlyTable, Encoding> header;
+    auto& [table, encoding] = header;
+    bool has_format = false;
+    for (;;) {
+        std::string_view line = content.line();
+        while (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+        const Words words = split_at_blanks(line);
+        const std::string_view keyword = words.empty() ? "" : words[0];
+        if (keyword == "end_header") break;
+        if (keyword == "comment" || keyword == "obj_info") {
+            table.comments.emplace_back(line);
+        } else if (keyword == "format") {
+            encoding = parse_format(words);
+            has_format = true;
+        } else if (keyword == "element") {
+            table.elements.push_back(parse_element(words, table));
+        } else if (keyword == "property" && !table.elements.empty()) {
+            table.elements.back().properties.push_back(parse_property(words));
+        } else {
+            throw UnreadableFile("its header has a line that PLY does not know: '" +
+                                 std::string(line.substr(0, 40)) + "'");
+        }
+    }
+    if (!has_format) throw UnreadableFile("its header does not say in which format it is");
+    return header;
+}
+
+template <class Range>
+auto find_by_name(const Range& range, std::string_view name) {
+    const auto found = std::find_if(range.begin(), range.end(),
+                                    [name](const auto& item) { return item.name == name; });
+    return found == range.end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+std::size_t size_of(PlyType type) {
+    return describe(type).size;
+}
+
+const char* name_of(PlyType type) {
+    return describe(type).name;
+}
+
+double number_at(const char* bytes, PlyType type) {
+    switch (type) {
+        case PlyType::None:
+            break;
+        case PlyType::Int8:
+            return load<std::int8_t>(bytes);
+        case PlyType::UInt8:
+            return load<std::uint8_t>(bytes);
+        case PlyType::Int16:
+            return load<std::int16_t>(bytes);
+        case PlyType::UInt16:
+            return load<std::uint16_t>(bytes);
+        case PlyType::Int32:
+            return load<std::int32_t>(bytes);
+        case PlyType::UInt32:
+            return load<std::uint32_t>(bytes);
+        case PlyType::Float:
+            return load<float>(bytes);
+        case PlyType::Double:
+            return load<double>(bytes);
+    }
+    return 0;
+}
+
+const PlyProperty* PlyElement::find(std::string_view property_name) const {
+    return find_by_name(properties, property_name);
+}
+
+const PlyElement* PlyTable::find(std::string_view element_name) const {
+    return find_by_name(elements, element_name);
+}
+
+PlyTable parse_ply_table(std::string_view text) {
+    Content content(text);
+    auto [table, encoding] = parse_header(content);
+    for (PlyElement& element : table.elements) read_rows(content, encoding, element);
+    return std::move(table);
+}
+
+}  // namespace tracked_mcf

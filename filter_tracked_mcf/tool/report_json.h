@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+
+#include "filter_tracked_mcf/core/flow_report.h"
+#include "filter_tracked_mcf/tool/command_line.h"
+
+namespace tracked_mcf {
+
+/// What was asked for and what was done, as indented JSON: the version, file names, parameters
+/// and every member of the flow's report, under the names that they have in the code.
+std::string report_json(const CommandLine& line, const FlowReport& report);
+
+/// The same for a person, in three lines.
+std::string summary(const CommandLine& line, const FlowReport& report);
+
+}  // namespace tracked_mcf

@@ -1,0 +1,131 @@
+#include "filter_tracked_mcf/tool/command_line.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "filter_tracked_mcf/parameters/parameter_table.h"
+
+namespace tracked_mcf {
+namespace {
+
+using ::testing::HasSubstr;
+
+CommandLine parse(std::vector<const char*> arguments) {
+    arguments.insert(arguments.begin(), "tracked_mcf");
+    return parse_command_line(static_cast<int>(arguments.size()), arguments.data());
+}
+
+std::string complaint(const std::vector<const char*>& arguments) {
+    try {
+        parse(arguments);
+    } catch (const UsageError& error) {
+        return error.what();
+    }
+    return "none";
+}
+
+/// Text without its line breaks and indentation.
+std::string unwrapped(const std::string& text) {
+    std::string result;
+    for (const char c : text) {
+        const char letter = c == '\n' ? ' ' : c;
+        if (letter != ' ' || result.empty() || result.back() != ' ') result += letter;
+    }
+    return result;
+}
+
+TEST(CommandLine, DefaultsAreThoseOfTheFlow) {
+    const CommandLine line = parse({"a.ply", "b.obj"});
+    const FlowParameters defaults;
+    EXPECT_EQ(line.input, "a.ply");
+    EXPECT_EQ(line.output, "b.obj");
+    EXPECT_EQ(line.report, "");
+    EXPECT_FALSE(line.quiet);
+    EXPECT_EQ(line.parameters.depth, defaults.depth);
+    EXPECT_EQ(line.parameters.step_size, defaults.step_size);
+    EXPECT_EQ(line.parameters.iterations, defaults.iterations);
+    EXPECT_EQ(line.parameters.boundary, defaults.boundary);
+    EXPECT_EQ(line.parameters.cubature, defaults.cubature);
+    EXPECT_EQ(line.parameters.cycles, defaults.cycles);
+    EXPECT_EQ(line.parameters.threads, defaults.threads);
+}
+
+TEST(CommandLine, EveryOptionIsTaken) {
+    const CommandLine line =
+        parse({"a.PLY", "b.Stl", "--depth", "7", "--step-size", "2.5e-4", "--iterations=3",
+               "--boundary", "free", "--cubature", "11", "--cycles", "4", "--threads", "2",
+               "--report", "r.json", "--quiet"});
+    EXPECT_EQ(line.parameters.depth, 7);
+    EXPECT_EQ(line.parameters.step_size, 2.5e-4);
+    EXPECT_EQ(line.parameters.iterations, 3);
+    EXPECT_EQ(line.parameters.boundary, BoundaryCondition::Free);
+    EXPECT_EQ(line.parameters.cubature, Cubature::Degree6);
+    EXPECT_EQ(line.parameters.cycles, 4);
+    EXPECT_EQ(line.parameters.threads, 2);
+    EXPECT_EQ(line.report, "r.json");
+    EXPECT_TRUE(line.quiet);
+}
+
+TEST(CommandLine, NegativeNumbersAndNotANumberReachTheFlowsOwnCheck) {
+    EXPECT_EQ(parse({"a.ply", "b.ply", "--step-size", "-1"}).parameters.step_size, -1);
+    EXPECT_TRUE(std::isnan(parse({"a.ply", "b.ply", "--step-size", "nan"}).parameters.step_size));
+    EXPECT_EQ(parse({"a.ply", "b.ply", "--depth", "-2"}).parameters.depth, -2);
+}
+
+TEST(CommandLine, WhatCannotBeUnderstoodIsSaid) {
+    EXPECT_THAT(complaint({"a.ply"}), HasSubstr("OUTPUT is required"));
+    EXPECT_THAT(complaint({"a.ply", "b.ply", "--iterations", "abc"}),
+                HasSubstr("--iterations = abc"));
+    EXPECT_THAT(complaint({"a.ply", "b.ply", "--iterations", "2.5"}),
+                HasSubstr("--iterations = 2.5"));
+    EXPECT_THAT(complaint({"a.ply", "b.ply", "--depth", "99999999999"}), HasSubstr("--depth"));
+    EXPECT_THAT(complaint({"a.ply", "b.ply", "--boundary", "open"}), HasSubstr("locked-cells"));
+    EXPECT_THAT(complaint({"a.ply", "b.ply", "--cubature", "2"}), HasSubstr("11"));
+    EXPECT_THAT(complaint({"a.ply", "b.ply", "--speed", "2"}), HasSubstr("--speed"));
+    EXPECT_THAT(complaint({"a.ply", "b.ply", "c.ply"}), HasSubstr("c.ply"));
+    EXPECT_THAT(complaint({"a.ply", "b.ply", "--bad"}), HasSubstr("tracked_mcf --help"));
+}
+
+TEST(CommandLine, FormatsAreToldByExtension) {
+    EXPECT_EQ(complaint({"a.ply", "b.xyz"}),
+              "b.xyz: the extension tells the format; give .ply, .obj, .off or .stl.");
+    EXPECT_EQ(complaint({"scan", "b.ply"}),
+              "scan: the extension tells the format; give .ply, .obj, .off or .stl.");
+}
+
+TEST(CommandLine, TheReportMustNotReplaceAMesh) {
+    EXPECT_THAT(complaint({"a.ply", "b.ply", "--report", "./b.ply"}),
+                HasSubstr("--report would overwrite the mesh b.ply"));
+    EXPECT_THAT(complaint({"a.ply", "b.ply", "--report", "a.ply"}),
+                HasSubstr("--report would overwrite the mesh a.ply"));
+}
+
+TEST(CommandLine, HelpNamesEveryOptionAndExplainsTheSharedParameters) {
+    const std::string help = parse({"--help"}).answer;
+    for (const char* option :
+         {"INPUT", "OUTPUT", "--depth", "--step-size", "--iterations", "--boundary",
+          "locked-cells|free", "--cubature", "1|3|11", "--cycles", "--threads", "--report",
+          "--quiet", "--version", "--help", "Examples:", "Exit codes:", "PLY, OBJ, OFF and STL"}) {
+        EXPECT_THAT(help, HasSubstr(option));
+    }
+    for (const ParameterDescription& parameter : parameter_table()) {
+        EXPECT_THAT(unwrapped(help), HasSubstr(parameter.tooltip)) << parameter.name;
+    }
+}
+
+TEST(CommandLine, HelpFitsIntoAHundredColumns) {
+    std::size_t column = 0;
+    for (const char c : parse({"--help"}).answer) {
+        column = c == '\n' ? 0 : column + 1;
+        ASSERT_LE(column, 100u);
+    }
+}
+
+TEST(CommandLine, VersionIsTheProjects) {
+    EXPECT_EQ(parse({"--version"}).answer, "tracked_mcf " TRACKED_MCF_VERSION "\n");
+}
+
+}  // namespace
+}  // namespace tracked_mcf

@@ -1,0 +1,136 @@
+/// The program as a whole: exit codes, streams, files.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "filter_tracked_mcf/tool/mesh_file.h"
+#include "tests/tool/temporary_folder.h"
+
+namespace tracked_mcf {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::StartsWith;
+
+const std::string kTetrahedron =
+    "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
+
+/// A flat square of n by n vertices.
+std::string grid(int n) {
+    std::ostringstream off;
+    off << "OFF\n" << n * n << ' ' << (n - 1) * (n - 1) << " 0\n";
+    for (int i = 0; i < n * n; ++i) off << i % n << ' ' << i / n << " 0\n";
+    for (int i = 0; i < n * (n - 1); ++i) {
+        if (i % n == n - 1) continue;
+        off << "4 " << i << ' ' << i + 1 << ' ' << i + n + 1 << ' ' << i + n << '\n';
+    }
+    return off.str();
+}
+
+class Program : public ::testing::Test {
+protected:
+    void SetUp() override { write_file(folder_ / "a.off", kTetrahedron); }
+
+    ProgramRun run(const std::string& arguments) const { return run_program(folder_, arguments); }
+
+    /// Of the surface in a file.
+    double area(const std::string& name) const {
+        return surface_area(MeshFile(folder_ / name).triangle_mesh());
+    }
+
+    TemporaryFolder folder_;
+};
+
+TEST_F(Program, SmoothsAndSummarises) {
+    const ProgramRun result = run("a.off b.ply --depth 4 --step-size 1e-3 --iterations 3");
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_THAT(result.errors, IsEmpty()) << "no progress bar where there is no terminal";
+    EXPECT_THAT(result.output, HasSubstr("a.off: 4 vertices, 4 triangles\ndepth 4: "));
+    EXPECT_THAT(result.output, HasSubstr("\n3 steps of 0.001 in "));
+    EXPECT_LT(area("b.ply"), 0.99 * area("a.off"));
+}
+
+TEST_F(Program, QuietSaysNothing) {
+    const ProgramRun result = run("a.off b.ply --depth 3 --quiet");
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_THAT(result.output, IsEmpty());
+    EXPECT_THAT(result.errors, IsEmpty());
+}
+
+TEST_F(Program, ReplacesItsInputWhenAsked) {
+    const double before = area("a.off");
+    EXPECT_EQ(run("a.off a.off --depth 4 --step-size 1e-3").exit_code, 0);
+    EXPECT_LT(area("a.off"), 0.99 * before);
+}
+
+TEST_F(Program, NamesOfOtherFilesFollowTheOutputIntoItsFolder) {
+    std::filesystem::create_directory(folder_ / "out");
+    write_file(folder_ / "a.obj", "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    ASSERT_EQ(run("a.obj out/b.obj --depth 3").exit_code, 0);
+    EXPECT_THAT(read_file(folder_ / "out/b.obj"), StartsWith("mtllib ../m.mtl\nv "));
+    ASSERT_EQ(run("a.obj b.obj --depth 3").exit_code, 0);
+    EXPECT_THAT(read_file(folder_ / "b.obj"), StartsWith("mtllib m.mtl\nv "));
+}
+
+TEST_F(Program, HelpAndVersionSucceed) {
+    EXPECT_EQ(run("--help").exit_code, 0);
+    EXPECT_EQ(run("--version").output, "tracked_mcf " TRACKED_MCF_VERSION "\n");
+}
+
+TEST_F(Program, WrongUseExitsWith2) {
+    for (const char* arguments :
+         {"", "a.off", "a.off b.ply --depth 99", "a.off b.ply --depth -1",
+          "a.off b.ply --iterations 0", "a.off b.ply --iterations abc", "a.off b.ply --step-size 0",
+          "a.off b.ply --step-size -1e-5", "a.off b.ply --step-size nan",
+          "a.off b.ply --step-size inf", "a.off b.ply --cycles 0", "a.off b.ply --threads -1",
+          "a.off b.ply --boundary x", "a.off b.xyz"}) {
+        const ProgramRun result = run(arguments);
+        EXPECT_EQ(result.exit_code, 2) << arguments;
+        EXPECT_EQ(result.errors.substr(0, 13), "tracked_mcf: ") << arguments;
+        EXPECT_FALSE(std::filesystem::exists(folder_ / "b.ply")) << arguments;
+    }
+    EXPECT_THAT(run("a.off b.ply --depth 99").errors, HasSubstr("depth is 99; give 0 to 12"));
+}
+
+TEST_F(Program, UnwritableResultsExitWith3BeforeTheWork) {
+    for (const char* arguments : {"a.off missing/b.ply", "a.off b.ply --report missing/r.json",
+                                  "a.off b.ply --report /dev/full", "a.off /proc/b.ply"}) {
+        // An endless job: the test would time out if it were begun.
+        const ProgramRun result = run(std::string(arguments) + " --iterations 1000000 --depth 9");
+        EXPECT_EQ(result.exit_code, 3) << arguments;
+        EXPECT_THAT(result.errors, HasSubstr("tracked_mcf: cannot write ")) << arguments;
+    }
+}
+
+TEST_F(Program, FullDiskExitsWith3AndLeavesTheOldFile) {
+    write_file(folder_ / "grid.off", grid(20));
+    for (const char* name : {"b.ply", "b.obj", "b.off", "b.stl"}) {
+        write_file(folder_ / name, "before");
+        // No file may have more than one block: as if the disk were full.
+        const ProgramRun result =
+            run_program(folder_, "grid.off " + std::string(name) + " --depth 3", "ulimit -f 1;");
+        EXPECT_EQ(result.exit_code, 3) << name;
+        EXPECT_THAT(result.errors, StartsWith("tracked_mcf: cannot write ")) << name;
+        EXPECT_EQ(read_file(folder_ / name), "before");
+    }
+    for (const auto& entry : std::filesystem::directory_iterator(folder_.path())) {
+        EXPECT_TRUE(entry.is_regular_file()) << entry << " is left behind";
+    }
+}
+
+TEST_F(Program, GermanLocaleChangesNoNumber) {
+    ASSERT_EQ(run("a.off plain.off --depth 3 --step-size 1.5e-5").exit_code, 0);
+    const ProgramRun german =
+        run_program(folder_, "a.off german.off --depth 3 --step-size 1.5e-5 --report r.json",
+                    "LC_ALL=de_DE.UTF-8");
+    ASSERT_EQ(german.exit_code, 0);
+    EXPECT_THAT(german.output, HasSubstr("10 steps of 1.5e-05 in "));
+    EXPECT_EQ(read_file(folder_ / "german.off"), read_file(folder_ / "plain.off"));
+    EXPECT_THAT(read_file(folder_ / "r.json"), HasSubstr("\"step_size\": 1.5e-05"));
+}
+
+}  // namespace
+}  // namespace tracked_mcf

@@ -1,0 +1,43 @@
+/// STL: floats and triangles, each with its own vertices.
+
+#include <gtest/gtest.h>
+
+#include "filter_tracked_mcf/tool/mesh_file.h"
+#include "tests/tool/temporary_folder.h"
+
+namespace tracked_mcf {
+namespace {
+
+std::string triangle_bytes(float nx, float ny, float nz, float width, std::uint16_t color) {
+    return packed(nx, ny, nz, 0.f, 0.f, 0.f, width, 0.f, 0.f, 0.f, 1.f, 0.f, color);
+}
+
+TEST(Stl, TrianglesColoursAndOrderAreKept) {
+    const TemporaryFolder folder;
+    const std::string header = std::string(80, ' ') + packed(2u);
+    // Red and blue in five bits each; the first bit says that there is a colour.
+    const std::uint16_t red = 0x8000 | 31, blue = 0x8000 | (31 << 10);
+    write_file(folder / "in.stl",
+               header + triangle_bytes(9, 9, 9, 1, red) + triangle_bytes(9, 9, 9, 4, blue));
+    MeshFile file(folder / "in.stl");
+    TriangleMesh mesh = file.triangle_mesh();
+    ASSERT_EQ(mesh.triangles, (std::vector<Triangle>{{0, 1, 2}, {3, 4, 5}}));
+    for (auto& p : mesh.positions) p.x() *= 2;
+    file.write(mesh, folder / "out.stl", folder.path());
+    EXPECT_EQ(read_file(folder / "out.stl").substr(80),
+              packed(2u) + triangle_bytes(0, 0, 1, 2, red) + triangle_bytes(0, 0, 1, 8, blue));
+}
+
+TEST(Stl, AsciiIsReadAndBecomesBinary) {
+    const TemporaryFolder folder;
+    write_file(folder / "in.stl",
+               "solid thing\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1.5 0 0\n"
+               "vertex 0 1 0\nendloop\nendfacet\nendsolid thing\n");
+    MeshFile file(folder / "in.stl");
+    file.write(file.triangle_mesh(), folder / "out.stl", folder.path());
+    EXPECT_EQ(read_file(folder / "out.stl").substr(80),
+              packed(1u) + triangle_bytes(0, 0, 1, 1.5, 0));
+}
+
+}  // namespace
+}  // namespace tracked_mcf
