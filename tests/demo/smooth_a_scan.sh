@@ -1,0 +1,53 @@
+#!/usr/bin/env bash
+# From a fresh clone to a smoothed scan: installs what is missing (Debian bookworm), gets the Stanford
+# bunny of CGAL's examples, builds, smooths the bunny in stock meshlabserver with our plugin, and
+# draws it before and after: smooth_a_scan.sh
+#
+# Everything is put into build/; the MeshLab that is installed is not touched.
+set -euo pipefail
+
+root=$(realpath "$(dirname "$0")/../..")
+build=$root/build
+demo=$build/demo
+hosts=$root/tests/hosts/legacy
+mesh=$build/cgal-meshes/bunny00.off
+depth=0 step_size=1e-5 iterations=10 boundary=0 # the filter's defaults; boundary 0: locked cells
+
+say() { printf '\n== %s\n' "$*"; }
+
+say "Installing what is missing"
+"$root/external/install_debian.sh" demo
+"$root/external/cgal_meshes.sh" "$build/cgal-meshes"
+
+say "Building"
+cmake -S "$root" -B "$build" -DTRACKED_MCF_TESTS=OFF
+cmake --build "$build" --parallel "$(nproc)"
+
+say "Smoothing in meshlabserver"
+mkdir -p "$demo"
+plugin=$build/filter_tracked_mcf/plugin/legacy/libfilter_tracked_mcf.so
+plugin_dir=$(sed -n 's/^MESHLAB_PLUGIN_DIR:PATH=//p' "$build/CMakeCache.txt")
+"$hosts/private_prefix.sh" "$demo/meshlab" "$plugin_dir" "$plugin"
+"$hosts/flow_script.sh" $depth $step_size $iterations $boundary > "$demo/smooth.mlx"
+rm -f "$demo/smooth.ply"
+if ! xvfb-run -a "$demo/meshlab/bin/meshlabserver" -i "$mesh" -s "$demo/smooth.mlx" \
+    -o "$demo/smooth.ply" > "$demo/meshlabserver.log" 2>&1 || [ ! -e "$demo/smooth.ply" ]; then
+    cat "$demo/meshlabserver.log"
+    echo "smooth_a_scan.sh: meshlabserver failed; see above" >&2
+    exit 1
+fi
+grep -m1 -o "Moved .*" "$demo/meshlabserver.log"
+
+say "Drawing"
+/usr/bin/python3 "$root/tests/experiments/render.py" --output "$demo/before_and_after.png" \
+    --labels before after -- "$mesh" "$demo/smooth.ply"
+
+say "Done"
+cat << TEXT
+the scan:                 $mesh
+smoothed:                 $demo/smooth.ply
+before and after:         $demo/before_and_after.png
+the MeshLab script:       $demo/smooth.mlx
+MeshLab with the plugin:  $demo/meshlab/bin/meshlab
+the command-line program: $build/filter_tracked_mcf/tool/tracked_mcf
+TEXT
