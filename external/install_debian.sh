@@ -18,7 +18,7 @@ packages_of() {
         plugin) echo "$(packages_of program)" meshlab qtbase5-dev libqt5opengl5-dev libglew-dev \
             libglu1-mesa-dev ;;
         demo) echo "$(packages_of plugin)" xvfb xauth python3-vtk9 python3-numpy ;;
-        tests) echo "$(packages_of plugin)" libgtest-dev xvfb xauth xdotool imagemagick python3 \
+        tests) echo "$(packages_of plugin)" libgtest-dev libgmock-dev xvfb xauth xdotool imagemagick python3 \
             xz-utils ;;
         checks) echo clang-format clang-tidy libomp-dev git ;;
         *) echo "install_debian.sh: unknown task '$1'" >&2 && return 1 ;;

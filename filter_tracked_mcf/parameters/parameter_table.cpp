@@ -41,8 +41,9 @@ const std::vector<ParameterDescription>& parameter_table() {
          ParameterDescription::Integer{defaults.iterations}},
         {"boundary", "Boundary",
          "What happens at the rim of an open mesh. Locked cells: everything in a grid cell that "
-         "the rim passes through, and in the cells beside it, keeps its place; a greater depth "
-         "makes that band narrower. Free: nothing is held, so openings shrink and open meshes "
+         "the rim passes through keeps its place, and the cells beside it follow less; a greater "
+         "depth makes that band narrower. Free: nothing is held, so openings shrink and open "
+         "meshes "
          "degenerate quickly.",
          ParameterDescription::Choice{static_cast<int>(defaults.boundary),
                                       {"Locked cells", "Free"}}},

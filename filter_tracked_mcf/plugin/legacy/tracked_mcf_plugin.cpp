@@ -79,7 +79,7 @@ ParameterValues read_values(const RichParameterList& list) {
 
 TrackedMcfPlugin::TrackedMcfPlugin() {
     typeList << kMeanCurvatureFlow;
-    actionList << new QAction(filterName(kMeanCurvatureFlow), this);
+    actionList << new QAction(kFilterName, this);
 }
 
 QString TrackedMcfPlugin::pluginName() const {

@@ -1,0 +1,55 @@
+#!/usr/bin/env python3
+"""Flows the largest test scan by the command-line program, as a user would, and checks sizes and
+memory against what is known of it: large_scan_test.py TOOL bunny_scan_871k.ply.xz
+
+Exits with 77 (skipped) if the scan is not there.
+"""
+
+import json
+import lzma
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+
+SKIPPED = 77
+GIGABYTE = 1e9
+
+
+def flow(tool, compressed):
+    """The report of five steps at depth 9."""
+    with tempfile.TemporaryDirectory() as folder:
+        scan, report = pathlib.Path(folder, "scan.ply"), pathlib.Path(folder, "report.json")
+        with lzma.open(compressed) as source, open(scan, "wb") as target:
+            shutil.copyfileobj(source, target)
+        subprocess.run([tool, scan, pathlib.Path(folder, "smooth.ply"), "--depth", "9",
+                        "--iterations", "5", "--report", report], check=True)
+        return json.loads(report.read_text())
+
+
+def check(what, value, expected, tolerance):
+    print(f"{what}: {value:.6g}, expected {expected:.6g} within {tolerance:.2g}")
+    return abs(value - expected) <= tolerance
+
+
+def main():
+    tool, compressed = sys.argv[1:]
+    if not pathlib.Path(compressed).exists():
+        print(f"skipped: there is no {compressed}")
+        sys.exit(SKIPPED)
+    report = flow(tool, compressed)
+    memory = report["peak_memory_bytes"]
+    print(f"peak memory: {memory / GIGABYTE:.2f} GB, to be under 3")
+    passed = [
+        check("cells", report["cells"], 0.76e6, 0.0076e6),
+        check("unknowns", report["unknowns"], 1.52e6, 0.0152e6),
+        check("split triangles", report["split_triangles"], 9.49e6, 0.0949e6),
+        check("steps", len(report["steps"]), 5, 0),
+        memory < 3 * GIGABYTE,
+    ]
+    sys.exit(0 if all(passed) else 1)
+
+
+if __name__ == "__main__":
+    main()
