@@ -93,10 +93,10 @@ TYPED_TEST(MeshBridge, AVertexThatDidNotMoveKeepsItsBits) {
     const auto before = this->mesh.vert;
     write_positions(to_triangle_mesh(this->mesh), this->mesh);
     for (std::size_t i = 0; i < before.size(); ++i) {
-        const TypeParam* const was = before[i].cP().V();
-        const TypeParam* const is = this->mesh.vert[i].cP().V();
+        const auto was = before[i].cP();
+        const auto is = this->mesh.vert[i].cP();
         // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison): the representation is the point
-        EXPECT_EQ(std::memcmp(was, is, 3 * sizeof(TypeParam)), 0);
+        EXPECT_EQ(std::memcmp(was.V(), is.V(), 3 * sizeof(TypeParam)), 0);
     }
 }
 
