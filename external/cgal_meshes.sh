@@ -19,7 +19,6 @@ command -v apt-get > /dev/null && command -v dpkg-deb > /dev/null || {
 
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-apt-cache show libcgal-demo > /dev/null 2>&1 || apt-get -q update # where the lists were cleaned away
 # apt's own user cannot write to our folder: say so now instead of being warned about it.
 (cd "$work" && apt-get -q -o APT::Sandbox::User=root download libcgal-demo)
 dpkg-deb -x "$work"/libcgal-demo_*.deb "$work/package"

@@ -18,14 +18,18 @@ packages_of() {
         plugin) echo "$(packages_of program)" meshlab qtbase5-dev libqt5opengl5-dev libglew-dev \
             libglu1-mesa-dev ;;
         demo) echo "$(packages_of plugin)" xvfb xauth python3-vtk9 python3-numpy ;;
-        tests) echo "$(packages_of plugin)" libgtest-dev libgmock-dev xvfb xauth xdotool imagemagick python3 \
-            xz-utils ;;
+        tests) echo "$(packages_of plugin)" libgtest-dev libgmock-dev xvfb xauth xdotool \
+            imagemagick python3 ;;
         checks) echo clang-format clang-tidy libomp-dev git ;;
         *) echo "install_debian.sh: unknown task '$1'" >&2 && return 1 ;;
     esac
 }
 
-is_installed() { dpkg-query -W -f '${db:Status-Status}' "$1" 2> /dev/null | grep -qx installed; }
+is_installed() { dpkg-query -W -f '${db:Status-Status}\n' "$1" 2> /dev/null | grep -qx installed; }
+
+# Whether apt has its package lists, which the scripts beside this one need; images often come
+# without.
+has_lists() { [ -n "$(apt-get indextargets 'Created-By: Packages')" ]; }
 
 [ $# -gt 0 ] || { sed -n '2,11s/^# \{0,1\}//p' "$0" >&2 && exit 2; }
 if ! command -v apt-get > /dev/null; then
@@ -41,10 +45,9 @@ for task in "$@"; do
         is_installed "$package" || missing+=("$package")
     done
 done
-[ ${#missing[@]} -gt 0 ] || exit 0
-
 as_root=()
 [ "$(id -u)" = 0 ] || as_root=(sudo)
-"${as_root[@]}" apt-get -q update
+if [ ${#missing[@]} -gt 0 ] || ! has_lists; then "${as_root[@]}" apt-get -q update; fi
+[ ${#missing[@]} -gt 0 ] || exit 0
 "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -q install -y --no-install-recommends \
     "${missing[@]}"

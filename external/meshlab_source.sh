@@ -26,11 +26,19 @@ apt-get indextargets --format '$(SITE)|$(RELEASE)|$(COMPONENT)|$(ORIGIN)' 'Creat
     awk -F'|' '$3 == "main" && $4 == "Debian" && !seen[$1 $2]++ {
         print "deb-src " $1 " " $2 " main" }' > "$work/sources.list"
 
+[ -s "$work/sources.list" ] || {
+    echo "meshlab_source.sh: apt has no package lists; run 'apt-get update' as root, then try again" >&2
+    exit 1
+}
+
+# The same release as the library that the plugin will be linked with, where that is installed.
+version=$(dpkg-query -W -f '${source:Version}' meshlab 2> /dev/null || true)
+
 private_apt=(apt-get -q -o Dir::Etc::SourceList="$work/sources.list"
     -o Dir::Etc::SourceParts=/dev/null -o Dir::State::Lists="$work/lists"
     -o APT::Sandbox::User=root)
 "${private_apt[@]}" update
-(cd "$work/source" && "${private_apt[@]}" source --only-source meshlab)
+(cd "$work/source" && "${private_apt[@]}" source --only-source "meshlab${version:+=$version}")
 
 mkdir -p "$destination"
 cp -a "$work"/source/meshlab-*/. "$destination/"

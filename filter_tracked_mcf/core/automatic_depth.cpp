@@ -1,9 +1,11 @@
+#include "filter_tracked_mcf/core/automatic_depth.h"
+
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
+#include "filter_tracked_mcf/core/flow_parameters.h"
 #include "filter_tracked_mcf/core/fragments.h"
-#include "filter_tracked_mcf/core/tracked_elements.h"
+#include "filter_tracked_mcf/core/octree.h"
 
 namespace tracked_mcf {
 
@@ -12,41 +14,63 @@ namespace {
 /// On a surface of area A (in cells²) there are about 3 A unknowns.
 constexpr double kUnknownsPerArea = 3;
 
-/// The depth at which about as many unknowns as vertices are to be expected, rounded up.
-int expected_depth(const TriangleMesh& mesh, std::int64_t vertices) {
-    const Grid cube = enclosing_grid(mesh, 0);
-    const double area = surface_area(mesh) / (cube.cell_size * cube.cell_size);
-    if (!(area > 0)) return 1;
-    const double depth = 0.5 * std::log2(static_cast<double>(vertices) / (kUnknownsPerArea * area));
-    return static_cast<int>(std::clamp(std::ceil(depth), 1.0, static_cast<double>(kMaximumDepth)));
+std::int64_t count_distinct_vertices(const TriangleMesh& mesh) {
+    const std::vector<bool> referenced = referenced_vertices(mesh);
+    const std::vector<std::int32_t> welded = weld_coincident_vertices(mesh);
+    std::int64_t count = 0;
+    for (std::int32_t vertex = 0; vertex < static_cast<std::int32_t>(welded.size()); ++vertex) {
+        count += referenced[vertex] && welded[vertex] == vertex ? 1 : 0;
+    }
+    return count;
 }
 
-/// Numbers of unknowns of every level, coarsest first.
-std::vector<std::int64_t> count_unknowns(const TriangleMesh& mesh, int depth) {
+/// A depth from which to count upwards: one less than what a surface of this area needs for as many
+/// unknowns as vertices. Of a surface that is much thinner than its box, whose area says little, no
+/// more than a flat square would need.
+int first_depth(const TriangleMesh& mesh, std::int64_t vertices) {
+    const Grid cube = enclosing_grid(mesh, 0);
+    const double area = std::max(1.0, surface_area(mesh) / (cube.cell_size * cube.cell_size));
+    const double depth = 0.5 * std::log2(static_cast<double>(vertices) / (kUnknownsPerArea * area));
+    return std::clamp(static_cast<int>(std::lround(depth)) - 1, 1, kMaximumDepth);
+}
+
+std::int64_t unknowns_at(int depth, const TriangleMesh& mesh) {
     const Grid grid = enclosing_grid(mesh, depth);
-    std::vector<std::int64_t> counts;
-    for (const Level& level :
-         build_levels(occupied_cells(list_fragments(to_grid(mesh, grid), grid)), depth)) {
-        counts.push_back(level.unknown_count());
-    }
-    return counts;
+    return count_unknowns(occupied_cells(list_fragments(to_grid(mesh, grid), grid)), depth);
+}
+
+bool has_area(const TriangleMesh& mesh) {
+    const GridMesh in_cube = to_grid(mesh, enclosing_grid(mesh, 0));
+    return count_degenerate(in_cube) < static_cast<std::int64_t>(mesh.triangles.size());
 }
 
 }  // namespace
 
 int automatic_depth(const TriangleMesh& mesh) {
-    const std::vector<bool> referenced = referenced_vertices(mesh);
-    const std::int64_t vertices = std::count(referenced.begin(), referenced.end(), true);
-    int deepest = expected_depth(mesh, vertices);
-    std::vector<std::int64_t> unknowns = count_unknowns(mesh, deepest);
-    while (unknowns.back() < vertices && deepest < kMaximumDepth) {
-        unknowns = count_unknowns(mesh, ++deepest);
+    if (!has_area(mesh)) return 1;
+    const std::int64_t vertices = count_distinct_vertices(mesh);
+    constexpr std::int64_t not_counted = -1;
+    std::int64_t finer = not_counted;
+    int depth = first_depth(mesh, vertices);
+    std::int64_t unknowns = unknowns_at(depth, mesh);
+    while (unknowns >= vertices && depth > 1) {
+        finer = unknowns;
+        unknowns = unknowns_at(--depth, mesh);
     }
-    const auto nearest =
-        std::min_element(unknowns.begin() + 1, unknowns.end(), [&](std::int64_t a, std::int64_t b) {
-            return std::abs(a - vertices) < std::abs(b - vertices);
-        });
-    return static_cast<int>(nearest - unknowns.begin());
+    while (unknowns < vertices && depth < kMaximumDepth) {
+        if (finer == not_counted) {
+            // With twice as many unknowns or more, the next depth would be farther off.
+            if (3 * unknowns >= 2 * vertices) return depth;
+            finer = unknowns_at(depth + 1, mesh);
+        }
+        if (finer >= vertices) {
+            return vertices - unknowns <= finer - vertices ? depth : depth + 1;
+        }
+        ++depth;
+        unknowns = finer;
+        finer = not_counted;
+    }
+    return depth;
 }
 
 }  // namespace tracked_mcf

@@ -4,8 +4,9 @@
 
 namespace tracked_mcf {
 
-/// Base of everything the core throws. what() says, in one sentence a user can act on, what is
-/// wrong and what to do. Whenever one is thrown the caller's mesh has not been touched.
+/// Base of what the core throws by itself (memory can run out besides, and a callback's own
+/// exceptions pass through). what() says, in one sentence a user can act on, what is wrong and what
+/// to do. Whenever one is thrown the caller's mesh has not been touched.
 class Error : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "filter_tracked_mcf/core/automatic_depth.h"
 #include "filter_tracked_mcf/core/boundary.h"
 #include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/parallel.h"
+#include "filter_tracked_mcf/core/pinches.h"
 #include "filter_tracked_mcf/core/stopwatch.h"
 
 namespace tracked_mcf {
@@ -43,9 +45,10 @@ Flow::Flow(const TriangleMesh& mesh, const FlowParameters& parameters, const Gri
       elements_(build_tracked_elements(mesh, grid, parameters.cubature)),
       grid_step_size_(to_grid_units(parameters.step_size, mesh, grid)),
       multigrid_(elements_, locked_unknowns(elements_, parameters.boundary)),
-      pinches_(elements_),
+      supports_(measure_supports(elements_)),
       displacement_(Coefficients::Zero(elements_.finest().unknown_count(), 3)) {
     fill_report(mesh);
+    freeze_negligible(supports_, multigrid_.frozen());
 }
 
 void Flow::fill_report(const TriangleMesh& mesh) {
@@ -74,7 +77,7 @@ void Flow::assemble(StepReport& report) {
     const Stopwatch stopwatch;
     assemble_elements(elements_, displacement_, {1.0F, static_cast<float>(grid_step_size_)},
                       systems_);
-    pinches_.freeze(systems_, multigrid_.frozen());
+    freeze_pinched(elements_, supports_, systems_, multigrid_.frozen());
     multigrid_.refresh(systems_.matrices);
     multigrid_.finest().assemble(systems_.right_sides, right_side_);
     report.area = systems_.area * elements_.grid.cell_size * elements_.grid.cell_size;
@@ -95,8 +98,7 @@ void Flow::solve(StepReport& report) {
     if (!all_finite(solution_)) {
         throw NumericalFailure(
             "The flow broke down: its numbers are no longer finite. Use a smaller step size or "
-            "fewer "
-            "iterations.");
+            "fewer iterations.");
     }
     displacement_ += solution_.topRows<3>().transpose().cast<double>();
     report.solve_seconds = stopwatch.seconds();

@@ -1,12 +1,10 @@
 #pragma once
 
-#include <memory>
-
 #include "filter_tracked_mcf/core/flow_parameters.h"
 #include "filter_tracked_mcf/core/flow_report.h"
 #include "filter_tracked_mcf/core/grid.h"
 #include "filter_tracked_mcf/core/multigrid.h"
-#include "filter_tracked_mcf/core/pinches.h"
+#include "filter_tracked_mcf/core/supports.h"
 #include "filter_tracked_mcf/core/tracked_elements.h"
 #include "filter_tracked_mcf/core/triangle_mesh.h"
 
@@ -25,6 +23,9 @@ public:
 
     /// The same on a grid of the caller's choice, which must enclose the mesh.
     Flow(const TriangleMesh& mesh, const FlowParameters& parameters, const Grid& grid);
+
+    Flow(const Flow&) = delete;
+    Flow& operator=(const Flow&) = delete;
 
     /// Solves (D + δS) d = -δ S x(t) for the displacement d = x(t+δ) - x(t), which is equation 2,
     /// and adds it. Throws NumericalFailure if it is not finite, leaving the embedding as it was.
@@ -51,7 +52,7 @@ private:
     TrackedElements elements_;
     double grid_step_size_;
     Multigrid multigrid_;
-    Pinches pinches_;
+    Supports supports_;
     Coefficients displacement_;
 
     // Refilled by every step.

@@ -1,6 +1,5 @@
 #include "filter_tracked_mcf/core/flow_parameters.h"
 
-#include <cmath>
 #include <sstream>
 #include <string>
 
@@ -26,10 +25,10 @@ void validate(const FlowParameters& parameters) {
     check_range("threads", parameters.threads, 0, kMaximumThreads,
                 ", where 0 takes all that OpenMP offers");
     const double step = parameters.step_size;
-    if (!(std::isfinite(step) && step > 0)) {
+    if (!(step > 0 && step <= kMaximumStepSize)) {
         std::ostringstream message;
-        message << "step_size is " << step
-                << "; give a finite number greater than 0, such as 1e-5.";
+        message << "step_size is " << step << "; give a number greater than 0 and at most "
+                << kMaximumStepSize << ", such as 1e-5.";
         throw InvalidParameter(message.str());
     }
 }

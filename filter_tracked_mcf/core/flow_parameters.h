@@ -16,6 +16,7 @@ enum class Cubature {
 };
 
 inline constexpr int kMaximumDepth = 12;
+inline constexpr double kMaximumStepSize = 1e9;
 inline constexpr int kMaximumIterations = 1000000;
 inline constexpr int kMaximumCycles = 1000;
 inline constexpr int kMaximumThreads = 1024;
@@ -28,6 +29,8 @@ struct FlowParameters {
 
     /// Step size δ for the model scaled so that the longest side of its bounding box is 1. δ is a
     /// time, so a squared length: detail smaller than about √δ is smoothed away by one step.
+    /// Greater than 0 and at most kMaximumStepSize, where all of the step is long since the
+    /// Laplacian.
     double step_size = 1e-5;
 
     /// Number of semi-implicit steps, 1 to kMaximumIterations.
@@ -40,7 +43,7 @@ struct FlowParameters {
     int cycles = 1;
 
     /// OpenMP threads; 0 takes what OpenMP offers (OMP_NUM_THREADS is respected). The result is
-    /// the same bits whatever the number.
+    /// the same bits whatever the number. For evolve(); a Flow leaves it to its caller.
     int threads = 0;
 };
 

@@ -17,6 +17,11 @@ constexpr double kDegenerateShape = 1e-12;
 // The payload of a sorted pair: the triangle below, the size of the fan above.
 constexpr unsigned kFanShift = 32;
 
+Eigen::Vector3d rounded(const Eigen::Vector3d& position) {
+    constexpr double steps_per_cell = 0x1p30;
+    return (steps_per_cell * position).array().round() / steps_per_cell;
+}
+
 void add_fragments(const GridMesh& mesh, std::int32_t triangle, std::int32_t cells_per_side,
                    std::vector<KeyValue>& pairs) {
     const auto corners = mesh.corners(triangle);
@@ -40,16 +45,17 @@ void check_inside(const GridMesh& mesh, const Grid& grid) {
 }  // namespace
 
 std::array<Eigen::Vector3d, 3> GridMesh::corners(std::int32_t triangle) const {
-    const Triangle& vertices = triangles[triangle];
+    const Triangle& vertices = original.triangles[triangle];
     return {positions[vertices[0]], positions[vertices[1]], positions[vertices[2]]};
 }
 
 GridMesh to_grid(const TriangleMesh& mesh, const Grid& grid) {
     const std::vector<bool> referenced = referenced_vertices(mesh);
-    GridMesh result{std::vector<Eigen::Vector3d>(mesh.positions.size(), Eigen::Vector3d::Zero()),
-                    mesh.triangles};
+    GridMesh result{mesh,
+                    std::vector<Eigen::Vector3d>(mesh.positions.size(), Eigen::Vector3d::Zero())};
     for (std::size_t vertex = 0; vertex < mesh.positions.size(); ++vertex) {
-        if (referenced[vertex]) result.positions[vertex] = grid.to_grid(mesh.positions[vertex]);
+        if (referenced[vertex])
+            result.positions[vertex] = rounded(grid.to_grid(mesh.positions[vertex]));
     }
     return result;
 }
@@ -61,9 +67,17 @@ bool is_degenerate(const std::array<Eigen::Vector3d, 3>& corners) {
     return 0.5 * a.cross(b).norm() <= kDegenerateShape * longest;
 }
 
+std::int64_t count_degenerate(const GridMesh& mesh) {
+    std::int64_t count = 0;
+    for (std::size_t triangle = 0; triangle < mesh.original.triangles.size(); ++triangle) {
+        count += is_degenerate(mesh.corners(static_cast<std::int32_t>(triangle))) ? 1 : 0;
+    }
+    return count;
+}
+
 std::vector<FragmentEntry> list_fragments(const GridMesh& mesh, const Grid& grid) {
     check_inside(mesh, grid);
-    const auto count = static_cast<std::int64_t>(mesh.triangles.size());
+    const auto count = static_cast<std::int64_t>(mesh.original.triangles.size());
     auto pairs = parallel_collect<KeyValue>(count, [&](std::int64_t begin, std::int64_t end,
                                                        std::vector<KeyValue>& out) {
         for (std::int64_t triangle = begin; triangle < end; ++triangle) {

@@ -11,10 +11,12 @@
 
 namespace tracked_mcf {
 
-/// A mesh in the coordinates of a grid.
+/// A mesh in the coordinates of a grid, for clipping: rounded to 2^-30 of a cell. What lies in a
+/// grid plane but for rounding errors then lies in it; else it would be cut along a line that is
+/// nothing but rounding, into parts that overlap.
 struct GridMesh {
-    std::vector<Eigen::Vector3d> positions;  ///< grid coordinates; zero where unreferenced
-    const std::vector<Triangle>& triangles;
+    const TriangleMesh& original;
+    std::vector<Eigen::Vector3d> positions;  ///< zero where unreferenced
 
     std::array<Eigen::Vector3d, 3> corners(std::int32_t triangle) const;
 };
@@ -24,6 +26,8 @@ GridMesh to_grid(const TriangleMesh& mesh, const Grid& grid);
 /// Whether a triangle has, to the accuracy of doubles, no area and so no plane: less than 1e-12 of
 /// the square of its longest edge.
 bool is_degenerate(const std::array<Eigen::Vector3d, 3>& corners);
+
+std::int64_t count_degenerate(const GridMesh& mesh);
 
 /// Which triangle has a part in which cell. Degenerate triangles are listed too: they carry no
 /// area, but they hold the surface together and their vertices need functions.

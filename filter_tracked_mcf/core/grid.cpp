@@ -16,6 +16,9 @@ constexpr double kCubeToModel = 1.1;
 constexpr double kSmallestSide = 1e-140;
 constexpr double kLargestSide = 1e140;
 
+/// Distance from the origin, in sides, at which doubles have four digits left for the mesh.
+constexpr double kFarthest = 1e12;
+
 Eigen::AlignedBox3d bounding_box(const TriangleMesh& mesh) {
     Eigen::AlignedBox3d box;
     for (const Triangle& triangle : mesh.triangles) {
@@ -33,6 +36,11 @@ double checked_longest_side(const Eigen::AlignedBox3d& box) {
         throw InvalidMesh(
             "The mesh is too large or too small to compute with; scale it so that its "
             "bounding box has sides between 1e-140 and 1e140.");
+    }
+    if (box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).maxCoeff() > kFarthest * side) {
+        throw InvalidMesh(
+            "The mesh lies so far from the origin that its coordinates cannot tell its "
+            "vertices apart; move it to the origin.");
     }
     return side;
 }

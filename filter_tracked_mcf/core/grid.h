@@ -22,7 +22,8 @@ struct Grid {
 };
 
 /// Longest side of the bounding box of the referenced vertices, mesh units. Throws InvalidMesh if
-/// it is zero, or too large or too small for the arithmetic of doubles.
+/// it is zero, too large or too small for the arithmetic of doubles, or lost beside the mesh's
+/// distance from the origin.
 double longest_side(const TriangleMesh& mesh);
 
 /// The grid whose cube has 1.1 times the longest side of the mesh's bounding box (referenced

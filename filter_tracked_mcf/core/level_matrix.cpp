@@ -1,7 +1,9 @@
 #include "filter_tracked_mcf/core/level_matrix.h"
 
 #include <algorithm>
+#include <limits>
 
+#include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/parallel.h"
 
 namespace tracked_mcf {
@@ -46,6 +48,9 @@ void LevelMatrix::make_pattern() {
                     static_cast<std::int32_t>(out.size()) - static_cast<std::int32_t>(first);
             }
         });
+    if (columns.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
+        throw InvalidParameter("The octree is too deep for this mesh; choose a smaller depth.");
+    }
     matrix_.resizeNonZeros(static_cast<Eigen::Index>(columns.size()));
     std::int32_t* const row_begin = matrix_.outerIndexPtr();
     row_begin[0] = 0;
@@ -101,22 +106,13 @@ void LevelMatrix::assemble(const std::vector<ElementVector>& elements, Field& ve
     });
 }
 
-Eigen::Vector4f LevelMatrix::row_times(std::int32_t row, const Field& x) const {
-    Eigen::Vector4f sum = Eigen::Vector4f::Zero();
-    const std::int32_t end = matrix_.outerIndexPtr()[row + 1];
-    for (std::int32_t k = matrix_.outerIndexPtr()[row]; k < end; ++k) {
-        sum += matrix_.valuePtr()[k] * x.col(matrix_.innerIndexPtr()[k]);
-    }
-    return sum;
-}
-
 void LevelMatrix::residual(const Field& right_side, const Field& x, Field& residual) const {
     residual.resize(4, level_.unknown_count());
     parallel_for_rows(level_.unknown_count(), [&](std::int32_t row) {
         if (inverse_diagonal_[row] == 0) {
             residual.col(row).setZero();
         } else {
-            residual.col(row) = right_side.col(row) - row_times(row, x);
+            residual.col(row) = right_side.col(row) - row_times(matrix_, row, x);
         }
     });
 }

@@ -7,7 +7,7 @@
 #include "filter_tracked_mcf/core/field.h"
 #include "filter_tracked_mcf/core/octree.h"
 #include "filter_tracked_mcf/core/sorting.h"
-#include "filter_tracked_mcf/core/transfer.h"
+#include "filter_tracked_mcf/core/sparse_matrix.h"
 
 namespace tracked_mcf {
 
@@ -30,9 +30,6 @@ public:
 
     /// Sums element vectors in the same way.
     void assemble(const std::vector<ElementVector>& elements, Field& vector) const;
-
-    /// Row `row` of A x.
-    Eigen::Vector4f row_times(std::int32_t row, const Field& x) const;
 
     /// residual = right_side - A x, zero for unknowns that are not to move.
     void residual(const Field& right_side, const Field& x, Field& residual) const;

@@ -7,20 +7,6 @@
 
 namespace tracked_mcf {
 
-namespace {
-
-/// Row `row` of matrix * x.
-Eigen::Vector4f row_times(const SparseMatrix& matrix, std::int32_t row, const Field& x) {
-    Eigen::Vector4f sum = Eigen::Vector4f::Zero();
-    const std::int32_t end = matrix.outerIndexPtr()[row + 1];
-    for (std::int32_t k = matrix.outerIndexPtr()[row]; k < end; ++k) {
-        sum += matrix.valuePtr()[k] * x.col(matrix.innerIndexPtr()[k]);
-    }
-    return sum;
-}
-
-}  // namespace
-
 Multigrid::LevelData::LevelData(const TrackedElements& elements, std::size_t level)
     : matrix(elements.levels[level]), smoother(elements.levels[level]) {
     if (level > 0) {
@@ -95,8 +81,8 @@ void Multigrid::restrict_residual(std::size_t level) {
 
 void Multigrid::add_correction(std::size_t level, Field& x) const {
     parallel_for_rows(x.cols(), [&](std::int32_t row) {
-        // Where everything has collapsed nothing constrains a coefficient; it keeps its place and
-        // anchors the vertices (section 5.1).
+        // Frozen, or nothing constrains it because all of its support has collapsed: it keeps its
+        // place and anchors the vertices (section 5.1).
         if (levels_[level].matrix.inverse_diagonal()[row] == 0) return;
         x.col(row) += row_times(levels_[level].prolongation, row, levels_[level - 1].x);
     });

@@ -26,6 +26,8 @@ public:
     /// `frozen`: for every level, coarsest first, which unknowns stay zero. `elements` must outlive
     /// this.
     Multigrid(const TrackedElements& elements, std::vector<std::vector<std::uint8_t>> frozen);
+    Multigrid(const Multigrid&) = delete;
+    Multigrid& operator=(const Multigrid&) = delete;
 
     /// Takes the finest level's element matrices and makes every level's matrix from them.
     void refresh(const std::vector<ElementMatrix>& finest);

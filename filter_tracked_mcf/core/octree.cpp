@@ -1,8 +1,11 @@
 #include "filter_tracked_mcf/core/octree.h"
 
 #include <algorithm>
+#include <limits>
+#include <string>
 
 #include "filter_tracked_mcf/core/bspline.h"
+#include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/parallel.h"
 #include "filter_tracked_mcf/core/sorting.h"
 
@@ -56,6 +59,12 @@ std::vector<KeyValue> list_corners(const Level& level, const CornerNumbering& nu
 }
 
 void number_unknowns(Level& level) {
+    // Corners of elements, eight each, are numbered with 32 bits.
+    constexpr std::size_t most = std::numeric_limits<std::int32_t>::max() / 8;
+    if (level.cells.size() > most) {
+        throw InvalidParameter("The octree would have more than " + std::to_string(most) +
+                               " cells; choose a smaller depth.");
+    }
     const CornerNumbering numbering{(std::uint64_t{1} << static_cast<unsigned>(level.depth)) + 1};
     std::vector<KeyValue> corners = list_corners(level, numbering);
     sort_by_key(corners);
@@ -80,6 +89,14 @@ std::vector<Level> build_levels(std::vector<MortonCode> finest_cells, int depth)
         number_unknowns(levels[l]);
     }
     return levels;
+}
+
+std::int64_t count_unknowns(std::vector<MortonCode> cells, int depth) {
+    Level level;
+    level.depth = depth;
+    level.cells = std::move(cells);
+    number_unknowns(level);
+    return level.unknown_count();
 }
 
 }  // namespace tracked_mcf

@@ -27,7 +27,11 @@ struct Level {
 };
 
 /// All levels above `finest_cells` (increasing, without repetition), which lie at `depth`. Level 0,
-/// the coarsest, is the whole cube; level l has 2^l cells a side.
+/// the coarsest, is the whole cube; level l has 2^l cells a side. Throws InvalidParameter if there
+/// are more than can be numbered.
 std::vector<Level> build_levels(std::vector<MortonCode> finest_cells, int depth);
+
+/// Number of unknowns of a level with these cells (increasing, without repetition) at `depth`.
+std::int64_t count_unknowns(std::vector<MortonCode> cells, int depth);
 
 }  // namespace tracked_mcf

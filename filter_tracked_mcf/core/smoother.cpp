@@ -12,7 +12,7 @@ constexpr std::int32_t kSmallestSlab = 8192;
 void relax(const LevelMatrix& matrix, const Field& right_side, Field& x, std::int32_t row) {
     const float inverse = matrix.inverse_diagonal()[row];
     if (inverse == 0) return;
-    x.col(row) += inverse * (right_side.col(row) - matrix.row_times(row, x));
+    x.col(row) += inverse * (right_side.col(row) - row_times(matrix.matrix(), row, x));
 }
 
 }  // namespace

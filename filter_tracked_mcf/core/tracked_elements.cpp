@@ -108,7 +108,7 @@ private:
         for (int i = 0; i < polygon.size; ++i) {
             const int corner = polygon.corner[i];
             if (corner != Polygon::kNone) {
-                claim(claims_[welded_[mesh_.triangles[triangle][corner]]], element);
+                claim(claims_[welded_[mesh_.original.triangles[triangle][corner]]], element);
             }
             const int edge = polygon.edge[i];
             if (edge != Polygon::kNone && ((boundary_[triangle] >> edge) & 1) != 0 &&
@@ -126,7 +126,9 @@ private:
             const std::int32_t element = claims_[first].load(std::memory_order_relaxed);
             if (element == kUnclaimed) continue;
             const Cell cell = cell_at(elements_.finest().cells[element]);
-            elements_.vertices[vertex] = {element, mesh_.positions[first] - cell.cast<double>()};
+            const Eigen::Vector3d position =
+                elements_.grid.to_grid(mesh_.original.positions[first]);
+            elements_.vertices[vertex] = {element, position - cell.cast<double>()};
         }
     }
 
@@ -138,14 +140,6 @@ private:
     const std::vector<CubatureNode>& rule_;
     Claims claims_;
 };
-
-std::int64_t count_degenerate(const GridMesh& mesh) {
-    std::int64_t count = 0;
-    for (std::size_t triangle = 0; triangle < mesh.triangles.size(); ++triangle) {
-        count += is_degenerate(mesh.corners(static_cast<std::int32_t>(triangle))) ? 1 : 0;
-    }
-    return count;
-}
 
 std::int64_t count_bits(const std::vector<std::uint8_t>& masks) {
     std::int64_t count = 0;

@@ -52,7 +52,7 @@ struct TrackedElements {
     std::int64_t split_triangle_count = 0;
     std::int64_t fragment_count = 0;  ///< of triangles that are not degenerate
     std::int64_t referenced_vertex_count = 0;
-    std::int64_t degenerate_triangle_count = 0;
+    std::int64_t degenerate_triangle_count = 0;  ///< see is_degenerate
     std::int64_t boundary_edge_count = 0;
 
     const Level& finest() const { return levels.back(); }
@@ -62,10 +62,6 @@ struct TrackedElements {
 /// InvalidMesh if all triangles are degenerate or a vertex lies outside the grid's cube.
 TrackedElements build_tracked_elements(const TriangleMesh& mesh, const Grid& grid,
                                        Cubature cubature);
-
-/// The depth, 1 to kMaximumDepth, whose number of unknowns is nearest the number of referenced
-/// vertices.
-int automatic_depth(const TriangleMesh& mesh);
 
 /// Coefficients of the identity, Σ (i, j, k) B_ijk(p) = p (section 5.3): of every unknown of the
 /// finest level its corner, grid coordinates.

@@ -1,12 +1,9 @@
 #pragma once
 
-#include <Eigen/SparseCore>
-
 #include "filter_tracked_mcf/core/octree.h"
+#include "filter_tracked_mcf/core/sparse_matrix.h"
 
 namespace tracked_mcf {
-
-using SparseMatrix = Eigen::SparseMatrix<float, Eigen::RowMajor, std::int32_t>;
 
 /// The prolongation P from the unknowns of `coarse` (columns) to those of `fine` (rows): a coarse
 /// B-spline is Σ_i P_iJ b_i, the sum of finer ones with weights 1, 1/2, 1/4 and 1/8. Fine functions

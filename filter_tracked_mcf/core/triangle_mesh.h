@@ -19,8 +19,7 @@ struct TriangleMesh {
 };
 
 /// Throws InvalidMesh unless the mesh has vertices and triangles, every index is in range, every
-/// vertex that a triangle uses is finite, and the mesh has an extent that doubles can divide by.
-/// Unreferenced vertices are ignored, whatever they hold.
+/// vertex that a triangle uses is finite. Unreferenced vertices are ignored, whatever they hold.
 void validate(const TriangleMesh& mesh);
 
 /// For every vertex: whether some triangle uses it.
@@ -31,9 +30,9 @@ std::vector<bool> referenced_vertices(const TriangleMesh& mesh);
 std::vector<std::int32_t> weld_coincident_vertices(const TriangleMesh& mesh);
 
 /// For every triangle, bit i is set if its edge from corner i to corner (i + 1) % 3 is on the
-/// boundary: no other triangle has an edge between the same two vertices, coincident vertices
-/// counting as one (`welded` as weld_coincident_vertices returns it). An edge between two equal
-/// vertices is never on the boundary.
+/// boundary: no other triangle has that edge, coincident vertices counting as one (`welded` as
+/// weld_coincident_vertices returns it) and copies of a triangle as one triangle. Triangles with
+/// two equal vertices do not count at all.
 std::vector<std::uint8_t> boundary_edges(const TriangleMesh& mesh,
                                          const std::vector<std::int32_t>& welded);
 

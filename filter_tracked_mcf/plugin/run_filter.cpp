@@ -5,17 +5,7 @@
 #include <numeric>
 #include <sstream>
 
-namespace tracked_mcf::run_filter_detail {
-
-namespace {
-
-double seconds_of(const std::vector<StepReport>& steps) {
-    return std::accumulate(steps.begin(), steps.end(), 0.0, [](double sum, const StepReport& step) {
-        return sum + step.assemble_seconds + step.solve_seconds;
-    });
-}
-
-}  // namespace
+namespace tracked_mcf {
 
 FilterOutcome guard(const std::function<std::string()>& work) {
     try {
@@ -29,6 +19,18 @@ FilterOutcome guard(const std::function<std::string()>& work) {
     }
 }
 
+namespace run_filter_detail {
+
+namespace {
+
+double seconds_of(const std::vector<StepReport>& steps) {
+    return std::accumulate(steps.begin(), steps.end(), 0.0, [](double sum, const StepReport& step) {
+        return sum + step.assemble_seconds + step.solve_seconds;
+    });
+}
+
+}  // namespace
+
 Progress as_progress(HostCallback* callback) {
     if (callback == nullptr) return {};
     return [callback](double fraction, std::string_view phase) {
@@ -39,7 +41,7 @@ Progress as_progress(HostCallback* callback) {
 std::string summary(const FlowReport& report) {
     std::ostringstream text;
     text.precision(3);
-    text << "Moved " << report.vertices << " vertices by " << report.steps.size()
+    text << "Smoothed " << report.vertices << " vertices by " << report.steps.size()
          << " steps of mean-curvature flow: depth " << report.depth << ", " << report.unknowns
          << " unknowns";
     if (report.locked_unknowns > 0) text << " (" << report.locked_unknowns << " locked)";
@@ -51,4 +53,6 @@ std::string summary(const FlowReport& report) {
     return text.str();
 }
 
-}  // namespace tracked_mcf::run_filter_detail
+}  // namespace run_filter_detail
+
+}  // namespace tracked_mcf

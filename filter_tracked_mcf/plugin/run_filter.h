@@ -18,11 +18,11 @@ struct FilterOutcome {
     std::string message;  ///< for the user: what was done, or what is wrong and what to do
 };
 
-namespace run_filter_detail {
-
 /// What `work` returns as the message of a success; what it throws, be it what it may, as that of a
 /// failure: no host survives an exception.
 FilterOutcome guard(const std::function<std::string()>& work);
+
+namespace run_filter_detail {
 
 /// A host's callback, which may be null, as the core's.
 Progress as_progress(HostCallback* callback);
@@ -32,19 +32,18 @@ std::string summary(const FlowReport& report);
 
 }  // namespace run_filter_detail
 
-/// The whole filter, for any host: flows a layer's mesh of any vcglib type. Positions are written
+/// The whole filter, for any host: flows a layer's mesh of any vcglib type and returns what to tell
+/// the user; to be called under guard(), for it throws what the core throws. Positions are written
 /// last, so a failure, or a callback that returns false, leaves the mesh as it was. Nothing else of
 /// the mesh is touched; normals and bounding box are the host's to update.
 template <class VcgMesh>
-FilterOutcome run_filter(VcgMesh& mesh, const ParameterValues& values, HostCallback* callback) {
+std::string run_filter(VcgMesh& mesh, const ParameterValues& values, HostCallback* callback) {
     using namespace run_filter_detail;
-    return guard([&] {
-        const FlowParameters parameters = flow_parameters(values);
-        TriangleMesh moved = to_triangle_mesh(mesh);
-        const FlowReport report = evolve(moved, parameters, as_progress(callback));
-        write_positions(moved, mesh);
-        return summary(report);
-    });
+    const FlowParameters parameters = flow_parameters(values);
+    TriangleMesh moved = to_triangle_mesh(mesh);
+    const FlowReport report = evolve(moved, parameters, as_progress(callback));
+    write_positions(moved, mesh);
+    return summary(report);
 }
 
 }  // namespace tracked_mcf

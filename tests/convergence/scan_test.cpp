@@ -42,6 +42,18 @@ double roughness(const TriangleMesh& mesh, const TriangleMesh& initial) {
     return sum / weight;
 }
 
+/// Of all edges, mesh units: what a vertex that is flung away would lengthen.
+double longest_edge(const TriangleMesh& mesh) {
+    double longest = 0;
+    for (const Triangle& t : mesh.triangles) {
+        for (int i = 0; i < 3; ++i) {
+            const auto edge = mesh.positions[t[(i + 1) % 3]] - mesh.positions[t[i]];
+            longest = std::max(longest, edge.norm());
+        }
+    }
+    return longest;
+}
+
 /// Flows a mesh and checks what must hold however much of it pinches.
 FlowReport flow(TriangleMesh& mesh, double step_size, int iterations) {
     const TriangleMesh before = mesh;
@@ -55,6 +67,7 @@ FlowReport flow(TriangleMesh& mesh, double step_size, int iterations) {
     Eigen::AlignedBox3d box;
     for (const auto& position : before.positions) box.extend(position);
     for (const auto& position : mesh.positions) EXPECT_TRUE(box.contains(position));
+    EXPECT_LT(longest_edge(mesh), 2 * longest_edge(before));
     return report;
 }
 
@@ -68,10 +81,12 @@ protected:
         before_ = read_off(path);
     }
     void print(const FlowReport& report, const TriangleMesh& after) const {
-        std::printf("%s, depth %d: area %.4g to %.4g, mean angle %.4f to %.4f, %lld collapsed\n",
-                    GetParam(), report.depth, report.area_before, report.area_after,
-                    roughness(before_, before_), roughness(after, before_),
-                    static_cast<long long>(report.steps.back().collapsed_samples));
+        std::printf(
+            "%s, depth %d: area %.4g to %.4g, mean angle %.4f to %.4f, longest edge "
+            "%.3g to %.3g, %lld collapsed\n",
+            GetParam(), report.depth, report.area_before, report.area_after,
+            roughness(before_, before_), roughness(after, before_), longest_edge(before_),
+            longest_edge(after), static_cast<long long>(report.steps.back().collapsed_samples));
     }
     TriangleMesh before_;
 };

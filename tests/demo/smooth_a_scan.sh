@@ -31,12 +31,12 @@ plugin_dir=$(sed -n 's/^MESHLAB_PLUGIN_DIR:PATH=//p' "$build/CMakeCache.txt")
 "$hosts/flow_script.sh" $depth $step_size $iterations $boundary > "$demo/smooth.mlx"
 rm -f "$demo/smooth.ply"
 if ! xvfb-run -a "$demo/meshlab/bin/meshlabserver" -i "$mesh" -s "$demo/smooth.mlx" \
-    -o "$demo/smooth.ply" > "$demo/meshlabserver.log" 2>&1 || [ ! -e "$demo/smooth.ply" ]; then
+    -o "$demo/smooth.ply" > "$demo/meshlabserver.log" 2>&1 || [ ! -e "$demo/smooth.ply" ] ||
+    ! grep -m1 -o "Smoothed .*" "$demo/meshlabserver.log"; then
     cat "$demo/meshlabserver.log"
     echo "smooth_a_scan.sh: meshlabserver failed; see above" >&2
     exit 1
 fi
-grep -m1 -o "Moved .*" "$demo/meshlabserver.log"
 
 say "Drawing"
 /usr/bin/python3 "$root/tests/experiments/render.py" --output "$demo/before_and_after.png" \

@@ -65,7 +65,6 @@ TEST(ShortestDecimal, RecoversWhatWasTyped) {
 }
 
 TEST(Guard, TurnsEveryExceptionIntoAMessage) {
-    using run_filter_detail::guard;
     EXPECT_TRUE(guard([] { return std::string("done"); }).succeeded);
     const auto message_of = [](auto thrown) {
         const FilterOutcome outcome = guard([&]() -> std::string { throw thrown; });

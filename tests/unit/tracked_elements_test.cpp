@@ -4,6 +4,7 @@
 
 #include <numeric>
 
+#include "filter_tracked_mcf/core/automatic_depth.h"
 #include "filter_tracked_mcf/core/bspline.h"
 #include "filter_tracked_mcf/core/errors.h"
 #include "tests/support/shapes.h"
@@ -140,6 +141,27 @@ TEST(Octree, LevelsNestAndNumberTheirCornersInOrder) {
         }
         EXPECT_TRUE(std::is_sorted(fine.layers.begin(), fine.layers.end()));
     }
+}
+
+TEST(AutomaticDepth, OfASoupIsThatOfItsMesh) {
+    const TriangleMesh mesh = shapes::bumpy_sphere(20);
+    EXPECT_EQ(automatic_depth(shapes::soup(mesh)), automatic_depth(mesh));
+}
+
+TEST(AutomaticDepth, OfNeedlesAndOfNothingEndsSoon) {
+    TriangleMesh needles;
+    TriangleMesh lines;
+    for (int i = 0; i < 3000; ++i) {
+        for (TriangleMesh* mesh : {&needles, &lines}) {
+            const double width = mesh == &needles ? 1e-9 : 0;
+            mesh->positions.insert(mesh->positions.end(),
+                                   {{i * 1e-6, 0, 0}, {i * 1e-6 + width, 0, 0}, {i * 1e-6, 1, 1}});
+            mesh->triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+        }
+    }
+    lines.positions.back() = lines.positions.front();
+    EXPECT_LE(automatic_depth(needles), kMaximumDepth);
+    EXPECT_EQ(automatic_depth(lines), 1);
 }
 
 TEST(AutomaticDepth, IsTheNearestInUnknowns) {

@@ -90,8 +90,15 @@ TEST(BoundaryEdges, OfAFinAndOfRepeatedIndices) {
     mesh.triangles.push_back(
         {base[0], base[1], 42});  // a fin on an edge: two of its sides are free
     EXPECT_EQ(count_boundary(mesh), 2);
-    mesh.triangles.push_back({42, 42, base[0]});  // an edge there and back: one free side is closed
-    EXPECT_EQ(count_boundary(mesh), 1);
+    mesh.triangles.push_back({42, 42, base[0]});  // closes nothing
+    EXPECT_EQ(count_boundary(mesh), 2);
+}
+
+TEST(BoundaryEdges, OfASheetWithTwoFacesAndOfItsWeldedRim) {
+    TriangleMesh mesh = shapes::square(5);
+    const std::vector<Triangle> front = mesh.triangles;
+    for (const Triangle& t : front) mesh.triangles.push_back({t[0], t[2], t[1]});
+    EXPECT_EQ(count_boundary(mesh), 2 * 20);
 }
 
 TEST(SurfaceArea, OfSquareAndBox) {

@@ -122,15 +122,14 @@ void TrackedMcfPlugin::initParameterSet(QAction*, MeshDocument&, RichParameterLi
 bool TrackedMcfPlugin::applyFilter(QAction*, MeshDocument& document,
                                    const RichParameterList& parameters,
                                    vcg::CallBackPos* callback) {
-    MeshModel* const layer = document.mm();
-    const FilterOutcome outcome =
-        layer == nullptr ? FilterOutcome{false, "There is no layer to smooth; open a mesh first."}
-                         : run_filter(layer->cm, read_values(parameters), callback);
-    if (outcome.succeeded) {
+    const FilterOutcome outcome = guard([&] {
+        MeshModel* const layer = document.mm();
+        if (layer == nullptr) throw InvalidMesh("There is no layer to smooth; open a mesh first.");
+        const std::string done = run_filter(layer->cm, read_values(parameters), callback);
         layer->UpdateBoxAndNormals();
-    } else {
-        errorMessage = text(outcome.message);
-    }
+        return done;
+    });
+    if (!outcome.succeeded) errorMessage = text(outcome.message);
     // Of a failure, too: meshlabserver prints the log but not the error message.
     Log(outcome.message);
     return outcome.succeeded;
