@@ -125,7 +125,7 @@ bool TrackedMcfPlugin::applyFilter(QAction*, MeshDocument& document,
     const FilterOutcome outcome = guard([&] {
         MeshModel* const layer = document.mm();
         if (layer == nullptr) throw InvalidMesh("There is no layer to smooth; open a mesh first.");
-        const std::string done = run_filter(layer->cm, read_values(parameters), callback);
+        std::string done = run_filter(layer->cm, read_values(parameters), callback);
         layer->UpdateBoxAndNormals();
         return done;
     });
