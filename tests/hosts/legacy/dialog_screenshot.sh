@@ -28,6 +28,14 @@ fill_screen() {
     xdotool windowsize "$window" 1280 960 sleep 1
     xdotool getwindowgeometry "$window" | grep -q 1280x960
 }
+find_dialog() { timeout 10 xdotool search --sync --onlyvisible --name "^Mean Curvature Flow$"; }
+# On a busy machine keys come before the search is there to take them: begin again.
+open_dialog() {
+    xdotool windowfocus --sync "$window" key Escape sleep 0.5 key ctrl+f sleep 1
+    xdotool type --delay 50 "Mean Curvature Flow"
+    xdotool sleep 1.5 key Down sleep 0.5 key Return
+    find_dialog
+}
 picture() { sleep 0.5; import -window root "$out/$1.png"; }
 # The mesh's part of the window: left of where the dialog is put, above the frame rate.
 surface() { import -window root -crop 740x740+5+75 +repage "$out/$1.png"; }
@@ -42,9 +50,8 @@ wait_for "MeshLab opens the mesh" grep -q "All files opened" "$out/log.txt"
 window=$(timeout 30 xdotool search --sync --onlyvisible --name "Project_1")
 wait_for "the window fills the screen" fill_screen
 
-xdotool windowfocus --sync "$window" key ctrl+f sleep 1 type "Mean Curvature Flow"
-xdotool sleep 1 key Down sleep 0.5 key Return
-dialog=$(timeout 30 xdotool search --sync --onlyvisible --name "^Mean Curvature Flow$")
+wait_for "the filter is found and its dialog opens" open_dialog
+dialog=$(find_dialog)
 xdotool windowmove --sync "$dialog" 750 80 windowfocus --sync "$dialog"
 picture dialog
 surface before

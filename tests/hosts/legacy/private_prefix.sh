@@ -6,7 +6,7 @@
 # and everything else is linked.
 set -euo pipefail
 
-prefix=$1 plugin_dir=$2 plugin=$3
+prefix=$1 plugin_dir=$2 plugin=$(realpath "$3")
 programs=$(dirname "$(command -v meshlabserver)")
 inside=${plugin_dir#"$(dirname "$programs")/"}
 
