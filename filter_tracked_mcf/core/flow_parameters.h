@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 namespace tracked_mcf {
 
 /// What happens at the boundary of an open mesh.
@@ -13,6 +15,12 @@ enum class Cubature {
     OnePoint,     ///< the centroid: exact to degree 1; for comparison only, it is inaccurate
     ThreePoints,  ///< the paper's rule: exact to degree 2
     Degree6       ///< exact to degree 6, as many as the mass matrix needs; for validation
+};
+
+/// How each step's linear system is solved.
+enum class Solver {
+    Converged,  ///< conjugate gradients preconditioned by a V-cycle, until the tolerance is reached
+    OneWCycle   ///< as in the paper (section 5.2): W-cycles from zero, however far they come
 };
 
 inline constexpr int kMaximumDepth = 12;
@@ -39,7 +47,22 @@ struct FlowParameters {
     BoundaryCondition boundary = BoundaryCondition::LockedCells;
     Cubature cubature = Cubature::ThreePoints;
 
-    /// W-cycles of the multigrid solver in each step, at least 1; the paper uses one.
+    /// Whether parts of the surface that share a cell, but are not connected inside it, get
+    /// functions of their own. If not, as in the paper, they move together.
+    bool separate_sheets = true;
+
+    Solver solver = Solver::Converged;
+
+    /// Converged: a step is solved when the preconditioned residual √(r·z), an estimate of the
+    /// error's energy norm, has fallen to this fraction of what it was at the start. Greater than
+    /// 0, less than 1.
+    double tolerance = 1e-3;
+
+    /// Weight κ of the stabilisation (stabilization.h), at least 0; 0 is the paper's system. Unset:
+    /// kDefaultStabilization if the solver is Converged, which it makes possible, else 0.
+    std::optional<double> stabilization;
+
+    /// OneWCycle: W-cycles in each step, at least 1; the paper uses one.
     int cycles = 1;
 
     /// OpenMP threads; 0 takes what OpenMP offers (OMP_NUM_THREADS is respected). The result is

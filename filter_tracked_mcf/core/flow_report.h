@@ -13,6 +13,10 @@ struct StepReport {
     /// grid units, before (d = 0, so the norm of b) and after the solve.
     double residual_before = 0;
     double residual_after = 0;
+    int solver_iterations = 0;  ///< of conjugate gradients, or W-cycles
+    /// Converged: √(r·z) at the end, relative to the start; see FlowParameters::tolerance.
+    double relative_residual = 0;
+    bool reached_tolerance = true;  ///< false if the solver stopped short of the tolerance
     double area = 0;  ///< of the tracked surface at the start of the step, mesh units²
     std::int64_t collapsed_samples = 0;  ///< left out because their area has collapsed
 };
