@@ -6,12 +6,19 @@
 
 namespace tracked_mcf {
 
-double norm(const Field& field) {
-    return std::sqrt(parallel_sum(field.cols(), [&](std::int64_t begin, std::int64_t end) {
-        double sum = 0;
-        for (std::int64_t i = begin; i < end; ++i) sum += field.col(i).cast<double>().squaredNorm();
+Eigen::Vector4d dot(const Field& a, const Field& b) {
+    const Eigen::Vector4d zero = Eigen::Vector4d::Zero();
+    return parallel_sum(a.cols(), zero, [&](std::int64_t begin, std::int64_t end) {
+        Eigen::Vector4d sum = Eigen::Vector4d::Zero();
+        for (std::int64_t i = begin; i < end; ++i) {
+            sum += a.col(i).cast<double>().cwiseProduct(b.col(i).cast<double>());
+        }
         return sum;
-    }));
+    });
+}
+
+double norm(const Field& field) {
+    return std::sqrt(dot(field, field).sum());
 }
 
 }  // namespace tracked_mcf

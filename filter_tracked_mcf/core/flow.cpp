@@ -30,9 +30,13 @@ std::vector<std::vector<std::uint8_t>> locked_unknowns(const TrackedElements& el
                                                       : no_unknowns(elements);
 }
 
-bool all_finite(const Field& field) {
+CycleParameters cycle_parameters(Solver solver) {
+    return solver == Solver::Converged ? kPreconditioner : CycleParameters();
+}
+
+bool all_finite(const Coefficients& coefficients) {
     // A sum is finite only if every term is, and needs no branch for each.
-    return std::isfinite(norm(field));
+    return std::isfinite(coefficients.squaredNorm());
 }
 
 }  // namespace
@@ -44,11 +48,14 @@ Flow::Flow(const TriangleMesh& mesh, const FlowParameters& parameters, const Gri
     : parameters_(parameters),
       elements_(build_tracked_elements(mesh, grid, parameters.cubature)),
       grid_step_size_(to_grid_units(parameters.step_size, mesh, grid)),
-      multigrid_(elements_, locked_unknowns(elements_, parameters.boundary)),
+      multigrid_(elements_, locked_unknowns(elements_, parameters.boundary),
+                 cycle_parameters(parameters.solver)),
+      stabilization_(elements_),
       supports_(measure_supports(elements_)),
       displacement_(Coefficients::Zero(elements_.finest().unknown_count(), 3)) {
     fill_report(mesh);
-    freeze_negligible(supports_, multigrid_.frozen());
+    // With the stabilisation, functions that hardly meet the surface follow those that do.
+    if (stabilization_of(parameters) == 0) freeze_negligible(supports_, multigrid_.frozen());
 }
 
 void Flow::fill_report(const TriangleMesh& mesh) {
@@ -77,6 +84,7 @@ void Flow::assemble(StepReport& report) {
     const Stopwatch stopwatch;
     assemble_elements(elements_, displacement_, {1.0F, static_cast<float>(grid_step_size_)},
                       systems_);
+    stabilization_.add(stabilization_of(parameters_), grid_step_size_, systems_.matrices);
     freeze_pinched(elements_, supports_, systems_, multigrid_.frozen());
     multigrid_.refresh(systems_.matrices);
     multigrid_.finest().assemble(systems_.right_sides, right_side_);
@@ -87,11 +95,13 @@ void Flow::assemble(StepReport& report) {
 
 void Flow::solve(StepReport& report) {
     const Stopwatch stopwatch;
-    solution_.setZero(4, elements_.finest().unknown_count());
+    solution_.setZero(displacement_.rows(), 3);
     multigrid_.finest().residual(right_side_, solution_, residual_);
     report.residual_before = norm(residual_);
-    for (int i = 0; i < parameters_.cycles; ++i) {
-        multigrid_.cycle(CycleParameters(), right_side_, solution_);
+    if (parameters_.solver == Solver::Converged) {
+        solve_by_conjugate_gradients(report);
+    } else {
+        solve_by_cycles(report);
     }
     multigrid_.finest().residual(right_side_, solution_, residual_);
     report.residual_after = norm(residual_);
@@ -100,8 +110,25 @@ void Flow::solve(StepReport& report) {
             "The flow broke down: its numbers are no longer finite. Use a smaller step size or "
             "fewer iterations.");
     }
-    displacement_ += solution_.topRows<3>().transpose().cast<double>();
+    displacement_ += solution_;
     report.solve_seconds = stopwatch.seconds();
+}
+
+void Flow::solve_by_conjugate_gradients(StepReport& report) {
+    const Convergence convergence = conjugate_gradients_.solve(
+        multigrid_, right_side_, parameters_.tolerance, kMaximumSolverIterations, solution_);
+    report.solver_iterations = convergence.iterations;
+    report.relative_residual = convergence.relative_residual;
+    report.reached_tolerance = convergence.reached_tolerance;
+}
+
+void Flow::solve_by_cycles(StepReport& report) {
+    Field x = Field::Zero(4, elements_.finest().unknown_count());
+    for (int i = 0; i < parameters_.cycles; ++i) {
+        multigrid_.cycle(right_side_, x);
+    }
+    solution_ = x.topRows<3>().transpose().cast<double>();
+    report.solver_iterations = parameters_.cycles;
 }
 
 void Flow::move_vertices(TriangleMesh& mesh) const {

@@ -1,9 +1,11 @@
 #pragma once
 
+#include "filter_tracked_mcf/core/conjugate_gradients.h"
 #include "filter_tracked_mcf/core/flow_parameters.h"
 #include "filter_tracked_mcf/core/flow_report.h"
 #include "filter_tracked_mcf/core/grid.h"
 #include "filter_tracked_mcf/core/multigrid.h"
+#include "filter_tracked_mcf/core/stabilization.h"
 #include "filter_tracked_mcf/core/supports.h"
 #include "filter_tracked_mcf/core/tracked_elements.h"
 #include "filter_tracked_mcf/core/triangle_mesh.h"
@@ -45,6 +47,8 @@ public:
 private:
     void assemble(StepReport& report);
     void solve(StepReport& report);
+    void solve_by_conjugate_gradients(StepReport& report);
+    void solve_by_cycles(StepReport& report);
     void fill_report(const TriangleMesh& mesh);
 
     FlowParameters parameters_;
@@ -52,12 +56,15 @@ private:
     TrackedElements elements_;
     double grid_step_size_;
     Multigrid multigrid_;
+    Stabilization stabilization_;
     Supports supports_;
     Coefficients displacement_;
 
     // Refilled by every step.
     ElementSystems systems_;
-    Field right_side_, solution_, residual_;
+    ConjugateGradients conjugate_gradients_;
+    Field right_side_, residual_;
+    Coefficients solution_;
 };
 
 }  // namespace tracked_mcf

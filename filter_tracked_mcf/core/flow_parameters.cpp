@@ -18,6 +18,11 @@ void check_range(const char* name, int value, int smallest, int largest, const c
 
 }  // namespace
 
+double stabilization_of(const FlowParameters& parameters) {
+    const bool needed = parameters.solver == Solver::Converged;
+    return parameters.stabilization.value_or(needed ? kDefaultStabilization : 0.0);
+}
+
 void validate(const FlowParameters& parameters) {
     check_range("depth", parameters.depth, 0, kMaximumDepth, ", where 0 chooses automatically");
     check_range("iterations", parameters.iterations, 1, kMaximumIterations, "");

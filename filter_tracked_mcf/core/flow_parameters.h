@@ -27,6 +27,8 @@ inline constexpr int kMaximumDepth = 12;
 inline constexpr double kMaximumStepSize = 1e9;
 inline constexpr int kMaximumIterations = 1000000;
 inline constexpr int kMaximumCycles = 1000;
+inline constexpr double kMaximumStabilization = 1e3;
+inline constexpr double kDefaultStabilization = 0.003;
 inline constexpr int kMaximumThreads = 1024;
 
 /// The knobs of the flow, with the defaults that suit a scan.
@@ -69,6 +71,9 @@ struct FlowParameters {
     /// the same bits whatever the number. For evolve(); a Flow leaves it to its caller.
     int threads = 0;
 };
+
+/// The weight of the stabilisation that these parameters ask for.
+double stabilization_of(const FlowParameters& parameters);
 
 /// Throws InvalidParameter naming the first knob that lies outside its range, with the range.
 void validate(const FlowParameters& parameters);

@@ -106,15 +106,36 @@ void LevelMatrix::assemble(const std::vector<ElementVector>& elements, Field& ve
     });
 }
 
-void LevelMatrix::residual(const Field& right_side, const Field& x, Field& residual) const {
-    residual.resize(4, level_.unknown_count());
+template <class OfRow>
+void LevelMatrix::fill(Field& result, const OfRow& of_row) const {
+    result.resize(4, level_.unknown_count());
     parallel_for_rows(level_.unknown_count(), [&](std::int32_t row) {
         if (inverse_diagonal_[row] == 0) {
-            residual.col(row).setZero();
+            result.col(row).setZero();
         } else {
-            residual.col(row) = right_side.col(row) - row_times(matrix_, row, x);
+            result.col(row) = of_row(row);
         }
     });
+}
+
+void LevelMatrix::residual(const Field& right_side, const Field& x, Field& residual) const {
+    fill(residual, [&](std::int32_t row) -> Eigen::Vector4f {
+        return right_side.col(row) - row_times(matrix_, row, x);
+    });
+}
+
+void LevelMatrix::residual(const Field& right_side, const Coefficients& x, Field& residual) const {
+    fill(residual, [&](std::int32_t row) -> Eigen::Vector4f {
+        Eigen::Vector4d sum = right_side.col(row).cast<double>();
+        for (SparseMatrix::InnerIterator entry(matrix_, row); entry; ++entry) {
+            sum.head<3>() -= static_cast<double>(entry.value()) * x.row(entry.col()).transpose();
+        }
+        return sum.cast<float>();
+    });
+}
+
+void LevelMatrix::multiply(const Field& x, Field& product) const {
+    fill(product, [&](std::int32_t row) { return row_times(matrix_, row, x); });
 }
 
 }  // namespace tracked_mcf

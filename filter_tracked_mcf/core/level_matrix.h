@@ -34,11 +34,21 @@ public:
     /// residual = right_side - A x, zero for unknowns that are not to move.
     void residual(const Field& right_side, const Field& x, Field& residual) const;
 
+    /// The same for a solution in double precision, a row per unknown, computed in double.
+    void residual(const Field& right_side, const Coefficients& x, Field& residual) const;
+
+    /// product = A x, zero for unknowns that are not to move.
+    void multiply(const Field& x, Field& product) const;
+
 private:
     void make_pattern();
     void assemble_row(std::int32_t row, const std::vector<ElementMatrix>& elements,
                       std::vector<float>& sums) const;
     void store_row(std::int32_t row, std::vector<float>& sums);
+
+    /// Sets every column of `result` to of_row(row), or to zero if its unknown is not to move.
+    template <class OfRow>
+    void fill(Field& result, const OfRow& of_row) const;
 
     const Level& level_;
     Groups places_;  ///< of every unknown: 8 * element + corner, wherever it occurs

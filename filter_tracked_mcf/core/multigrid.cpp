@@ -7,8 +7,18 @@
 
 namespace tracked_mcf {
 
-Multigrid::LevelData::LevelData(const TrackedElements& elements, std::size_t level)
-    : matrix(elements.levels[level]), smoother(elements.levels[level]) {
+namespace {
+
+std::variant<GaussSeidel, ElementSmoother> make_smoother(const Level& level, Smoothing smoothing) {
+    if (smoothing == Smoothing::GaussSeidel) return GaussSeidel(level);
+    return ElementSmoother(level);
+}
+
+}  // namespace
+
+Multigrid::LevelData::LevelData(const TrackedElements& elements, std::size_t level,
+                                Smoothing smoothing)
+    : matrix(elements.levels[level]), smoother(make_smoother(elements.levels[level], smoothing)) {
     if (level > 0) {
         prolongation =
             tracked_mcf::prolongation(elements.levels[level], elements.levels[level - 1]);
@@ -21,11 +31,12 @@ Multigrid::LevelData::LevelData(const TrackedElements& elements, std::size_t lev
     }
 }
 
-Multigrid::Multigrid(const TrackedElements& elements, std::vector<std::vector<std::uint8_t>> frozen)
-    : elements_(elements), frozen_(std::move(frozen)) {
+Multigrid::Multigrid(const TrackedElements& elements, std::vector<std::vector<std::uint8_t>> frozen,
+                     const CycleParameters& parameters)
+    : elements_(elements), parameters_(parameters), frozen_(std::move(frozen)) {
     levels_.reserve(elements.levels.size());
     for (std::size_t level = 0; level < elements.levels.size(); ++level) {
-        levels_.emplace_back(elements, level);
+        levels_.emplace_back(elements, level, parameters.smoothing);
     }
 }
 
@@ -34,6 +45,9 @@ void Multigrid::refresh(const std::vector<ElementMatrix>& finest) {
     for (std::size_t level = levels_.size(); level-- > 0;) {
         levels_[level].matrix.assemble(*fine, frozen_[level]);
         if (level == 0) break;
+        if (auto* const smoother = std::get_if<ElementSmoother>(&levels_[level].smoother)) {
+            smoother->refresh(levels_[level].matrix);
+        }
         coarsen_element_matrices(elements_.levels[level], levels_[level - 1].children,
                                  frozen_[level], *fine, levels_[level - 1].element_matrices);
         fine = &levels_[level - 1].element_matrices;
@@ -41,12 +55,11 @@ void Multigrid::refresh(const std::vector<ElementMatrix>& finest) {
     coarse_solver_.factorise(levels_.front().matrix);
 }
 
-void Multigrid::cycle(const CycleParameters& parameters, const Field& right_side, Field& x) {
-    cycle(parameters, levels_.size() - 1, right_side, x);
+void Multigrid::cycle(const Field& right_side, Field& x) {
+    cycle(levels_.size() - 1, right_side, x);
 }
 
-void Multigrid::cycle(const CycleParameters& parameters, std::size_t level, const Field& right_side,
-                      Field& x) {
+void Multigrid::cycle(std::size_t level, const Field& right_side, Field& x) {
     LevelData& here = levels_[level];
     if (level == 0) {
         here.matrix.residual(right_side, x, here.residual);
@@ -55,19 +68,27 @@ void Multigrid::cycle(const CycleParameters& parameters, std::size_t level, cons
         x += correction;
         return;
     }
-    for (int sweep = 0; sweep < parameters.sweeps_before; ++sweep) {
-        here.smoother.sweep(here.matrix, right_side, x);
-    }
+    for (int i = 0; i < parameters_.sweeps_before; ++i) here.smooth_before(right_side, x);
     here.matrix.residual(right_side, x, here.residual);
     restrict_residual(level);
     LevelData& coarser = levels_[level - 1];
     coarser.x.setZero(4, elements_.levels[level - 1].unknown_count());
-    for (int visit = 0; visit < parameters.coarse_visits; ++visit) {
-        cycle(parameters, level - 1, coarser.right_side, coarser.x);
+    for (int visit = 0; visit < parameters_.coarse_visits; ++visit) {
+        cycle(level - 1, coarser.right_side, coarser.x);
     }
     add_correction(level, x);
-    for (int sweep = 0; sweep < parameters.sweeps_after; ++sweep) {
-        here.smoother.sweep(here.matrix, right_side, x);
+    for (int i = 0; i < parameters_.sweeps_after; ++i) here.smooth_after(right_side, x);
+}
+
+void Multigrid::LevelData::smooth_before(const Field& b, Field& solution) const {
+    std::visit([&](const auto& any) { any.sweep(matrix, b, solution); }, smoother);
+}
+
+void Multigrid::LevelData::smooth_after(const Field& b, Field& solution) const {
+    if (const auto* const elements = std::get_if<ElementSmoother>(&smoother)) {
+        elements->sweep_backward(matrix, b, solution);
+    } else {
+        smooth_before(b, solution);
     }
 }
 

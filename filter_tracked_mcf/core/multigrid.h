@@ -1,20 +1,33 @@
 #pragma once
 
 #include <cstdint>
+#include <variant>
 #include <vector>
 
 #include "filter_tracked_mcf/core/coarse_solver.h"
 #include "filter_tracked_mcf/core/element_matrices.h"
+#include "filter_tracked_mcf/core/element_smoother.h"
+#include "filter_tracked_mcf/core/gauss_seidel.h"
 #include "filter_tracked_mcf/core/level_matrix.h"
-#include "filter_tracked_mcf/core/smoother.h"
 #include "filter_tracked_mcf/core/tracked_elements.h"
 #include "filter_tracked_mcf/core/transfer.h"
 
 namespace tracked_mcf {
 
-/// What a cycle does.
+/// How a level's error is smoothed.
+enum class Smoothing {
+    /// Gauss-Seidel over the unknowns, as in the paper.
+    GaussSeidel,
+    /// ElementSmoother, forward before the coarse correction and backward after it: with as many
+    /// sweeps after as before, a cycle from zero is a symmetric operator, as conjugate gradients
+    /// need it.
+    Elements
+};
+
+/// What a cycle does; the default is the paper's (section 5.2).
 struct CycleParameters {
-    int sweeps_before = 5;  ///< Gauss-Seidel sweeps before the coarse correction (section 5.2)
+    Smoothing smoothing = Smoothing::GaussSeidel;
+    int sweeps_before = 5;  ///< before the coarse correction
     int sweeps_after = 5;   ///< and after it
     int coarse_visits = 2;  ///< times a level visits the next coarser one: 1 is a V-, 2 a W-cycle
 };
@@ -25,7 +38,8 @@ class Multigrid {
 public:
     /// `frozen`: for every level, coarsest first, which unknowns stay zero. `elements` must outlive
     /// this.
-    Multigrid(const TrackedElements& elements, std::vector<std::vector<std::uint8_t>> frozen);
+    Multigrid(const TrackedElements& elements, std::vector<std::vector<std::uint8_t>> frozen,
+              const CycleParameters& parameters = {});
     Multigrid(const Multigrid&) = delete;
     Multigrid& operator=(const Multigrid&) = delete;
 
@@ -36,7 +50,7 @@ public:
     std::vector<std::uint8_t>& frozen() { return frozen_.back(); }
 
     /// Improves x, a solution of A x = right_side on the finest level, by one cycle.
-    void cycle(const CycleParameters& parameters, const Field& right_side, Field& x);
+    void cycle(const Field& right_side, Field& x);
 
     const LevelMatrix& finest() const { return levels_.back().matrix; }
     const LevelMatrix& matrix(int level) const { return levels_[level].matrix; }
@@ -44,10 +58,13 @@ public:
 
 private:
     struct LevelData {
-        LevelData(const TrackedElements& elements, std::size_t level);
+        LevelData(const TrackedElements& elements, std::size_t level, Smoothing smoothing);
+
+        void smooth_before(const Field& b, Field& solution) const;
+        void smooth_after(const Field& b, Field& solution) const;
 
         LevelMatrix matrix;
-        GaussSeidel smoother;
+        std::variant<GaussSeidel, ElementSmoother> smoother;
         Groups children;            ///< of this level's elements, in the next finer one
         SparseMatrix prolongation;  ///< from the next coarser level; empty at level 0
         SparseMatrix restriction;   ///< its transpose
@@ -55,12 +72,12 @@ private:
         Field right_side, x, residual;                ///< the coarse problem of a cycle
     };
 
-    void cycle(const CycleParameters& parameters, std::size_t level, const Field& right_side,
-               Field& x);
+    void cycle(std::size_t level, const Field& right_side, Field& x);
     void restrict_residual(std::size_t level);
     void add_correction(std::size_t level, Field& x) const;
 
     const TrackedElements& elements_;
+    CycleParameters parameters_;
     std::vector<std::vector<std::uint8_t>> frozen_;
     std::vector<LevelData> levels_;
     CoarseSolver coarse_solver_;

@@ -87,14 +87,14 @@ void parallel_for_slices(std::int64_t count, const Body& body) {
     });
 }
 
-/// Sum of body(begin, end) over the blocks that cover [0, count), added in order.
-template <class Body>
-double parallel_sum(std::int64_t count, const Body& body) {
-    std::vector<double> sums(static_cast<std::size_t>(block_count(count)));
+/// `zero` plus body(begin, end) over the blocks that cover [0, count), added in order.
+template <class Value, class Body>
+Value parallel_sum(std::int64_t count, const Value& zero, const Body& body) {
+    std::vector<Value> sums(static_cast<std::size_t>(block_count(count)));
     parallel_for_blocks(count, [&](std::int64_t begin, std::int64_t end) {
         sums[begin / kBlockSize] = body(begin, end);
     });
-    return std::accumulate(sums.begin(), sums.end(), 0.0);
+    return std::accumulate(sums.begin(), sums.end(), zero);
 }
 
 /// Calls body(begin, end, out) for the blocks that cover [0, count), in parallel; each appends to a

@@ -159,7 +159,7 @@ TEST(Multigrid, ACycleReducesTheResidualIndependentlyOfDepth) {
         System system(mesh, depth, 1e-3F * std::pow(4.0F, static_cast<float>(depth)));
         Field x = system.zero();
         const double before = system.residual(x);
-        system.multigrid.cycle(CycleParameters(), system.right_side, x);
+        system.multigrid.cycle(system.right_side, x);
         EXPECT_LT(system.residual(x), 0.1 * before) << depth;
     }
 }
@@ -172,7 +172,7 @@ TEST(Multigrid, CyclesApproachTheSolutionInTheEnergyNorm) {
     Field x = system.zero();
     double previous = exact.cwiseProduct(a * exact).sum();
     for (int i = 0; i < 3; ++i) {
-        system.multigrid.cycle(CycleParameters(), system.right_side, x);
+        system.multigrid.cycle(system.right_side, x);
         const Dense error = x.cast<double>().transpose() - exact;
         const double energy = error.cwiseProduct(a * error).sum();
         EXPECT_LT(energy, previous);
@@ -199,7 +199,7 @@ TEST(BoundaryLock, LockedUnknownsStayExactlyZero) {
     cap.triangles.resize(cap.triangles.size() / 2);
     System system(cap, 5, 0.5F, true);
     Field x = system.zero();
-    for (int i = 0; i < 3; ++i) system.multigrid.cycle(CycleParameters(), system.right_side, x);
+    for (int i = 0; i < 3; ++i) system.multigrid.cycle(system.right_side, x);
     int locked = 0;
     int moved = 0;
     for (std::int32_t i = 0; i < x.cols(); ++i) {

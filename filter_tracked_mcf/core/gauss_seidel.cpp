@@ -1,4 +1,4 @@
-#include "filter_tracked_mcf/core/smoother.h"
+#include "filter_tracked_mcf/core/gauss_seidel.h"
 
 #include "filter_tracked_mcf/core/parallel.h"
 

@@ -1,0 +1,80 @@
+#include "filter_tracked_mcf/core/conjugate_gradients.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "filter_tracked_mcf/core/parallel.h"
+
+namespace tracked_mcf {
+
+namespace {
+
+/// Below this fraction of where it began, a residual that single-precision recurrences carry along
+/// is no longer the true one.
+constexpr double kSinglePrecision = 1e-5;
+
+/// Refinement that gains less than this gets no further.
+constexpr double kWorthRefining = 0.5;
+
+/// a / b where b is positive, else 0: a coordinate that is solved, or has nothing to solve.
+Eigen::Vector4f ratio(const Eigen::Vector4d& a, const Eigen::Vector4d& b) {
+    return (b.array() > 0).select(a.array() / b.array(), 0).cast<float>();
+}
+
+}  // namespace
+
+double ConjugateGradients::precondition(Multigrid& multigrid) {
+    z_.setZero(4, r_.cols());
+    multigrid.cycle(r_, z_);
+    rz_ = dot(r_, z_);
+    return std::sqrt(std::max(rz_.sum(), 0.0));
+}
+
+double ConjugateGradients::descend(Multigrid& multigrid, double target, int maximum_iterations,
+                                   int& iterations) {
+    double norm = std::sqrt(std::max(rz_.sum(), 0.0));
+    x_.setZero(4, r_.cols());
+    p_ = z_;
+    while (norm > target && iterations < maximum_iterations) {
+        multigrid.finest().multiply(p_, q_);
+        const Eigen::Vector4f step = ratio(rz_, dot(p_, q_));
+        parallel_for_rows(r_.cols(), [&](std::int32_t row) {
+            x_.col(row) += step.cwiseProduct(p_.col(row));
+            r_.col(row) -= step.cwiseProduct(q_.col(row));
+        });
+        const Eigen::Vector4d before = rz_;
+        norm = precondition(multigrid);
+        ++iterations;
+        const Eigen::Vector4f turn = ratio(rz_, before);
+        parallel_for_rows(r_.cols(), [&](std::int32_t row) {
+            p_.col(row) = z_.col(row) + turn.cwiseProduct(p_.col(row));
+        });
+    }
+    return norm;
+}
+
+Convergence ConjugateGradients::solve(Multigrid& multigrid, const Field& right_side,
+                                      double tolerance, int maximum_iterations, Coefficients& x) {
+    x.setZero(right_side.cols(), 3);
+    multigrid.finest().residual(right_side, x, r_);
+    const double start = precondition(multigrid);
+    const double goal = tolerance * start;
+    const bool refines = tolerance < kSinglePrecision;
+    Convergence result;
+    double norm = start;
+    for (double before = start; norm > goal && result.iterations < maximum_iterations;) {
+        norm = descend(multigrid, std::max(goal, kSinglePrecision * before), maximum_iterations,
+                       result.iterations);
+        x += x_.topRows<3>().transpose().cast<double>();
+        if (!refines) break;
+        multigrid.finest().residual(right_side, x, r_);
+        norm = precondition(multigrid);
+        if (!(norm < kWorthRefining * before)) break;
+        before = norm;
+    }
+    result.relative_residual = start > 0 ? norm / start : 0;
+    result.reached_tolerance = norm <= goal;
+    return result;
+}
+
+}  // namespace tracked_mcf

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "filter_tracked_mcf/core/element_matrices.h"
+#include "filter_tracked_mcf/core/tracked_elements.h"
+
+namespace tracked_mcf {
+
+/// The stabilisation of the displacement's system by normal derivatives in the volume.
+///
+/// On a surface, grid functions are nearly dependent: what varies only across the surface can
+/// hardly be seen on it, and keeps multigrid and conjugate gradients from converging. So a
+/// displacement d pays for varying along the normals of the initial surface, in the volume of
+/// every element's cell:
+///
+///     κ (δ' + 0.1) Σ_elements ∫_cell ∇dᵀ N ∇d dV,
+///
+/// grid units, δ' the step size, N the element's normal tensor. It is the normal-gradient volume
+/// stabilisation of trace finite elements (Burman, Hansbo, Larson and Massing 2018; Grande,
+/// Lehrenfeld and Reusken 2018). Only the displacement pays, not the surface itself, so there is
+/// nothing to pay at rest.
+///
+/// N = (λ₁ - λ₂) v vᵀ, with λ₁ >= λ₂ the largest eigenvalues of the mean of n nᵀ over the element
+/// and v the eigenvector of the first: where normals disagree nothing is lost, and it does not
+/// matter which way faces are oriented.
+class Stabilization {
+public:
+    /// Measures the normal tensors; 24 bytes an element.
+    explicit Stabilization(const TrackedElements& elements);
+
+    /// Adds the stabilisation with weight κ for the step size δ' (grid units) to the finest level's
+    /// element matrices; nothing if κ is 0.
+    void add(double weight, double step_size, std::vector<ElementMatrix>& matrices) const;
+
+private:
+    /// xx, yy, zz, xy, yz, zx.
+    using SymmetricTensor = std::array<float, 6>;
+
+    std::vector<SymmetricTensor> normal_tensors_;
+};
+
+}  // namespace tracked_mcf
