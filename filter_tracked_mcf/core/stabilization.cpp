@@ -56,10 +56,9 @@ CornerMatrix gradient_product(int a, int b) {
 constexpr std::array<std::array<int, 2>, 6> kEntries = {
     {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}}};
 
-/// Mean of n nᵀ over the element's surface: the same whichever way faces are oriented.
-Eigen::Matrix3d mean_normal_product(const TrackedElements& elements, std::int64_t element) {
+/// ∫ n nᵀ over the element's surface: the same whichever way faces are oriented.
+Eigen::Matrix3d normal_product(const TrackedElements& elements, std::int64_t element) {
     Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
-    double area = 0;
     std::int64_t sample = elements.sample_begin[element];
     for (std::int64_t i = elements.fragment_begin[element];
          i < elements.fragment_begin[element + 1]; ++i) {
@@ -70,16 +69,14 @@ Eigen::Matrix3d mean_normal_product(const TrackedElements& elements, std::int64_
         }
         const Eigen::Vector3d normal(fragment.normal[0], fragment.normal[1], fragment.normal[2]);
         sum += weight * normal * normal.transpose();
-        area += weight;
     }
-    if (area > 0) sum /= area;
     return sum;
 }
 
 /// What the normals agree on: their common direction v as v vᵀ, weighted by how far it stands out.
-Eigen::Matrix3d normal_tensor(const Eigen::Matrix3d& mean_product) {
+Eigen::Matrix3d normal_tensor(const Eigen::Matrix3d& normal_product) {
     Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen;
-    eigen.computeDirect(mean_product);
+    eigen.computeDirect(normal_product);
     const Eigen::Vector3d direction = eigen.eigenvectors().col(2);
     const double gap = eigen.eigenvalues()[2] - eigen.eigenvalues()[1];
     return gap * direction * direction.transpose();
@@ -89,16 +86,16 @@ Eigen::Matrix3d normal_tensor(const Eigen::Matrix3d& mean_product) {
 
 Stabilization::Stabilization(const TrackedElements& elements)
     : normal_tensors_(elements.finest().cells.size()) {
-    parallel_for_blocks(elements.finest().element_count(), [&](std::int64_t begin,
-                                                               std::int64_t end) {
-        for (std::int64_t element = begin; element < end; ++element) {
-            const Eigen::Matrix3d tensor = normal_tensor(mean_normal_product(elements, element));
-            for (std::size_t entry = 0; entry < kEntries.size(); ++entry) {
-                const auto [row, column] = kEntries[entry];
-                normal_tensors_[element][entry] = static_cast<float>(tensor(row, column));
+    parallel_for_blocks(
+        elements.finest().element_count(), [&](std::int64_t begin, std::int64_t end) {
+            for (std::int64_t element = begin; element < end; ++element) {
+                const Eigen::Matrix3d tensor = normal_tensor(normal_product(elements, element));
+                for (std::size_t entry = 0; entry < kEntries.size(); ++entry) {
+                    const auto [row, column] = kEntries[entry];
+                    normal_tensors_[element][entry] = static_cast<float>(tensor(row, column));
+                }
             }
-        }
-    });
+        });
 }
 
 void Stabilization::add(double weight, double step_size,

@@ -22,9 +22,9 @@ namespace tracked_mcf {
 /// Lehrenfeld and Reusken 2018). Only the displacement pays, not the surface itself, so there is
 /// nothing to pay at rest.
 ///
-/// N = (λ₁ - λ₂) v vᵀ, with λ₁ >= λ₂ the largest eigenvalues of the mean of n nᵀ over the element
-/// and v the eigenvector of the first: where normals disagree nothing is lost, and it does not
-/// matter which way faces are oriented.
+/// N = (λ₁ - λ₂) v vᵀ, with λ₁ >= λ₂ the largest eigenvalues of ∫ n nᵀ over the element's surface
+/// and v the eigenvector of the first: an element pays by its area, less where its normals
+/// disagree, and it does not matter which way faces are oriented.
 class Stabilization {
 public:
     /// Measures the normal tensors; 24 bytes an element.

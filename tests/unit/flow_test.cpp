@@ -104,17 +104,39 @@ TEST(Flow, PatchThatIsFlatButForNoiseStays) {
     }
 }
 
-TEST(Flow, PlateauInAGridPlaneFlowsAlikeWithAndWithoutNoise) {
-    // A sphere with a part of it pressed flat at half its height.
+/// A sphere with a part of it pressed flat at half its height.
+TriangleMesh sphere_with_plateau() {
     TriangleMesh mesh = shapes::geodesic_sphere(25);
     for (auto& position : mesh.positions) {
         if (position[0] > 0.1) position[2] = std::min(position[2], 0.0);
     }
-    const TriangleMesh exact = evolved(mesh, parameters(5, 1e-4, 10));
+    return mesh;
+}
+
+/// How far apart sphere_with_plateau and the same with noise end, for the size of noise that does
+/// most.
+double largest_effect_of_noise(const FlowParameters& p) {
+    const TriangleMesh mesh = sphere_with_plateau();
+    const TriangleMesh exact = evolved(mesh, p);
+    double largest = 0;
     for (const double size : {1e-15, 1e-14, 1e-13, 1e-12, 1e-11, 1e-10, 1e-9, 1e-8, 1e-7, 1e-6}) {
-        EXPECT_LT(distance(evolved(noisy(mesh, size), parameters(5, 1e-4, 10)), exact), 2e-5)
-            << size;
+        largest = std::max(largest, distance(evolved(noisy(mesh, size), p), exact));
     }
+    return largest;
+}
+
+TEST(Flow, PlateauInAGridPlaneFlowsAlikeWithAndWithoutNoise) {
+    FlowParameters p = parameters(5, 1e-4, 10);
+    p.solver = Solver::OneWCycle;
+    EXPECT_LT(largest_effect_of_noise(p), 2e-5);
+}
+
+TEST(Flow, PlateauInAGridPlaneFlowsAlikeWithAndWithoutNoiseWhenStabilized) {
+    // With noise there are cells on both sides of the plateau, and where it ends the stabilisation
+    // ties other functions to each other than without: a discretisation error, far below a cell.
+    const FlowParameters p = parameters(5, 1e-4, 10);
+    const double cell_size = enclosing_grid(sphere_with_plateau(), p.depth).cell_size;
+    EXPECT_LT(largest_effect_of_noise(p), 0.01 * cell_size);
 }
 
 TEST(Flow, LockedBoundaryVerticesKeepTheirBits) {
@@ -176,21 +198,38 @@ TEST(Flow, CommutesWithScaling) {
     }
 }
 
-TEST(Flow, CommutesWithQuarterTurnsAsTheSolverConverges) {
-    // The equations are the same to rounding, but Gauss-Seidel goes through them in another order,
-    // so what is left is the solver's error: it falls with the number of cycles.
+// The equations of a mesh turned by 90 degrees are the same to rounding, but smoothers go through
+// them in another order, so what is left is the solver's error: it falls as the solver converges.
+double effect_of_a_quarter_turn(int axis, const FlowParameters& p) {
     const TriangleMesh mesh = shapes::bumpy_sphere(20);
+    const Eigen::Vector3d around = Eigen::Vector3d::Unit(axis);
+    return distance(evolved(turned(mesh, kQuarterTurn, around), p),
+                    turned(evolved(mesh, p), kQuarterTurn, around));
+}
+
+TEST(Flow, CommutesWithQuarterTurnsAsCyclesConverge) {
     for (int axis = 0; axis < 3; ++axis) {
-        const Eigen::Vector3d around = Eigen::Vector3d::Unit(axis);
         const auto difference = [&](int cycles) {
             FlowParameters p = parameters(4, 1e-3, 1);
+            p.solver = Solver::OneWCycle;
             p.cycles = cycles;
-            return distance(evolved(turned(mesh, kQuarterTurn, around), p),
-                            turned(evolved(mesh, p), kQuarterTurn, around));
+            return effect_of_a_quarter_turn(axis, p);
         };
         const double of_one_cycle = difference(1);
         EXPECT_LT(difference(10), 0.2 * of_one_cycle);
         EXPECT_LT(difference(100), 1e-6);  // rounding of single precision
+    }
+}
+
+TEST(Flow, CommutesWithQuarterTurnsToTheTolerance) {
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto difference = [&](double tolerance) {
+            FlowParameters p = parameters(4, 1e-3, 1);
+            p.tolerance = tolerance;
+            return effect_of_a_quarter_turn(axis, p);
+        };
+        EXPECT_LT(difference(1e-4), 1e-4);
+        EXPECT_LT(difference(1e-8), 1e-6);  // rounding of single precision
     }
 }
 
