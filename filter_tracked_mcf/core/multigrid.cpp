@@ -22,7 +22,7 @@ Multigrid::LevelData::LevelData(const TrackedElements& elements, std::size_t lev
 }
 
 Multigrid::Multigrid(const TrackedElements& elements, std::vector<std::vector<std::uint8_t>> frozen)
-    : elements_(elements), frozen_(std::move(frozen)) {
+    : elements_(elements), frozen_(std::move(frozen)), coarse_solver_(elements.levels.front()) {
     levels_.reserve(elements.levels.size());
     for (std::size_t level = 0; level < elements.levels.size(); ++level) {
         levels_.emplace_back(elements, level);
