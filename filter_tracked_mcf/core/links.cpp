@@ -1,23 +1,28 @@
 #include "filter_tracked_mcf/core/links.h"
 
-#include "filter_tracked_mcf/core/sorting.h"
+#include <algorithm>
 
 namespace tracked_mcf {
 
 void sort_and_remove_copies(std::vector<Link>& links, std::int32_t element_count) {
-    const auto count = static_cast<std::uint64_t>(element_count);
-    std::vector<KeyValue> pairs;
-    pairs.reserve(links.size());
-    for (const Link& link : links) {
-        const auto first = static_cast<std::uint64_t>(link.first);
-        pairs.push_back({first * count + static_cast<std::uint64_t>(link.second), first});
+    // A counting sort by first; few links have the same one, so these are soon sorted by second.
+    std::vector<std::int64_t> end(static_cast<std::size_t>(element_count) + 1, 0);
+    for (const Link& link : links) ++end[link.first + 1];
+    for (std::int32_t element = 0; element < element_count; ++element) {
+        end[element + 1] += end[element];
     }
-    sort_by_key(pairs);
+    std::vector<std::int32_t> seconds(links.size());
+    for (const Link& link : links) seconds[end[link.first]++] = link.second;
     links.clear();
-    for (std::size_t i = 0; i < pairs.size(); ++i) {
-        if (i > 0 && pairs[i].key == pairs[i - 1].key) continue;
-        links.push_back({static_cast<std::int32_t>(pairs[i].value),
-                         static_cast<std::int32_t>(pairs[i].key - pairs[i].value * count)});
+    auto range_begin = seconds.begin();
+    for (std::int32_t first = 0; first < element_count; ++first) {
+        const auto range_end = seconds.begin() + end[first];
+        std::sort(range_begin, range_end);
+        const auto unique_end = std::unique(range_begin, range_end);
+        for (auto second = range_begin; second != unique_end; ++second) {
+            links.push_back({first, *second});
+        }
+        range_begin = range_end;
     }
 }
 

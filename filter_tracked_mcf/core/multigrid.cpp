@@ -62,13 +62,20 @@ void Multigrid::cycle(const CycleParameters& parameters, std::size_t level, cons
     restrict_residual(level);
     LevelData& coarser = levels_[level - 1];
     coarser.x.setZero(4, elements_.levels[level - 1].unknown_count());
-    for (int visit = 0; visit < parameters.coarse_visits; ++visit) {
+    const int visits = shrinks_below(level) ? parameters.coarse_visits : 1;
+    for (int visit = 0; visit < visits; ++visit) {
         cycle(parameters, level - 1, coarser.right_side, coarser.x);
     }
     add_correction(level, x);
     for (int sweep = 0; sweep < parameters.sweeps_after; ++sweep) {
         here.smoother.sweep(here.matrix, right_side, x);
     }
+}
+
+bool Multigrid::shrinks_below(std::size_t level) const {
+    const std::int64_t here = elements_.levels[level].unknown_count();
+    const std::int64_t below = elements_.levels[level - 1].unknown_count();
+    return 10 * below <= 9 * here;
 }
 
 void Multigrid::restrict_residual(std::size_t level) {
