@@ -7,6 +7,16 @@
 
 namespace tracked_mcf {
 
+namespace {
+
+/// Unknowns of a level that may be visited thousands of times.
+constexpr std::int32_t kCheapToVisit = 1000;
+
+/// From this share of a level's unknowns on, the next coarser level is hardly smaller.
+constexpr double kHardlySmaller = 0.9;
+
+}  // namespace
+
 Multigrid::LevelData::LevelData(const TrackedElements& elements, std::size_t level)
     : matrix(elements.levels[level]), smoother(elements.levels[level]) {
     if (level > 0) {
@@ -62,7 +72,7 @@ void Multigrid::cycle(const CycleParameters& parameters, std::size_t level, cons
     restrict_residual(level);
     LevelData& coarser = levels_[level - 1];
     coarser.x.setZero(4, elements_.levels[level - 1].unknown_count());
-    const int visits = shrinks_below(level) ? parameters.coarse_visits : 1;
+    const int visits = worth_revisiting(level - 1) ? parameters.coarse_visits : 1;
     for (int visit = 0; visit < visits; ++visit) {
         cycle(parameters, level - 1, coarser.right_side, coarser.x);
     }
@@ -72,10 +82,10 @@ void Multigrid::cycle(const CycleParameters& parameters, std::size_t level, cons
     }
 }
 
-bool Multigrid::shrinks_below(std::size_t level) const {
-    const std::int64_t here = elements_.levels[level].unknown_count();
-    const std::int64_t below = elements_.levels[level - 1].unknown_count();
-    return 10 * below <= 9 * here;
+bool Multigrid::worth_revisiting(std::size_t level) const {
+    const std::int32_t here = elements_.levels[level].unknown_count();
+    const std::int32_t above = elements_.levels[level + 1].unknown_count();
+    return here < kCheapToVisit || here < kHardlySmaller * above;
 }
 
 void Multigrid::restrict_residual(std::size_t level) {

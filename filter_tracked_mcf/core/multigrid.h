@@ -60,7 +60,7 @@ private:
 
     void cycle(const CycleParameters& parameters, std::size_t level, const Field& right_side,
                Field& x);
-    bool shrinks_below(std::size_t level) const;
+    bool worth_revisiting(std::size_t level) const;
     void restrict_residual(std::size_t level);
     void add_correction(std::size_t level, Field& x) const;
 
