@@ -21,21 +21,6 @@ bool touch(const Cell& a, const Cell& b) {
     return (a - b).cwiseAbs().maxCoeff() <= 1;
 }
 
-/// Half of the 26 directions to a touching cell: of each and its opposite one.
-constexpr std::array<std::array<int, 3>, 13> kForward = {{{1, 0, 0},
-                                                          {-1, 1, 0},
-                                                          {0, 1, 0},
-                                                          {1, 1, 0},
-                                                          {-1, -1, 1},
-                                                          {0, -1, 1},
-                                                          {1, -1, 1},
-                                                          {-1, 0, 1},
-                                                          {0, 0, 1},
-                                                          {1, 0, 1},
-                                                          {-1, 1, 1},
-                                                          {0, 1, 1},
-                                                          {1, 1, 1}}};
-
 /// Appends links to a vector, without most of the copies: neighbouring triangles ask for the same
 /// links again and again.
 class LinkCollector {
@@ -66,17 +51,18 @@ private:
     }
 
     void link_neighbours(const std::vector<Piece>& pieces) {
-        for (const Piece& piece : pieces) {
-            for (const auto& direction : kForward) {
-                const Cell cell = piece.cell + Cell(direction[0], direction[1], direction[2]);
+        for (auto piece = pieces.begin(); piece != pieces.end(); ++piece) {
+            for (int direction = 0; direction < 27; ++direction) {
+                const Cell offset(direction % 3 - 1, direction / 3 % 3 - 1, direction / 9 - 1);
+                const Cell cell = piece->cell + offset;
                 if (cell.minCoeff() < 0) continue;
                 const MortonCode code = morton_code(cell);
+                if (code <= piece->code) continue;  // linked from the other side
                 const auto found = std::lower_bound(
-                    pieces.begin(), pieces.end(), code,
+                    piece, pieces.end(), code,
                     [](const Piece& other, MortonCode wanted) { return other.code < wanted; });
                 if (found == pieces.end() || found->code != code) continue;
-                add(std::min(piece.element, found->element),
-                    std::max(piece.element, found->element));
+                add(piece->element, found->element);
             }
         }
     }
@@ -111,6 +97,7 @@ bool share_plane(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
     return false;
 }
 
+/// Finds pieces and has them linked.
 class LinkFinder {
 public:
     LinkFinder(const GridMesh& mesh, const MeshTopology& topology,
