@@ -17,8 +17,14 @@ struct Piece {
     Cell cell;
 };
 
-bool touch(const Cell& a, const Cell& b) {
-    return (a - b).cwiseAbs().maxCoeff() <= 1;
+/// The faces of a cell through which one gets nearer to the cell at this offset: two bits an axis.
+int faces_towards(const Cell& offset) {
+    int faces = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        if (offset[axis] < 0) faces |= 1 << (2 * axis);
+        if (offset[axis] > 0) faces |= 2 << (2 * axis);
+    }
+    return faces;
 }
 
 /// Appends links to a vector, without most of the copies: neighbouring triangles ask for the same
@@ -27,7 +33,8 @@ class LinkCollector {
 public:
     explicit LinkCollector(std::vector<Link>& links) : links_(links) { recent_.fill({-1, -1}); }
 
-    /// Links all pieces in touching cells. Pieces are sorted by cell, each cell once.
+    /// Links all pieces in touching cells, directly or by way of others that touch both of them.
+    /// Pieces are sorted by cell, each cell once.
     void link_touching(const std::vector<Piece>& pieces) {
         if (pieces.size() < kWorthSearching) {
             link_pairs(pieces);
@@ -40,13 +47,34 @@ private:
     static constexpr std::size_t kWorthSearching = 64;
     static constexpr std::size_t kRecent = 1024;
 
+    /// Two cells that share no face, but an edge or a corner.
+    struct Diagonal {
+        std::size_t first, second;
+        int faces;  ///< of the first, towards the second
+    };
+
     void link_pairs(const std::vector<Piece>& pieces) {
+        faces_.assign(pieces.size(), 0);
+        diagonals_.clear();
         for (std::size_t i = 1; i < pieces.size(); ++i) {
             for (std::size_t j = 0; j < i; ++j) {
-                if (touch(pieces[i].cell, pieces[j].cell)) {
-                    add(pieces[j].element, pieces[i].element);
+                const Cell offset = pieces[i].cell - pieces[j].cell;
+                const auto distance = offset.cwiseAbs();
+                if (distance.maxCoeff() > 1) continue;
+                if (distance.sum() > 1) {
+                    diagonals_.push_back({j, i, faces_towards(offset)});
+                    continue;
                 }
+                faces_[i] |= faces_towards(-offset);
+                faces_[j] |= faces_towards(offset);
+                add(pieces[j].element, pieces[i].element);
             }
+        }
+        // A piece in between, behind a face of the first cell, does: it touches both cells, and at
+        // all corners that these share.
+        for (const Diagonal& pair : diagonals_) {
+            if ((faces_[pair.first] & pair.faces) != 0) continue;
+            add(pieces[pair.first].element, pieces[pair.second].element);
         }
     }
 
@@ -77,6 +105,8 @@ private:
 
     std::vector<Link>& links_;
     std::array<Link, kRecent> recent_;
+    std::vector<int> faces_;  ///< of every piece's cell, those with another piece behind them
+    std::vector<Diagonal> diagonals_;
 };
 
 /// Bit `axis` is set if the point lies in a grid plane across that axis.

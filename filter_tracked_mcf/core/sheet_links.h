@@ -9,7 +9,8 @@
 
 namespace tracked_mcf {
 
-/// The links between separated elements, sorted, each once. The supports of functions are boxes, so
+/// Links between separated elements, sorted, each once: all that there are, or others that lead
+/// from one element to the other inside the same supports. The supports of functions are boxes, so
 /// what a support and a triangle, an edge or a vertex have in common is convex: its pieces in any
 /// two touching cells are connected inside every support that has both cells. Edges and vertices
 /// matter where they lie in a grid plane: their triangles may then be in different cells, and no
