@@ -46,7 +46,8 @@ Flow::Flow(const TriangleMesh& mesh, const FlowParameters& parameters)
 
 Flow::Flow(const TriangleMesh& mesh, const FlowParameters& parameters, const Grid& grid)
     : parameters_(parameters),
-      elements_(build_tracked_elements(mesh, grid, parameters.cubature)),
+      elements_(
+          build_tracked_elements(mesh, grid, parameters.cubature, parameters.separate_sheets)),
       grid_step_size_(to_grid_units(parameters.step_size, mesh, grid)),
       multigrid_(elements_, locked_unknowns(elements_, parameters.boundary),
                  cycle_parameters(parameters.solver)),
@@ -65,7 +66,8 @@ void Flow::fill_report(const TriangleMesh& mesh) {
     report_.boundary_edges = elements_.boundary_edge_count;
     report_.depth = elements_.grid.depth;
     report_.cell_size = elements_.grid.cell_size;
-    report_.cells = elements_.finest().element_count();
+    report_.cells = count_cells(elements_.finest());
+    report_.elements = elements_.finest().element_count();
     report_.unknowns = elements_.finest().unknown_count();
     report_.locked_unknowns = std::count(multigrid_.frozen().begin(), multigrid_.frozen().end(), 1);
     report_.fragments = elements_.fragment_count;

@@ -30,6 +30,7 @@ struct FlowReport {
     int depth = 0;
     double cell_size = 0;              ///< of the finest level, mesh units
     std::int64_t cells = 0;            ///< occupied cells of the finest level
+    std::int64_t elements = 0;         ///< connected parts of the surface in them, if separated
     std::int64_t unknowns = 0;         ///< test functions of the finest level
     std::int64_t locked_unknowns = 0;  ///< of those, held by the boundary
     std::int64_t fragments = 0;        ///< triangles clipped to cells

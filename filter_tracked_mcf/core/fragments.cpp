@@ -14,12 +14,47 @@ namespace {
 
 constexpr double kDegenerateShape = 1e-12;
 
-// The payload of a sorted pair: the triangle below, the size of the fan above.
+// What is sorted with a cell's code: the triangle in the lowest bits, the rest above.
 constexpr unsigned kFanShift = 32;
+constexpr unsigned kCornersShift = 40;
+constexpr unsigned kEdgesShift = 48;
+
+std::uint64_t pack(const FragmentEntry& entry) {
+    return static_cast<std::uint64_t>(entry.triangle) |
+           static_cast<std::uint64_t>(entry.split_triangles) << kFanShift |
+           static_cast<std::uint64_t>(entry.corners) << kCornersShift |
+           static_cast<std::uint64_t>(entry.edges) << kEdgesShift;
+}
+
+FragmentEntry unpack(const KeyValue& pair) {
+    return {pair.key, static_cast<std::int32_t>(pair.value),
+            static_cast<std::uint8_t>(pair.value >> kFanShift),
+            static_cast<std::uint8_t>(pair.value >> kCornersShift),
+            static_cast<std::uint8_t>(pair.value >> kEdgesShift)};
+}
 
 Eigen::Vector3d rounded(const Eigen::Vector3d& position) {
     constexpr double steps_per_cell = 0x1p30;
     return (steps_per_cell * position).array().round() / steps_per_cell;
+}
+
+std::uint8_t corners_of(const Polygon& polygon) {
+    int corners = 0;
+    for (int i = 0; i < polygon.size; ++i) {
+        if (polygon.corner[i] != Polygon::kNone) corners |= 1 << polygon.corner[i];
+    }
+    return static_cast<std::uint8_t>(corners);
+}
+
+std::uint8_t edges_of(const Polygon& polygon) {
+    int edges = 0;
+    for (int i = 0; i < polygon.size; ++i) {
+        const int next = i + 1 < polygon.size ? i + 1 : 0;
+        if (polygon.edge[i] != Polygon::kNone && polygon.points[i] != polygon.points[next]) {
+            edges |= 1 << polygon.edge[i];
+        }
+    }
+    return static_cast<std::uint8_t>(edges);
 }
 
 void add_fragments(const GridMesh& mesh, std::int32_t triangle, std::int32_t cells_per_side,
@@ -28,8 +63,9 @@ void add_fragments(const GridMesh& mesh, std::int32_t triangle, std::int32_t cel
     const bool degenerate = is_degenerate(corners);
     for_each_fragment(corners, cells_per_side, [&](const Cell& cell, const Polygon& polygon) {
         const int fan = degenerate ? 0 : std::max(polygon.size - 2, 0);
-        pairs.push_back({morton_code(cell), static_cast<std::uint64_t>(fan) << kFanShift |
-                                                static_cast<std::uint64_t>(triangle)});
+        const FragmentEntry entry{morton_code(cell), triangle, static_cast<std::uint8_t>(fan),
+                                  corners_of(polygon), edges_of(polygon)};
+        pairs.push_back({entry.cell, pack(entry)});
     });
 }
 
@@ -86,10 +122,7 @@ std::vector<FragmentEntry> list_fragments(const GridMesh& mesh, const Grid& grid
     });
     sort_by_key(pairs);
     std::vector<FragmentEntry> entries(pairs.size());
-    for (std::size_t i = 0; i < pairs.size(); ++i) {
-        entries[i] = {pairs[i].key, static_cast<std::int32_t>(pairs[i].value),
-                      static_cast<std::int32_t>(pairs[i].value >> kFanShift)};
-    }
+    std::transform(pairs.begin(), pairs.end(), entries.begin(), unpack);
     return entries;
 }
 

@@ -29,12 +29,15 @@ bool is_degenerate(const std::array<Eigen::Vector3d, 3>& corners);
 
 std::int64_t count_degenerate(const GridMesh& mesh);
 
-/// Which triangle has a part in which cell. Degenerate triangles are listed too: they carry no
-/// area, but they hold the surface together and their vertices need functions.
+/// Which triangle has a part in which cell, and which of the triangle's corners and edges have.
+/// Degenerate triangles are listed too: they carry no area, but they hold the surface together and
+/// their vertices need functions.
 struct FragmentEntry {
     MortonCode cell;
     std::int32_t triangle;
-    std::int32_t split_triangles;  ///< triangles in the polygon's fan; 0 if degenerate
+    std::uint8_t split_triangles;  ///< triangles in the polygon's fan; 0 if degenerate
+    std::uint8_t corners;          ///< bit i: corner i of the triangle lies in the cell
+    std::uint8_t edges;  ///< bit i: so does, in more than a point, the edge from corner i on
 };
 
 /// All fragments of a mesh, sorted by cell, then by triangle. Throws InvalidMesh if a vertex lies

@@ -9,6 +9,12 @@ namespace tracked_mcf {
 
 namespace {
 
+/// Unknowns of a level that may be visited thousands of times.
+constexpr std::int32_t kCheapToVisit = 1000;
+
+/// From this share of a level's unknowns on, the next coarser level is hardly smaller.
+constexpr double kHardlySmaller = 0.9;
+
 std::variant<GaussSeidel, ElementSmoother> make_smoother(const Level& level, Smoothing smoothing) {
     if (smoothing == Smoothing::GaussSeidel) return GaussSeidel(level);
     return ElementSmoother(level);
@@ -33,7 +39,10 @@ Multigrid::LevelData::LevelData(const TrackedElements& elements, std::size_t lev
 
 Multigrid::Multigrid(const TrackedElements& elements, std::vector<std::vector<std::uint8_t>> frozen,
                      const CycleParameters& parameters)
-    : elements_(elements), parameters_(parameters), frozen_(std::move(frozen)) {
+    : elements_(elements),
+      parameters_(parameters),
+      frozen_(std::move(frozen)),
+      coarse_solver_(elements.levels.front()) {
     levels_.reserve(elements.levels.size());
     for (std::size_t level = 0; level < elements.levels.size(); ++level) {
         levels_.emplace_back(elements, level, parameters.smoothing);
@@ -73,7 +82,8 @@ void Multigrid::cycle(std::size_t level, const Field& right_side, Field& x) {
     restrict_residual(level);
     LevelData& coarser = levels_[level - 1];
     coarser.x.setZero(4, elements_.levels[level - 1].unknown_count());
-    for (int visit = 0; visit < parameters_.coarse_visits; ++visit) {
+    const int visits = worth_revisiting(level - 1) ? parameters_.coarse_visits : 1;
+    for (int visit = 0; visit < visits; ++visit) {
         cycle(level - 1, coarser.right_side, coarser.x);
     }
     add_correction(level, x);
@@ -90,6 +100,12 @@ void Multigrid::LevelData::smooth_after(const Field& b, Field& solution) const {
     } else {
         smooth_before(b, solution);
     }
+}
+
+bool Multigrid::worth_revisiting(std::size_t level) const {
+    const std::int32_t here = elements_.levels[level].unknown_count();
+    const std::int32_t above = elements_.levels[level + 1].unknown_count();
+    return here < kCheapToVisit || here < kHardlySmaller * above;
 }
 
 void Multigrid::restrict_residual(std::size_t level) {

@@ -29,7 +29,10 @@ struct CycleParameters {
     Smoothing smoothing = Smoothing::GaussSeidel;
     int sweeps_before = 5;  ///< before the coarse correction
     int sweeps_after = 5;   ///< and after it
-    int coarse_visits = 2;  ///< times a level visits the next coarser one: 1 is a V-, 2 a W-cycle
+    /// Times a level visits the next coarser one: 1 is a V-, 2 a W-cycle. One that is hardly
+    /// smaller is visited once, or the work for a surface in many small parts would double at every
+    /// level.
+    int coarse_visits = 2;
 };
 
 /// The multigrid solver over the levels of tracked elements. Patterns, transfers and the order of
@@ -73,6 +76,7 @@ private:
     };
 
     void cycle(std::size_t level, const Field& right_side, Field& x);
+    bool worth_revisiting(std::size_t level) const;
     void restrict_residual(std::size_t level);
     void add_correction(std::size_t level, Field& x) const;
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <limits>
+#include <utility>
 
 #include "filter_tracked_mcf/core/bspline.h"
 #include "filter_tracked_mcf/core/clip.h"
@@ -11,7 +12,10 @@
 #include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/fan.h"
 #include "filter_tracked_mcf/core/fragments.h"
+#include "filter_tracked_mcf/core/mesh_topology.h"
 #include "filter_tracked_mcf/core/parallel.h"
+#include "filter_tracked_mcf/core/sheet_links.h"
+#include "filter_tracked_mcf/core/sheets.h"
 
 namespace tracked_mcf {
 
@@ -36,14 +40,13 @@ Eigen::Vector3f unit_normal(const std::array<Eigen::Vector3d, 3>& corners) {
 /// Fills in what TrackedElements holds about the fragments, element by element.
 class ElementBuilder {
 public:
-    ElementBuilder(TrackedElements& elements, const GridMesh& mesh,
+    ElementBuilder(TrackedElements& elements, const GridMesh& mesh, const MeshTopology& topology,
                    const std::vector<FragmentEntry>& entries,
-                   const std::vector<std::int32_t>& welded,
                    const std::vector<std::uint8_t>& boundary, const std::vector<CubatureNode>& rule)
         : elements_(elements),
           mesh_(mesh),
+          topology_(topology),
           entries_(entries),
-          welded_(welded),
           boundary_(boundary),
           rule_(rule),
           claims_(mesh.positions.size()) {
@@ -62,20 +65,19 @@ public:
     }
 
 private:
-    /// Every element's range of fragments and samples, known from the sizes of the fans alone.
+    /// Every element's range of samples, known from the sizes of the fans alone.
     void lay_out() {
         const auto samples_per_triangle = static_cast<std::int64_t>(rule_.size());
         std::int64_t samples = 0;
-        for (std::size_t i = 0; i < entries_.size(); ++i) {
-            if (i == 0 || entries_[i].cell != entries_[i - 1].cell) {
-                elements_.fragment_begin.push_back(static_cast<std::int64_t>(i));
-                elements_.sample_begin.push_back(samples);
+        for (std::int32_t element = 0; element < elements_.finest().element_count(); ++element) {
+            elements_.sample_begin.push_back(samples);
+            for (std::int64_t i = elements_.fragment_begin[element];
+                 i < elements_.fragment_begin[element + 1]; ++i) {
+                samples += entries_[i].split_triangles * samples_per_triangle;
+                elements_.split_triangle_count += entries_[i].split_triangles;
+                elements_.fragment_count += entries_[i].split_triangles > 0 ? 1 : 0;
             }
-            samples += entries_[i].split_triangles * samples_per_triangle;
-            elements_.split_triangle_count += entries_[i].split_triangles;
-            elements_.fragment_count += entries_[i].split_triangles > 0 ? 1 : 0;
         }
-        elements_.fragment_begin.push_back(static_cast<std::int64_t>(entries_.size()));
         elements_.sample_begin.push_back(samples);
         elements_.fragments.resize(entries_.size());
         elements_.samples.resize(static_cast<std::size_t>(samples));
@@ -88,10 +90,10 @@ private:
         for (std::int64_t i = elements_.fragment_begin[element];
              i < elements_.fragment_begin[element + 1]; ++i) {
             const std::int32_t triangle = entries_[i].triangle;
+            note_vertices_and_boundary(entries_[i], element);
+            if (entries_[i].split_triangles == 0) continue;
             const auto corners = mesh_.corners(triangle);
             const Polygon polygon = clip_to_cell(corners, cell);
-            note_vertices_and_boundary(polygon, triangle, element);
-            if (entries_[i].split_triangles == 0) continue;
             Sample* const first_sample = next_sample;
             for_each_node(polygon, corners, rule_, [&](const WeightedPoint& node) {
                 const Eigen::Vector3f local = (node.point - cell.cast<double>()).cast<float>();
@@ -103,26 +105,19 @@ private:
         }
     }
 
-    void note_vertices_and_boundary(const Polygon& polygon, std::int32_t triangle,
-                                    std::int32_t element) {
-        for (int i = 0; i < polygon.size; ++i) {
-            const int corner = polygon.corner[i];
-            if (corner != Polygon::kNone) {
-                claim(claims_[welded_[mesh_.original.triangles[triangle][corner]]], element);
-            }
-            const int edge = polygon.edge[i];
-            if (edge != Polygon::kNone && ((boundary_[triangle] >> edge) & 1) != 0 &&
-                polygon.points[i] != polygon.points[(i + 1) % polygon.size]) {
-                elements_.on_boundary[element] = 1;
-            }
+    void note_vertices_and_boundary(const FragmentEntry& entry, std::int32_t element) {
+        for (int i = 0; i < 3; ++i) {
+            if (((entry.corners >> i) & 1) == 0) continue;
+            claim(claims_[topology_.triangles[entry.triangle][i]], element);
         }
+        if ((entry.edges & boundary_[entry.triangle]) != 0) elements_.on_boundary[element] = 1;
     }
 
     void place_vertices() {
         elements_.vertices.resize(mesh_.positions.size());
         for (std::size_t vertex = 0; vertex < mesh_.positions.size(); ++vertex) {
             // Coincident vertices take their first one's place, so that soups stay together.
-            const std::int32_t first = welded_[vertex];
+            const std::int32_t first = topology_.welded[vertex];
             const std::int32_t element = claims_[first].load(std::memory_order_relaxed);
             if (element == kUnclaimed) continue;
             const Cell cell = cell_at(elements_.finest().cells[element]);
@@ -134,12 +129,27 @@ private:
 
     TrackedElements& elements_;
     const GridMesh& mesh_;
+    const MeshTopology& topology_;
     const std::vector<FragmentEntry>& entries_;
-    const std::vector<std::int32_t>& welded_;
     const std::vector<std::uint8_t>& boundary_;
     const std::vector<CubatureNode>& rule_;
     Claims claims_;
 };
+
+/// Decides which fragments make up which element, sorts them accordingly, and builds the levels.
+void build_octree(TrackedElements& elements, const GridMesh& mesh, const MeshTopology& topology,
+                  std::vector<FragmentEntry>& entries, bool by_sheet) {
+    const int depth = elements.grid.depth;
+    FinestElements finest =
+        by_sheet ? separate_sheets(topology, entries) : one_element_per_cell(entries);
+    if (by_sheet) {
+        std::vector<Link> links = find_links(mesh, topology, entries, finest);
+        elements.levels = build_levels(std::move(finest.cells), std::move(links), depth);
+    } else {
+        elements.levels = build_levels(std::move(finest.cells), depth);
+    }
+    elements.fragment_begin = std::move(finest.fragment_begin);
+}
 
 std::int64_t count_bits(const std::vector<std::uint8_t>& masks) {
     std::int64_t count = 0;
@@ -151,7 +161,7 @@ std::int64_t count_bits(const std::vector<std::uint8_t>& masks) {
 }  // namespace
 
 TrackedElements build_tracked_elements(const TriangleMesh& mesh, const Grid& grid,
-                                       Cubature cubature) {
+                                       Cubature cubature, bool separate_sheets) {
     const GridMesh grid_mesh = to_grid(mesh, grid);
     TrackedElements elements;
     elements.grid = grid;
@@ -160,15 +170,16 @@ TrackedElements build_tracked_elements(const TriangleMesh& mesh, const Grid& gri
         throw InvalidMesh(
             "All faces are degenerate: none has an area, so there is no surface to smooth.");
     }
-    const std::vector<std::int32_t> welded = weld_coincident_vertices(mesh);
-    const std::vector<std::uint8_t> boundary = boundary_edges(mesh, welded);
+    const MeshTopology topology = topology_of(mesh);
+    const std::vector<std::uint8_t> boundary = boundary_edges(topology);
     const std::vector<bool> referenced = referenced_vertices(mesh);
     elements.referenced_vertex_count = std::count(referenced.begin(), referenced.end(), true);
     elements.boundary_edge_count = count_bits(boundary);
 
-    const std::vector<FragmentEntry> entries = list_fragments(grid_mesh, grid);
-    elements.levels = build_levels(occupied_cells(entries), grid.depth);
-    ElementBuilder(elements, grid_mesh, entries, welded, boundary, cubature_rule(cubature)).build();
+    std::vector<FragmentEntry> entries = list_fragments(grid_mesh, grid);
+    build_octree(elements, grid_mesh, topology, entries, separate_sheets);
+    ElementBuilder(elements, grid_mesh, topology, entries, boundary, cubature_rule(cubature))
+        .build();
     return elements;
 }
 

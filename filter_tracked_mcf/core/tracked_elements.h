@@ -58,10 +58,11 @@ struct TrackedElements {
     const Level& finest() const { return levels.back(); }
 };
 
-/// Clips the mesh to the grid, builds the octree over it and places samples and vertices. Throws
-/// InvalidMesh if all triangles are degenerate or a vertex lies outside the grid's cube.
+/// Clips the mesh to the grid, builds the octree over it and places samples and vertices; see
+/// FlowParameters for the rest. Throws InvalidMesh if all triangles are degenerate or a vertex lies
+/// outside the grid's cube.
 TrackedElements build_tracked_elements(const TriangleMesh& mesh, const Grid& grid,
-                                       Cubature cubature);
+                                       Cubature cubature, bool separate_sheets = true);
 
 /// Coefficients of the identity, Σ (i, j, k) B_ijk(p) = p (section 5.3): of every unknown of the
 /// finest level its corner, grid coordinates.

@@ -5,7 +5,6 @@
 #include <limits>
 #include <numeric>
 #include <string>
-#include <tuple>
 
 #include "filter_tracked_mcf/core/errors.h"
 
@@ -34,37 +33,6 @@ void check_triangle(const TriangleMesh& mesh, const Triangle& triangle) {
 /// Lexicographic order of positions; -0 and 0 are equal.
 bool position_less(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
     return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
-}
-
-/// A triangle's edge between welded vertices, smaller index first, and where it comes from.
-struct Edge {
-    std::int32_t first, second;
-    std::int32_t opposite;  ///< the triangle's third vertex
-    std::int32_t triangle;
-    int side;
-
-    bool joins_same_as(const Edge& other) const {
-        return first == other.first && second == other.second;
-    }
-};
-
-/// The edges of all triangles with three different vertices, sorted by their vertices.
-std::vector<Edge> sorted_edges(const TriangleMesh& mesh, const std::vector<std::int32_t>& welded) {
-    std::vector<Edge> edges;
-    edges.reserve(3 * mesh.triangles.size());
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-        Triangle t = mesh.triangles[i];
-        for (std::int32_t& vertex : t) vertex = welded[vertex];
-        if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
-        for (int side = 0; side < 3; ++side) {
-            const auto [a, b] = std::minmax({t[side], t[(side + 1) % 3]});
-            edges.push_back({a, b, t[(side + 2) % 3], static_cast<std::int32_t>(i), side});
-        }
-    }
-    std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
-        return std::tie(a.first, a.second, a.opposite) < std::tie(b.first, b.second, b.opposite);
-    });
-    return edges;
 }
 
 }  // namespace
@@ -111,20 +79,6 @@ std::vector<std::int32_t> weld_coincident_vertices(const TriangleMesh& mesh) {
         }
     }
     return welded;
-}
-
-std::vector<std::uint8_t> boundary_edges(const TriangleMesh& mesh,
-                                         const std::vector<std::int32_t>& welded) {
-    std::vector<std::uint8_t> boundary(mesh.triangles.size(), 0);
-    const std::vector<Edge> edges = sorted_edges(mesh, welded);
-    for (std::size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
-        while (end < edges.size() && edges[end].joins_same_as(edges[begin])) ++end;
-        if (edges[begin].opposite != edges[end - 1].opposite) continue;
-        for (std::size_t i = begin; i < end; ++i) {
-            boundary[edges[i].triangle] |= static_cast<std::uint8_t>(1 << edges[i].side);
-        }
-    }
-    return boundary;
 }
 
 double surface_area(const TriangleMesh& mesh) {

@@ -29,13 +29,6 @@ std::vector<bool> referenced_vertices(const TriangleMesh& mesh);
 /// unreferenced vertex is its own. A triangle soup welded this way is the mesh it came from.
 std::vector<std::int32_t> weld_coincident_vertices(const TriangleMesh& mesh);
 
-/// For every triangle, bit i is set if its edge from corner i to corner (i + 1) % 3 is on the
-/// boundary: no other triangle has that edge, coincident vertices counting as one (`welded` as
-/// weld_coincident_vertices returns it) and copies of a triangle as one triangle. Triangles with
-/// two equal vertices do not count at all.
-std::vector<std::uint8_t> boundary_edges(const TriangleMesh& mesh,
-                                         const std::vector<std::int32_t>& welded);
-
 /// Surface area, in squared units of the mesh.
 double surface_area(const TriangleMesh& mesh);
 

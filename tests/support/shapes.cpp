@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <random>
 
 namespace tracked_mcf::shapes {
 
@@ -121,6 +122,23 @@ TriangleMesh torus(int n, int m, double radius, double tube_radius) {
     return std::move(welder).mesh();
 }
 
+TriangleMesh moebius_band(int n, int m) {
+    const auto point = [&](int i, int j) -> Vector3d {
+        const double u = 2 * std::acos(-1.0) * i / n;
+        const double across = 0.8 * (static_cast<double>(j) / m - 0.5);
+        const double r = 1 + across * std::cos(0.5 * u);
+        return {r * std::cos(u), r * std::sin(u), across * std::sin(0.5 * u)};
+    };
+    Welder welder;
+    for (int i = 0; i < n; ++i) {
+        for (int j = 0; j < m; ++j) {
+            welder.triangle(point(i, j), point(i + 1, j), point(i + 1, j + 1));
+            welder.triangle(point(i, j), point(i + 1, j + 1), point(i, j + 1));
+        }
+    }
+    return std::move(welder).mesh();
+}
+
 TriangleMesh bumpy_sphere(int frequency) {
     TriangleMesh mesh = geodesic_sphere(frequency);
     for (Vector3d& p : mesh.positions) {
@@ -153,6 +171,25 @@ TriangleMesh soup(const TriangleMesh& mesh) {
         loose.triangles.push_back({first, first + 1, first + 2});
     }
     return loose;
+}
+
+TriangleMesh separate_triangles(int count) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> uniform(0, 1);
+    const auto point = [&]() -> Vector3d {
+        const double x = uniform(random);
+        const double y = uniform(random);
+        return {x, y, uniform(random)};
+    };
+    TriangleMesh mesh;
+    for (std::int32_t i = 0; i < count; ++i) {
+        const Vector3d middle = point();
+        for (int corner = 0; corner < 3; ++corner) {
+            mesh.positions.emplace_back(middle + 0.004 * point());
+        }
+        mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+    }
+    return mesh;
 }
 
 double volume(const TriangleMesh& mesh) {

@@ -19,6 +19,9 @@ TriangleMesh box(int n, const Eigen::Vector3d& sizes);
 /// A torus around the z axis with these radii, n by m quads of two triangles.
 TriangleMesh torus(int n, int m, double radius, double tube_radius);
 
+/// A Möbius band around the z axis, of radius 1 and width 0.8, n by m quads of two triangles each.
+TriangleMesh moebius_band(int n, int m);
+
 /// A sphere with bumps and no symmetry: a stand-in for a scan.
 TriangleMesh bumpy_sphere(int frequency);
 
@@ -30,6 +33,9 @@ TriangleMesh merged(TriangleMesh first, const TriangleMesh& second);
 
 /// Every triangle with three vertices of its own.
 TriangleMesh soup(const TriangleMesh& mesh);
+
+/// Small triangles that have nothing to do with each other, anywhere in the unit cube.
+TriangleMesh separate_triangles(int count);
 
 /// Sum of the triangles' signed volumes towards the origin: the volume inside a closed mesh.
 double volume(const TriangleMesh& mesh);

@@ -10,6 +10,7 @@
 
 #include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/evolve.h"
+#include "filter_tracked_mcf/core/mesh_topology.h"
 #include "tests/support/shapes.h"
 
 namespace tracked_mcf {
@@ -143,7 +144,7 @@ TEST(Flow, LockedBoundaryVerticesKeepTheirBits) {
     TriangleMesh cap = shapes::bumpy_sphere(20);
     cap.triangles.resize(cap.triangles.size() / 2);
     const TriangleMesh after = evolved(cap, parameters(5, 1e-4, 5));
-    const auto boundary = boundary_edges(cap, weld_coincident_vertices(cap));
+    const auto boundary = boundary_edges(topology_of(cap));
     int checked = 0;
     for (std::size_t t = 0; t < cap.triangles.size(); ++t) {
         for (int edge = 0; edge < 3; ++edge) {

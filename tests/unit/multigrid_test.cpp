@@ -140,7 +140,7 @@ TEST(CoarseSolver, SolvesASingularSystemInTheLeastSquaresSense) {
     // A flat patch in a grid plane: the four functions off the plane have empty rows.
     const System system(shapes::square(4), 1, 0.5F);
     const LevelMatrix& coarsest = system.multigrid.matrix(0);
-    CoarseSolver solver;
+    CoarseSolver solver(system.elements.levels[0]);
     solver.factorise(coarsest);
     const Dense a = dense(coarsest.matrix());
     const Field exact = Field::Random(4, a.rows());

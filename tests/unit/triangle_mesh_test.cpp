@@ -6,6 +6,7 @@
 
 #include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/grid.h"
+#include "filter_tracked_mcf/core/mesh_topology.h"
 #include "tests/support/shapes.h"
 
 namespace tracked_mcf {
@@ -16,7 +17,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 int count_boundary(const TriangleMesh& mesh) {
     int count = 0;
-    for (const std::uint8_t mask : boundary_edges(mesh, weld_coincident_vertices(mesh))) {
+    for (const std::uint8_t mask : boundary_edges(topology_of(mesh))) {
         for (int edge = 0; edge < 3; ++edge) count += (mask >> edge) & 1;
     }
     return count;
