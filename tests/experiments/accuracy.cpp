@@ -10,7 +10,7 @@
 #include "tests/experiments/csv.h"
 #include "tests/experiments/experiments.h"
 #include "tests/experiments/meshes.h"
-#include "tests/support/cotangent_flow.h"
+#include "tests/experiments/reference.h"
 #include "tests/support/surface_distance.h"
 
 namespace tracked_mcf::experiments {
@@ -20,27 +20,10 @@ namespace {
 struct Options {
     std::string mesh;
     std::vector<int> depths;
-    std::vector<int> steps;  ///< numbers of steps after which to measure, increasing
+    std::vector<int> steps;  ///< numbers of steps after which to measure
     std::vector<std::string> configurations;
     double step_size = 1e-5;
 };
-
-/// The cotangent flow after some number of steps.
-struct Reference {
-    TriangleMesh mesh;
-    std::vector<std::uint8_t> left_out;  ///< of every vertex: its triangles have degenerated
-};
-
-std::map<int, Reference> reference_flow(const TriangleMesh& mesh, const Options& options) {
-    std::map<int, Reference> references;
-    CotangentFlow flow(mesh, options.step_size, BoundaryCondition::Free);
-    for (int step = 1; step <= options.steps.back(); ++step) {
-        flow.step();
-        if (std::count(options.steps.begin(), options.steps.end(), step) == 0) continue;
-        references[step] = {flow.mesh(), vertices_around(mesh, flow.degenerated())};
-    }
-    return references;
-}
 
 void measure(const TriangleMesh& mesh, const std::map<int, Reference>& references,
              const Options& options, int depth, const std::string& configuration) {
@@ -52,28 +35,28 @@ void measure(const TriangleMesh& mesh, const std::map<int, Reference>& reference
     const Stopwatch stopwatch;
     Flow flow(mesh, parameters);
     int iterations = 0;
-    for (int step = 1; step <= options.steps.back(); ++step) {
+    for (int step = 1; step <= references.rbegin()->first; ++step) {
         flow.step();
         iterations += flow.report().steps.back().solver_iterations;
         const auto reference = references.find(step);
         if (reference == references.end()) continue;
-        const auto& [exact, left_out] = reference->second;
+        const TriangleMesh& exact = reference->second.mesh;
         TriangleMesh moved = mesh;
         flow.move_vertices(moved);
         const NormalDistance all = normal_distance(moved, exact);
-        const NormalDistance sound = normal_distance(moved, exact, left_out);
+        const NormalDistance sound = normal_distance(moved, exact, reference->second.left_out);
         print_row(depth, configuration, step, all.rms / unit, all.worst / unit, sound.rms / unit,
                   sound.worst / unit, sound.covered, normal_distance(mesh, exact).rms / unit,
                   iterations, stopwatch.seconds());
     }
 }
 
-void run(Options options) {
-    std::sort(options.steps.begin(), options.steps.end());
+void run(const Options& options) {
     print_row("depth", "configuration", "steps", "rms", "worst", "sound_rms", "sound_worst",
               "sound_part", "moved", "iterations", "seconds");
     const TriangleMesh mesh = named_mesh(options.mesh);
-    const std::map<int, Reference> references = reference_flow(mesh, options);
+    const std::map<int, Reference> references =
+        cotangent_flow(mesh, options.step_size, options.steps);
     for (const int depth : options.depths) {
         for (const std::string& configuration : options.configurations) {
             measure(mesh, references, options, depth, configuration);

@@ -93,12 +93,15 @@ class Experiment:
                                        for cell, width in zip(row, widths)) + " |")
         self.say()
 
-    def check(self, what, measured, limit):
-        """Says a measured figure beside the most that it may be."""
-        passed = measured <= limit
+    def check(self, what, measured, at_most=None, at_least=None):
+        """Says a measured figure beside its target."""
+        if at_most is not None:
+            passed, target = measured <= at_most, f"at most {three_digits(at_most)}"
+        else:
+            passed, target = measured >= at_least, f"at least {three_digits(at_least)}"
         self._missed += not passed
         self.say(f"- {'ok' if passed else '**missed**'}: {what}: {three_digits(measured)}, "
-                 f"at most {three_digits(limit)}")
+                 f"to be {target}")
 
     def figure(self, rows=1, columns=1, size=(5, 4)):
         """A matplotlib figure and its axes, rows by columns of them."""

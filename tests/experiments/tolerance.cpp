@@ -8,7 +8,7 @@
 #include "tests/experiments/csv.h"
 #include "tests/experiments/experiments.h"
 #include "tests/experiments/meshes.h"
-#include "tests/support/cotangent_flow.h"
+#include "tests/experiments/reference.h"
 #include "tests/support/surface_distance.h"
 
 namespace tracked_mcf::experiments {
@@ -45,44 +45,48 @@ Solution solve(const TriangleMesh& mesh, FlowParameters parameters, double toler
     return solution;
 }
 
-TriangleMesh cotangent_flow(const TriangleMesh& mesh, double step_size, int steps) {
-    CotangentFlow flow(mesh, step_size, BoundaryCondition::Free);
-    for (int step = 0; step < steps; ++step) flow.step();
-    return flow.mesh();
+/// The reference's vertices, moved by a - b.
+TriangleMesh moved_by_difference(TriangleMesh reference, const TriangleMesh& a,
+                                 const TriangleMesh& b) {
+    for (std::size_t i = 0; i < reference.positions.size(); ++i) {
+        reference.positions[i] += a.positions[i] - b.positions[i];
+    }
+    return reference;
 }
 
-/// Both distances are along the cotangent flow's normal, in diagonals.
-void measure(const TriangleMesh& mesh, const TriangleMesh& reference, const Options& options,
+void measure(const TriangleMesh& mesh, const Reference& reference, const Options& options,
              const FlowParameters& parameters) {
     const double unit = diagonal(mesh);
+    const auto rms = [&](const TriangleMesh& m) {
+        return normal_distance(m, reference.mesh, reference.left_out).rms / unit;
+    };
     const Solution best = solve(mesh, parameters, options.tightest, options.steps);
-    const double discretisation = normal_distance(best.mesh, reference).rms / unit;
     for (const double tolerance : options.tolerances) {
         const Solution solution = solve(mesh, parameters, tolerance, options.steps);
-        // The reference's vertices, moved by the solver's error.
-        TriangleMesh off = reference;
-        for (std::size_t i = 0; i < off.positions.size(); ++i) {
-            off.positions[i] += solution.mesh.positions[i] - best.mesh.positions[i];
-        }
-        const NormalDistance error = normal_distance(off, reference);
-        print_row(parameters.depth, parameters.step_size, tolerance, solution.iterations,
-                  solution.reached_tolerance ? 1 : 0, error.rms / unit, error.worst / unit,
-                  discretisation, best.reached_tolerance ? 1 : 0);
+        print_row(parameters.depth, parameters.step_size, tolerance,
+                  tolerance == parameters.tolerance ? 1 : 0, solution.iterations,
+                  solution.reached_tolerance ? 1 : 0, best.reached_tolerance ? 1 : 0,
+                  rms(moved_by_difference(reference.mesh, solution.mesh, best.mesh)),
+                  rms(best.mesh), rms(mesh));
     }
 }
 
-void run(const Options& options) {
-    print_row("depth", "step_size", "tolerance", "iterations", "reached_tolerance", "solver_rms",
-              "solver_worst", "discretisation_rms", "tightest_reached");
+void run(Options options) {
+    print_row("depth", "step_size", "tolerance", "is_default", "iterations", "reached_tolerance",
+              "tightest_reached", "solver_rms", "discretisation_rms", "moved");
     const TriangleMesh mesh = named_mesh(options.mesh);
+    FlowParameters parameters = parse_configuration(options.configuration);
+    parameters.boundary = BoundaryCondition::Free;
+    if (std::count(options.tolerances.begin(), options.tolerances.end(), parameters.tolerance) ==
+        0) {
+        options.tolerances.push_back(parameters.tolerance);
+    }
     for (const double step_size : options.step_sizes) {
-        const TriangleMesh reference = cotangent_flow(mesh, step_size, options.steps);
+        const auto references = cotangent_flow(mesh, step_size, {options.steps});
         for (const int depth : options.depths) {
-            FlowParameters parameters = parse_configuration(options.configuration);
             parameters.depth = depth;
             parameters.step_size = step_size;
-            parameters.boundary = BoundaryCondition::Free;
-            measure(mesh, reference, options, parameters);
+            measure(mesh, references.at(options.steps), options, parameters);
         }
     }
 }
@@ -95,7 +99,8 @@ void add_tolerance(CLI::App& app) {
         "tolerance",
         "The solver's error (distance to the solution at the tightest tolerance) beside the "
         "discretisation's (that solution's distance to the cotangent flow): root mean squares "
-        "along the normal, in diagonals of the initial bounding box. Boundaries are free.");
+        "along the normal, in diagonals of the initial bounding box, where the cotangent flow's "
+        "triangles are sound. Boundaries are free. The default tolerance is measured too.");
     command->add_option("mesh", options->mesh)->required();
     command->add_option("--depths", options->depths)->required();
     command->add_option("--step-sizes", options->step_sizes)->required();
