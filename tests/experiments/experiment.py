@@ -141,7 +141,7 @@ def number_or_text(value):
     for kind in (int, float):
         try:
             return kind(value)
-        except ValueError:
+        except (TypeError, ValueError):
             pass
     return value
 

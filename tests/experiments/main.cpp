@@ -11,7 +11,11 @@ int main(int argc, char** argv) {
     CLI::App app("Measures the flow. The scripts in tests/experiments call this.");
     app.require_subcommand(1);
     add_accuracy(app);
+    add_aligned(app);
     add_iterations(app);
+    add_pieces(app);
+    add_pinches(app);
+    add_setup(app);
     add_sphere(app);
     add_tolerance(app);
     try {

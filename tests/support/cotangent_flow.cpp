@@ -14,8 +14,12 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// Below, a triangle takes no part in a step.
-constexpr double kDegenerateQuality = 1e-12;
+/// Below, a triangle takes no part in a step, for its cotangents would drown all others.
+constexpr double kDegenerateQuality = 1e-6;
+
+/// Of a vertex's initial mass: what it keeps at least. The matrix would become singular otherwise
+/// where the surface has shrunk to nothing.
+constexpr double kLeastMassRatio = 1e-4;
 
 /// Below, a triangle's part of the surface is no longer to be trusted.
 constexpr double kDoubtfulQuality = 0.01;
@@ -39,18 +43,28 @@ Matrix3d opposite_edges(const TriangleMesh& mesh, const Triangle& t) {
     return edges;
 }
 
-/// Mass and stiffness of a triangle's three linear functions.
-struct ElementMatrices {
-    Matrix3d mass = Matrix3d::Zero();
-    Matrix3d stiffness = Matrix3d::Zero();
+bool takes_part(const TriangleMesh& mesh, const Triangle& t) {
+    return triangle_quality(mesh, t) > kDegenerateQuality;
+}
+
+/// What a triangle's three linear functions add to the system of the displacement.
+struct Element {
+    Matrix3d matrix;       ///< mass + δ stiffness
+    Matrix3d right_sides;  ///< columns: -δ times the gradient of the area, corner by corner
 };
 
-ElementMatrices element_matrices(const TriangleMesh& mesh, const Triangle& t) {
-    ElementMatrices element;
-    if (!(triangle_quality(mesh, t) > kDegenerateQuality)) return element;
+/// The gradient, which is S x, is formed as n × edge / 2: the rounding errors of large cotangents
+/// would not cancel in a product.
+Element element_of(const TriangleMesh& mesh, const Triangle& t, double step_size) {
+    if (!takes_part(mesh, t)) return {Matrix3d::Zero(), Matrix3d::Zero()};
     const Matrix3d edges = opposite_edges(mesh, t);
-    element.mass = area(mesh, t) / 12 * (Matrix3d::Ones() + Matrix3d::Identity());
-    element.stiffness = edges.transpose() * edges / (4 * area(mesh, t));
+    const Vector3d normal = edges.col(0).cross(edges.col(1)).normalized();
+    Element element;
+    element.matrix = area(mesh, t) / 12 * (Matrix3d::Ones() + Matrix3d::Identity()) +
+                     step_size / (4 * area(mesh, t)) * (edges.transpose() * edges);
+    for (int i = 0; i < 3; ++i) {
+        element.right_sides.col(i) = -0.5 * step_size * normal.cross(edges.col(i));
+    }
     return element;
 }
 
@@ -84,6 +98,7 @@ CotangentFlow::CotangentFlow(const TriangleMesh& mesh, double step_size, Boundar
     step_size_ = step_size * side * side;
     if (boundary == BoundaryCondition::LockedCells) held_ = boundary_vertices(mesh, welded_);
     for (const Triangle& t : mesh.triangles) initial_areas_.push_back(area(mesh, t));
+    initial_masses_ = masses();
     look_for_degenerated();
 }
 
@@ -96,6 +111,15 @@ void CotangentFlow::step() {
     look_for_degenerated();
 }
 
+std::vector<double> CotangentFlow::masses() const {
+    std::vector<double> masses(mesh_.positions.size());
+    for (const Triangle& t : mesh_.triangles) {
+        if (!takes_part(mesh_, t)) continue;
+        for (const std::int32_t vertex : t) masses[welded_[vertex]] += area(mesh_, t) / 3;
+    }
+    return masses;
+}
+
 /// The pattern is the same in every step: entries that are not to count are there, and zero.
 void CotangentFlow::assemble() {
     const auto size = static_cast<Eigen::Index>(mesh_.positions.size());
@@ -103,28 +127,26 @@ void CotangentFlow::assemble() {
     entries.reserve(9 * mesh_.triangles.size() + mesh_.positions.size());
     right_side_.setZero(size, 3);
     for (const Triangle& t : mesh_.triangles) {
-        const ElementMatrices element = element_matrices(mesh_, t);
-        const Matrix3d system = element.mass + step_size_ * element.stiffness;
+        const Element element = element_of(mesh_, t, step_size_);
         for (int i = 0; i < 3; ++i) {
             const std::int32_t row = welded_[t[i]];
             for (int j = 0; j < 3; ++j) {
                 const std::int32_t column = welded_[t[j]];
                 const bool counts = held_[row] == 0 && held_[column] == 0;
-                entries.emplace_back(row, column, counts ? system(i, j) : 0);
-                if (held_[row] != 0) continue;
-                right_side_.row(row) -=
-                    step_size_ * element.stiffness(i, j) * mesh_.positions[t[j]].transpose();
+                entries.emplace_back(row, column, counts ? element.matrix(i, j) : 0);
             }
+            if (held_[row] == 0) right_side_.row(row) += element.right_sides.col(i).transpose();
         }
     }
-    for (std::int32_t i = 0; i < size; ++i) entries.emplace_back(i, i, 0);
+    const std::vector<double> masses = this->masses();
+    for (std::int32_t i = 0; i < size; ++i) {
+        const double missing = std::max(0.0, kLeastMassRatio * initial_masses_[i] - masses[i]);
+        // A held vertex, or one in no triangle, has an empty row and no right side.
+        const bool is_empty = held_[i] != 0 || masses[i] + missing == 0;
+        entries.emplace_back(i, i, is_empty ? step_size_ : missing);
+    }
     matrix_.resize(size, size);
     matrix_.setFromTriplets(entries.begin(), entries.end());
-    // Vertices that are held, or in no triangle that counts, have an empty row and no right side.
-    for (std::int32_t i = 0; i < size; ++i) {
-        double& diagonal = matrix_.coeffRef(i, i);
-        if (diagonal == 0) diagonal = step_size_;
-    }
 }
 
 CotangentFlow::Points CotangentFlow::solve() {

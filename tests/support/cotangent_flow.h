@@ -18,8 +18,9 @@ double triangle_quality(const TriangleMesh& mesh, const Triangle& triangle);
 /// step solves (M + δS) x(t+δ) = M x(t) with the full mass matrix M and the cotangent stiffness
 /// matrix S of the present positions, in double precision by a sparse LDLᵀ factorisation.
 ///
-/// Coincident vertices are one. A triangle whose quality is under 1e-12, which has no cotangents to
-/// speak of, is left out of the step; a vertex that has no other triangles stays.
+/// Coincident vertices are one. Where the surface collapses, the flow is kept computable, no more:
+/// a triangle whose quality is under 1e-6 is left out of the step, and a vertex keeps at least 1e-4
+/// of its initial mass, so that one with no other triangles stays.
 class CotangentFlow {
 public:
     /// step_size: as FlowParameters::step_size, for the model scaled to longest side 1.
@@ -47,14 +48,16 @@ private:
     using Points = Eigen::Matrix<double, Eigen::Dynamic, 3>;
 
     void assemble();
+    std::vector<double> masses() const;  ///< lumped, of triangles that take part
     Points solve();
     void look_for_degenerated();
 
     TriangleMesh mesh_;
     std::vector<std::int32_t> welded_;
-    std::vector<std::uint8_t> held_;  ///< of every vertex
-    std::vector<double> initial_areas_;
-    double step_size_;  ///< δ, squared mesh units
+    std::vector<std::uint8_t> held_;      ///< of every vertex
+    std::vector<double> initial_areas_;   ///< of every triangle
+    std::vector<double> initial_masses_;  ///< of every vertex, lumped
+    double step_size_;                    ///< δ, squared mesh units
 
     Matrix matrix_;      ///< M + δS
     Points right_side_;  ///< -δ S x

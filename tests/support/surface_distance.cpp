@@ -78,6 +78,14 @@ std::vector<std::uint8_t> vertices_around(const TriangleMesh& mesh,
     return corners_of(mesh, touched);
 }
 
+double worst_distance(const TriangleMesh& a, const TriangleMesh& b) {
+    double worst = 0;
+    for (std::size_t i = 0; i < a.positions.size(); ++i) {
+        worst = std::max(worst, (a.positions[i] - b.positions[i]).norm());
+    }
+    return worst;
+}
+
 double diagonal(const TriangleMesh& mesh) {
     Eigen::AlignedBox3d box;
     for (const Triangle& t : mesh.triangles) {

@@ -25,6 +25,9 @@ NormalDistance normal_distance(const TriangleMesh& mesh, const TriangleMesh& ref
 std::vector<std::uint8_t> vertices_around(const TriangleMesh& mesh,
                                           const std::vector<std::uint8_t>& triangles);
 
+/// The farthest that a vertex of one is from the same vertex of the other, mesh units.
+double worst_distance(const TriangleMesh& a, const TriangleMesh& b);
+
 /// Of the bounding box of the vertices that triangles use, mesh units.
 double diagonal(const TriangleMesh& mesh);
 
