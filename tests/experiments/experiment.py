@@ -54,16 +54,20 @@ class Experiment:
         self._missed = 0
         self.say(f"# {description.strip().splitlines()[0]}\n")
 
-    def scans(self, shared=SHARED_SCANS, cgal=CGAL_SCANS):
-        """Paths of the scans to measure."""
+    def meshes(self, shared, cgal):
+        """Paths of the meshes of these names, by the folder that is there."""
         folder, names = self.options.meshes, shared
         if not folder.is_dir():
             folder, names = self.options.build / "cgal-meshes", cgal
-        names = self.options.scans or names
         absent = [name for name in names if not (folder / name).exists()]
         if absent:
             sys.exit(f"{self.name}: {folder} has no {', '.join(absent)}")
         return [folder / name for name in names]
+
+    def scans(self, shared=SHARED_SCANS, cgal=CGAL_SCANS):
+        """Paths of the scans to measure: these, or those of --scans."""
+        named = self.options.scans
+        return self.meshes(named or shared, named or cgal)
 
     def run(self, command, *words, **more):
         """The driver's rows as dictionaries, numbers as such; `more` is added to each."""

@@ -80,6 +80,8 @@ def check(experiment, rows):
     long_enough = [row for row in to_default if row["step_size"] >= SMALLEST_DEFAULT_STEP]
     depths = distinct(rows, "depth")
     by_depth = [largest(of(to_tight, depth=depth)) for depth in (depths[0], depths[-1])]
+    experiment.check("fewest iterations, which shows that they were counted",
+                     min(row["iterations"] for row in to_tight + to_default), at_least=1)
     experiment.check("most iterations to 1e-5", largest(to_tight), at_most=MOST_TO_TIGHT)
     experiment.check(f"growth of that from depth {depths[0]} to {depths[-1]}",
                      by_depth[1] - by_depth[0], at_most=0)

@@ -76,8 +76,9 @@ def main():
     experiment = Experiment("sphere", __doc__, add_options)
     options = experiment.options
     configurations = [PAPER, CONVERGED, *map(kappa, options.kappas), *options.configurations]
-    depths = options.depths[:2] if options.quick else options.depths
-    rows = experiment.run("sphere", "--depths", *depths, "--configurations", *configurations)
+    size = ["--frequency", 64, "--depths", 3, 4, 5] if options.quick else ["--depths",
+                                                                          *options.depths]
+    rows = experiment.run("sphere", *size, "--configurations", *configurations)
     lines = {configuration: [row for row in rows if row["configuration"] == configuration]
              for configuration in configurations}
     print_table(experiment, lines)
