@@ -20,7 +20,7 @@ packages_of() {
             libglu1-mesa-dev ;;
         demo) echo "$(packages_of plugin)" xvfb xauth python3-vtk9 python3-numpy ;;
         tests) echo "$(packages_of plugin)" libgtest-dev libgmock-dev xvfb xauth xdotool \
-            imagemagick python3 ;;
+            imagemagick python3 python3-matplotlib ;;
         experiments) echo "$(packages_of program)" libgtest-dev libgmock-dev python3-matplotlib \
             python3-vtk9 python3-numpy xvfb xauth ;;
         checks) echo clang-format clang-tidy libomp-dev git ;;

@@ -1,7 +1,7 @@
 """What the experiments share: meshes, running the driver, tables, plots, and targets.
 
 A script makes an Experiment, asks it to run the driver, hands it tables, plots and checks, and ends
-with finish(). In the output folder it leaves NAME.csv, all that was measured; NAME.md, what was
+with finish(), which exits with 1 if a target was missed. In the output folder it leaves NAME.csv, all that was measured; NAME.md, what was
 printed; and NAME.png, the plot.
 """
 
@@ -21,6 +21,8 @@ SHARED_SCANS = ["armadillo_50k.ply", "nefertiti_50k.ply", "skull_50k.ply", "hand
 CGAL_SCANS = ["armadillo.off", "nefertiti.off", "elephant.off", "hand.off", "camel.off"]
 SHARED_THIN_SCANS = ["armadillo_50k.ply", "hand_8k.ply", "elephant_5cc.ply"]
 CGAL_THIN_SCANS = ["armadillo.off", "elephant.off", "camel.off"]
+
+SKIPPED = 77
 
 SPHERE = "sphere:128"
 PAPER = "paper"
@@ -61,7 +63,7 @@ class Experiment:
             folder, names = self.options.build / "cgal-meshes", cgal
         absent = [name for name in names if not (folder / name).exists()]
         if absent:
-            sys.exit(f"{self.name}: {folder} has no {', '.join(absent)}")
+            skip(f"{self.name}: {folder} has no {', '.join(absent)}")
         return [folder / name for name in names]
 
     def scans(self, shared=SHARED_SCANS, cgal=CGAL_SCANS):
@@ -130,12 +132,18 @@ class Experiment:
         sys.exit(1 if self._missed else 0)
 
 
+def skip(reason):
+    """Ends the script; CTest takes the exit code for a test that could not be run."""
+    print(reason, file=sys.stderr)
+    sys.exit(SKIPPED)
+
+
 def pyplot():
     try:
         import matplotlib
     except ImportError:
-        sys.exit("matplotlib is missing; on Debian: external/install_debian.sh experiments, and "
-                 "run this with /usr/bin/python3, which knows it")
+        skip("matplotlib is missing; on Debian: external/install_debian.sh experiments, and run "
+             "this with /usr/bin/python3, which knows it")
     matplotlib.use("Agg")  # no display
     from matplotlib import pyplot as module
     return module

@@ -23,8 +23,10 @@ LENGTHS = {"sound_rms": "RMS distance", "sound_worst": "worst", "rms": "RMS, all
            "outside": "outside"}
 
 # The direction in which the camera looks, and the one that is up.
-VIEWS = {}
-USUAL_VIEW = ((0, 0, -1), (0, 1, 0))
+UP = (0, 1, 0)
+USUAL_VIEW = ((0, 0, -1), UP)
+VIEWS = {"armadillo_50k": ((0, 0, 1), UP), "armadillo": ((0, 0, 1), UP),
+         "elephant_5cc": ((1, 0, 0), UP), "camel": ((1, 0, 0), UP)}
 
 
 def add_options(parser):

@@ -20,7 +20,7 @@ struct Options {
     std::string mesh;
     std::vector<int> depths;
     std::vector<std::string> configurations;
-    int repetitions = 5;
+    int repetitions = 7;
 };
 
 struct Cost {
