@@ -27,8 +27,9 @@ def measure(experiment, configurations):
     """Rows by (mesh, depth, steps), each a dictionary by configuration."""
     options = experiment.options
     cases = {}
-    for scan in experiment.scans()[-2:] if options.quick else experiment.scans():
-        rows = experiment.run("accuracy", scan, "--depths", *options.depths, "--steps",
+    depths = options.depths[:1] if options.quick else options.depths
+    for scan in experiment.scans():
+        rows = experiment.run("accuracy", scan, "--depths", *depths, "--steps",
                               *options.steps, "--step-size", options.step_size,
                               "--configurations", *configurations, mesh=label(scan))
         for row in rows:

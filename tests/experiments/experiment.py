@@ -1,8 +1,8 @@
 """What the experiments share: meshes, running the driver, tables, plots, and targets.
 
 A script makes an Experiment, asks it to run the driver, hands it tables, plots and checks, and ends
-with finish(), which exits with 1 if a target was missed. In the output folder it leaves NAME.csv, all that was measured; NAME.md, what was
-printed; and NAME.png, the plot.
+with finish(), which exits with 1 if a target was missed. In the output folder it leaves NAME.csv, all
+that was measured; NAME.md, what was printed; and NAME.png, the plot.
 """
 
 import argparse
@@ -49,6 +49,7 @@ class Experiment:
         add_options(parser)
         self.name = name
         self.options = parser.parse_args()
+        self._pyplot = pyplot()  # now: if it is missing, better known before the measurements
         self.output = self.options.output or self.options.build / "experiments"
         self.output.mkdir(parents=True, exist_ok=True)
         self._rows = []
@@ -67,9 +68,10 @@ class Experiment:
         return [folder / name for name in names]
 
     def scans(self, shared=SHARED_SCANS, cgal=CGAL_SCANS):
-        """Paths of the scans to measure: these, or those of --scans."""
+        """Paths of the scans to measure: these, or those of --scans; with --quick, the smallest."""
         named = self.options.scans
-        return self.meshes(named or shared, named or cgal)
+        paths = self.meshes(named or shared, named or cgal)
+        return [min(paths, key=lambda path: path.stat().st_size)] if self.options.quick else paths
 
     def run(self, command, *words, **more):
         """The driver's rows as dictionaries, numbers as such; `more` is added to each."""
@@ -111,7 +113,7 @@ class Experiment:
 
     def figure(self, rows=1, columns=1, size=(5, 4)):
         """A matplotlib figure and its axes, rows by columns of them."""
-        figure, axes = pyplot().subplots(rows, columns, squeeze=False, constrained_layout=True,
+        figure, axes = self._pyplot.subplots(rows, columns, squeeze=False, constrained_layout=True,
                                          figsize=(size[0] * columns, size[1] * rows))
         return figure, axes
 

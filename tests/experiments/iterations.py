@@ -25,9 +25,8 @@ def add_options(parser):
 def measure(experiment, configurations):
     options = experiment.options
     depths = [depth for depth in options.depths if depth <= 7] if options.quick else options.depths
-    meshes = [SPHERE, *experiment.scans()]
     rows = []
-    for mesh in meshes[-2:] if options.quick else meshes:
+    for mesh in [SPHERE, *experiment.scans()]:
         rows += experiment.run("iterations", mesh, "--depths", *depths, "--step-sizes",
                                *options.step_sizes, "--configurations", *configurations,
                                mesh=label(mesh))

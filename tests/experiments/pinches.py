@@ -110,7 +110,7 @@ def main():
     configurations = [PAPER, CONVERGED, *options.configurations]
     scans = experiment.scans(SHARED_THIN_SCANS, CGAL_THIN_SCANS)
     rows, drawings = [], []
-    for scan in scans[1:2] if options.quick else scans:
+    for scan in scans:
         for step_size, steps in FLOWS[:1] if options.quick else FLOWS:
             more, folder = measure(experiment, scan, step_size, steps, configurations)
             rows += more

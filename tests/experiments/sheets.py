@@ -88,7 +88,7 @@ def measure_aligned(experiment):
 def measure_cost(experiment):
     options = experiment.options
     rows = []
-    for scan in experiment.scans()[3:4] if options.quick else experiment.scans():
+    for scan in experiment.scans():
         rows += experiment.run("setup", scan, "--depths", *options.depths, "--configurations",
                                CONVERGED, GLUED[CONVERGED], experiment="setup", mesh=label(scan))
     pairs = pair_up(rows, "mesh", "depth")

@@ -24,7 +24,7 @@ def add_options(parser):
 def measure(experiment):
     options = experiment.options
     rows = []
-    for scan in experiment.scans()[3:4] if options.quick else experiment.scans():
+    for scan in experiment.scans():
         rows += experiment.run("tolerance", scan, "--depths", *options.depths, "--step-sizes",
                                *options.step_sizes, "--tolerances", *options.tolerances, "--steps",
                                options.steps, "--configuration", options.configuration,

@@ -14,8 +14,9 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// Below, a triangle takes no part in a step, for its cotangents would drown all others.
-constexpr double kDegenerateQuality = 1e-6;
+/// A triangle's stiffness is that of one with at least this quality: larger cotangents would drown
+/// all others. It is stiff enough for collinear vertices to stay so.
+constexpr double kLeastQuality = 1e-6;
 
 /// Of a vertex's initial mass: what it keeps at least. The matrix would become singular otherwise
 /// where the surface has shrunk to nothing.
@@ -43,10 +44,6 @@ Matrix3d opposite_edges(const TriangleMesh& mesh, const Triangle& t) {
     return edges;
 }
 
-bool takes_part(const TriangleMesh& mesh, const Triangle& t) {
-    return triangle_quality(mesh, t) > kDegenerateQuality;
-}
-
 /// What a triangle's three linear functions add to the system of the displacement.
 struct Element {
     Matrix3d matrix;       ///< mass + δ stiffness
@@ -56,12 +53,14 @@ struct Element {
 /// The gradient, which is S x, is formed as n × edge / 2: the rounding errors of large cotangents
 /// would not cancel in a product.
 Element element_of(const TriangleMesh& mesh, const Triangle& t, double step_size) {
-    if (!takes_part(mesh, t)) return {Matrix3d::Zero(), Matrix3d::Zero()};
     const Matrix3d edges = opposite_edges(mesh, t);
+    if (edges.isZero(0)) return {Matrix3d::Zero(), Matrix3d::Zero()};
+    const double least_area = kLeastQuality * edges.squaredNorm() / (4 * std::sqrt(3.0));
     const Vector3d normal = edges.col(0).cross(edges.col(1)).normalized();
     Element element;
-    element.matrix = area(mesh, t) / 12 * (Matrix3d::Ones() + Matrix3d::Identity()) +
-                     step_size / (4 * area(mesh, t)) * (edges.transpose() * edges);
+    element.matrix =
+        area(mesh, t) / 12 * (Matrix3d::Ones() + Matrix3d::Identity()) +
+        step_size / (4 * std::max(area(mesh, t), least_area)) * (edges.transpose() * edges);
     for (int i = 0; i < 3; ++i) {
         element.right_sides.col(i) = -0.5 * step_size * normal.cross(edges.col(i));
     }
@@ -114,7 +113,6 @@ void CotangentFlow::step() {
 std::vector<double> CotangentFlow::masses() const {
     std::vector<double> masses(mesh_.positions.size());
     for (const Triangle& t : mesh_.triangles) {
-        if (!takes_part(mesh_, t)) continue;
         for (const std::int32_t vertex : t) masses[welded_[vertex]] += area(mesh_, t) / 3;
     }
     return masses;

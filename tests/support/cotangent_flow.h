@@ -19,8 +19,8 @@ double triangle_quality(const TriangleMesh& mesh, const Triangle& triangle);
 /// matrix S of the present positions, in double precision by a sparse LDLᵀ factorisation.
 ///
 /// Coincident vertices are one. Where the surface collapses, the flow is kept computable, no more:
-/// a triangle whose quality is under 1e-6 is left out of the step, and a vertex keeps at least 1e-4
-/// of its initial mass, so that one with no other triangles stays.
+/// a triangle of a quality under 1e-6 is as stiff as one of that quality, and a vertex keeps at
+/// least 1e-4 of its initial mass.
 class CotangentFlow {
 public:
     /// step_size: as FlowParameters::step_size, for the model scaled to longest side 1.
@@ -48,7 +48,7 @@ private:
     using Points = Eigen::Matrix<double, Eigen::Dynamic, 3>;
 
     void assemble();
-    std::vector<double> masses() const;  ///< lumped, of triangles that take part
+    std::vector<double> masses() const;  ///< lumped, of every vertex; 0 if welded away
     Points solve();
     void look_for_degenerated();
 
