@@ -1,12 +1,13 @@
 #!/usr/bin/env bash
 # Installs what a task needs, on Debian: install_debian.sh TASK...
 #
-#   core     building the core: a compiler, CMake, Eigen
-#   program  also the command-line program
-#   plugin   also the MeshLab plugin, and MeshLab itself
-#   demo     running the plugin without a screen and drawing pictures of surfaces
-#   tests    building and running all tests
-#   checks   formatting and static analysis
+#   core         building the core: a compiler, CMake, Eigen
+#   program      also the command-line program
+#   plugin       also the MeshLab plugin, and MeshLab itself
+#   demo         running the plugin without a screen and drawing pictures of surfaces
+#   tests        building and running all tests
+#   experiments  building and running tests/experiments
+#   checks       formatting and static analysis
 #
 # Asks apt only if something is missing; with sudo unless run as root.
 set -euo pipefail
@@ -19,7 +20,9 @@ packages_of() {
             libglu1-mesa-dev ;;
         demo) echo "$(packages_of plugin)" xvfb xauth python3-vtk9 python3-numpy ;;
         tests) echo "$(packages_of plugin)" libgtest-dev libgmock-dev xvfb xauth xdotool \
-            imagemagick python3 ;;
+            imagemagick python3 python3-matplotlib ;;
+        experiments) echo "$(packages_of program)" libgtest-dev libgmock-dev python3-matplotlib \
+            python3-vtk9 python3-numpy xvfb xauth ;;
         checks) echo clang-format clang-tidy libomp-dev git ;;
         *) echo "install_debian.sh: unknown task '$1'" >&2 && return 1 ;;
     esac
@@ -31,7 +34,7 @@ is_installed() { dpkg-query -W -f '${db:Status-Status}\n' "$1" 2> /dev/null | gr
 # without.
 has_lists() { [ -n "$(apt-get indextargets 'Created-By: Packages')" ]; }
 
-[ $# -gt 0 ] || { sed -n '2,11s/^# \{0,1\}//p' "$0" >&2 && exit 2; }
+[ $# -gt 0 ] || { sed -n '2,12s/^# \{0,1\}//p' "$0" >&2 && exit 2; }
 if ! command -v apt-get > /dev/null; then
     echo "install_debian.sh: this system has no apt-get. Install the equivalents of these Debian" \
         "packages, then go on: $(for task in "$@"; do packages_of "$task"; done)" >&2

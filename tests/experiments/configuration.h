@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+
+#include "filter_tracked_mcf/core/flow_parameters.h"
+
+namespace tracked_mcf::experiments {
+
+/// Which solver and which functions a run uses, as the command line spells it: words joined by
+/// commas, each of which changes what the words before it have set.
+///
+///   converged      the defaults
+///   paper          one W-cycle, no stabilisation, sheets not separated
+///   kappa=X        weight of the stabilisation
+///   tolerance=X    of the converged solver
+///   cycles=N       of the paper's solver
+///   separate       sheets separated
+///   glued          sheets not separated
+///
+/// Throws std::invalid_argument for anything else.
+FlowParameters parse_configuration(const std::string& words);
+
+}  // namespace tracked_mcf::experiments

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <iostream>
+#include <type_traits>
+
+namespace tracked_mcf::experiments {
+
+/// Prints values as a line of CSV on standard output, at once, so that a long run can be followed.
+/// Text is quoted, for it may hold commas but no quotes.
+template <typename... Values>
+void print_row(const Values&... values) {
+    const char* separator = "";
+    const auto print = [&separator](const auto& value) {
+        std::cout << separator;
+        separator = ",";
+        if constexpr (std::is_arithmetic_v<std::decay_t<decltype(value)>>) {
+            std::cout << value;
+        } else {
+            std::cout << '"' << value << '"';
+        }
+    };
+    std::cout.precision(8);
+    (print(values), ...);
+    std::cout << std::endl;
+}
+
+}  // namespace tracked_mcf::experiments

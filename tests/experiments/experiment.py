@@ -1,0 +1,178 @@
+"""What the experiments share: meshes, running the driver, tables, plots, and targets.
+
+A script makes an Experiment, asks it to run the driver, hands it tables, plots and checks, and ends
+with finish(), which exits with 1 if a target was missed. In the output folder it leaves NAME.csv, all
+that was measured; NAME.md, what was printed; and NAME.png, the plot.
+"""
+
+import argparse
+import csv
+import io
+import math
+import pathlib
+import subprocess
+import sys
+
+TOP = pathlib.Path(__file__).resolve().parents[2]
+
+# Names of the scans, by the folder that has them: that of --meshes, or libcgal-demo's.
+SHARED_SCANS = ["armadillo_50k.ply", "nefertiti_50k.ply", "skull_50k.ply", "hand_8k.ply",
+                "boot_genus12.ply"]
+CGAL_SCANS = ["armadillo.off", "nefertiti.off", "elephant.off", "hand.off", "camel.off"]
+SHARED_THIN_SCANS = ["armadillo_50k.ply", "hand_8k.ply", "elephant_5cc.ply"]
+CGAL_THIN_SCANS = ["armadillo.off", "elephant.off", "camel.off"]
+
+SKIPPED = 77
+
+SPHERE = "sphere:128"
+PAPER = "paper"
+CONVERGED = "converged"
+
+
+class Experiment:
+    """`add_options(parser)` adds a script's own options, found in `options` afterwards."""
+
+    def __init__(self, name, description, add_options=lambda parser: None):
+        parser = argparse.ArgumentParser(
+            description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
+        parser.add_argument("--build", type=pathlib.Path, default=TOP / "build", metavar="FOLDER",
+                            help="where the project was built, tests and tool included")
+        parser.add_argument("--meshes", type=pathlib.Path, metavar="FOLDER",
+                            default=TOP.parent / "shared" / "meshes",
+                            help="folder of scans; where it is absent, libcgal-demo's are taken "
+                            "from cgal-meshes in the build folder")
+        parser.add_argument("--scans", nargs="+", metavar="NAME",
+                            help="file names in that folder, instead of the usual ones")
+        parser.add_argument("--output", type=pathlib.Path, metavar="FOLDER",
+                            help="for tables and plots (default: experiments in the build folder)")
+        parser.add_argument("--quick", action="store_true", help="fewer and smaller cases")
+        add_options(parser)
+        self.name = name
+        self.options = parser.parse_args()
+        self._pyplot = pyplot()  # now: if it is missing, better known before the measurements
+        self.output = self.options.output or self.options.build / "experiments"
+        self.output.mkdir(parents=True, exist_ok=True)
+        self._rows = []
+        self._text = io.StringIO()
+        self._missed = 0
+        self.say(f"# {description.strip().splitlines()[0]}\n")
+
+    def meshes(self, shared, cgal):
+        """Paths of the meshes of these names, by the folder that is there."""
+        folder, names = self.options.meshes, shared
+        if not folder.is_dir():
+            folder, names = self.options.build / "cgal-meshes", cgal
+        absent = [name for name in names if not (folder / name).exists()]
+        if absent:
+            skip(f"{self.name}: {folder} has no {', '.join(absent)}")
+        return [folder / name for name in names]
+
+    def scans(self, shared=SHARED_SCANS, cgal=CGAL_SCANS):
+        """Paths of the scans to measure: these, or those of --scans; with --quick, the smallest."""
+        named = self.options.scans
+        paths = self.meshes(named or shared, named or cgal)
+        return [min(paths, key=lambda path: path.stat().st_size)] if self.options.quick else paths
+
+    def run(self, command, *words, **more):
+        """The driver's rows as dictionaries, numbers as such; `more` is added to each."""
+        driver = self.options.build / "tests" / "experiments" / "tracked_mcf_experiments"
+        if not driver.exists():
+            sys.exit(f"{self.name}: {driver} has not been built")
+        call = [str(driver), command] + [str(word) for word in words]
+        print(f"... {' '.join(call[1:])}", file=sys.stderr, flush=True)
+        output = subprocess.run(call, check=True, stdout=subprocess.PIPE, text=True).stdout
+        rows = [{**more, **{key: number_or_text(value) for key, value in row.items()}}
+                for row in csv.DictReader(io.StringIO(output))]
+        self._rows += rows
+        return rows
+
+    def say(self, line=""):
+        print(line, flush=True)
+        print(line, file=self._text)
+
+    def table(self, headers, rows):
+        """Prints Markdown; numbers by three digits."""
+        cells = [[str(header) for header in headers]]
+        cells += [[three_digits(value) for value in row] for row in rows]
+        widths = [max(len(row[i]) for row in cells) for i in range(len(headers))]
+        cells.insert(1, ["-" * width for width in widths])
+        for row in cells:
+            self.say("| " + " | ".join(f"{cell:<{width}}"
+                                       for cell, width in zip(row, widths)) + " |")
+        self.say()
+
+    def check(self, what, measured, at_most=None, at_least=None):
+        """Says a measured figure beside its target."""
+        if at_most is not None:
+            passed, target = measured <= at_most, f"at most {three_digits(at_most)}"
+        else:
+            passed, target = measured >= at_least, f"at least {three_digits(at_least)}"
+        self._missed += not passed
+        self.say(f"- {'ok' if passed else '**missed**'}: {what}: {three_digits(measured)}, "
+                 f"to be {target}")
+
+    def figure(self, rows=1, columns=1, size=(5, 4)):
+        """A matplotlib figure and its axes, rows by columns of them."""
+        figure, axes = self._pyplot.subplots(rows, columns, squeeze=False, constrained_layout=True,
+                                         figsize=(size[0] * columns, size[1] * rows))
+        return figure, axes
+
+    def save(self, figure, suffix=""):
+        path = self.output / f"{self.name}{suffix}.png"
+        figure.savefig(path, dpi=120)
+        self.say(f"\n![plot]({path.name})")
+
+    def finish(self):
+        """Writes the files; exits with 1 if a target was missed."""
+        (self.output / f"{self.name}.md").write_text(self._text.getvalue())
+        with open(self.output / f"{self.name}.csv", "w", newline="", encoding="utf-8") as file:
+            keys = list(dict.fromkeys(key for row in self._rows for key in row))
+            writer = csv.DictWriter(file, keys)
+            writer.writeheader()
+            writer.writerows(self._rows)
+        print(f"... in {self.output}: {self.name}.md, .csv, .png", file=sys.stderr)
+        sys.exit(1 if self._missed else 0)
+
+
+def skip(reason):
+    """Ends the script; CTest takes the exit code for a test that could not be run."""
+    print(reason, file=sys.stderr)
+    sys.exit(SKIPPED)
+
+
+def pyplot():
+    try:
+        import matplotlib
+    except ImportError:
+        skip("matplotlib is missing; on Debian: external/install_debian.sh experiments, and run "
+             "this with /usr/bin/python3, which knows it")
+    matplotlib.use("Agg")  # no display
+    from matplotlib import pyplot as module
+    return module
+
+
+def number_or_text(value):
+    for kind in (int, float):
+        try:
+            return kind(value)
+        except (TypeError, ValueError):
+            pass
+    return value
+
+
+def three_digits(value):
+    return f"{value:.3g}" if isinstance(value, float) else str(value)
+
+
+def geometric_mean(values):
+    return math.exp(sum(math.log(value) for value in values) / len(values))
+
+
+def label(mesh):
+    """What tables call a mesh: a file without folder and extension."""
+    return mesh.stem if isinstance(mesh, pathlib.Path) else "sphere"
+
+
+def kappa(value):
+    """A configuration of the driver."""
+    return f"{CONVERGED},kappa={value:g}"

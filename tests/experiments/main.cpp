@@ -1,0 +1,29 @@
+// Runs one experiment and prints its figures as CSV.
+
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <iostream>
+
+#include "tests/experiments/experiments.h"
+
+int main(int argc, char** argv) {
+    using namespace tracked_mcf::experiments;
+    CLI::App app("Measures the flow. The scripts in tests/experiments call this.");
+    app.require_subcommand(1);
+    add_accuracy(app);
+    add_aligned(app);
+    add_iterations(app);
+    add_pieces(app);
+    add_pinches(app);
+    add_setup(app);
+    add_sphere(app);
+    add_tolerance(app);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error);
+    } catch (const std::exception& error) {
+        std::cerr << "tracked_mcf_experiments: " << error.what() << '\n';
+        return 1;
+    }
+}

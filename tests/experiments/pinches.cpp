@@ -1,0 +1,143 @@
+#include <CLI/CLI.hpp>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "filter_tracked_mcf/core/errors.h"
+#include "filter_tracked_mcf/core/flow.h"
+#include "filter_tracked_mcf/tool/mesh_file.h"
+#include "tests/experiments/collapse.h"
+#include "tests/experiments/configuration.h"
+#include "tests/experiments/csv.h"
+#include "tests/experiments/experiments.h"
+#include "tests/experiments/reference.h"
+#include "tests/support/surface_distance.h"
+
+namespace tracked_mcf::experiments {
+
+namespace {
+
+struct Options {
+    std::string mesh;
+    int depth = 0;
+    double step_size = 1e-5;
+    std::vector<int> steps;
+    std::vector<std::string> configurations;
+    std::filesystem::path folder;
+};
+
+/// Runs all configurations on one mesh.
+class Runner {
+public:
+    explicit Runner(const Options& options)
+        : options_(options),
+          file_(options.mesh),
+          mesh_(file_.triangle_mesh()),
+          references_(cotangent_flow(mesh_, options.step_size, options.steps)) {}
+
+    void run() {
+        for (const auto& [steps, reference] : references_) {
+            save(reference.mesh, "cotangent", steps);
+            print("cotangent", steps, reference.mesh, {});
+        }
+        for (std::size_t i = 0; i < options_.configurations.size(); ++i) run_configuration(i);
+    }
+
+private:
+    void run_configuration(std::size_t index) {
+        const std::string& configuration = options_.configurations[index];
+        FlowParameters parameters = parse_configuration(configuration);
+        parameters.depth = options_.depth;
+        parameters.step_size = options_.step_size;
+        parameters.boundary = BoundaryCondition::Free;
+        try {
+            flow(parameters, index);
+        } catch (const NumericalFailure& failure) {
+            print_row(configuration, 0, 0);
+            std::cerr << configuration << ": " << failure.what() << '\n';
+        }
+    }
+
+    void flow(const FlowParameters& parameters, std::size_t index) {
+        Flow flow(mesh_, parameters);
+        Collapse collapse(mesh_);
+        for (int step = 1; step <= references_.rbegin()->first; ++step) {
+            flow.step();
+            TriangleMesh moved = mesh_;
+            flow.move_vertices(moved);
+            collapse.look(moved);
+            if (references_.count(step) == 0) continue;
+            print(options_.configurations[index], step, moved, collapse.drift(moved));
+            save(moved, std::to_string(index), step);
+        }
+    }
+
+    void print(const std::string& configuration, int steps, const TriangleMesh& moved,
+               const Collapse::Drift& drift) const {
+        const Reference& reference = references_.at(steps);
+        const double unit = diagonal(mesh_);
+        const NormalDistance all = normal_distance(moved, reference.mesh);
+        const NormalDistance sound = normal_distance(moved, reference.mesh, reference.left_out);
+        const NormalDistance displacement = normal_distance(mesh_, reference.mesh);
+        print_row(configuration, 1, steps, all.rms / unit, all.worst / unit, sound.rms / unit,
+                  sound.worst / unit, sound.covered, displacement.rms / unit,
+                  worst_distance(moved, mesh_) / unit, drift.vertices, drift.rms / unit,
+                  drift.worst / unit, outside(moved) / unit, reference.smallest_quality);
+    }
+
+    /// How far vertices have left the initial bounding box: the flow of a surface does not.
+    double outside(const TriangleMesh& moved) const {
+        Eigen::AlignedBox3d box;
+        for (const Eigen::Vector3d& position : mesh_.positions) box.extend(position);
+        double farthest = 0;
+        for (const Eigen::Vector3d& position : moved.positions) {
+            farthest = std::max(farthest, box.exteriorDistance(position));
+        }
+        return farthest;
+    }
+
+    void save(const TriangleMesh& moved, const std::string& name, int steps) {
+        if (options_.folder.empty()) return;
+        std::filesystem::create_directories(options_.folder);
+        file_.write(moved, options_.folder / (name + "_" + std::to_string(steps) + ".ply"),
+                    options_.folder);
+    }
+
+    Options options_;
+    MeshFile file_;
+    TriangleMesh mesh_;
+    std::map<int, Reference> references_;
+};
+
+}  // namespace
+
+void add_pinches(CLI::App& app) {
+    const auto options = std::make_shared<Options>();
+    CLI::App* command = app.add_subcommand(
+        "pinches",
+        "Long flows against the cotangent flow, in diagonals of the initial bounding box: "
+        "distances as in accuracy; 'farthest' is the largest displacement of a vertex; 'collapsed' "
+        "vertices have lost their surface, and 'drift' is what they moved since; 'outside' is how "
+        "far a vertex is out of the initial bounding box. Boundaries are free.");
+    command->add_option("mesh", options->mesh, "a file")->required();
+    command->add_option("--depth", options->depth);
+    command->add_option("--step-size", options->step_size);
+    command->add_option("--steps", options->steps, "measure after so many")->required();
+    command->add_option("--configurations", options->configurations)->required();
+    command->add_option("--folder", options->folder,
+                        "write the surfaces there as NAME_STEPS.ply, NAME being 'cotangent' or a "
+                        "configuration's place in the list");
+    command->callback([options] {
+        print_row("configuration", "finite", "steps", "rms", "worst", "sound_rms", "sound_worst",
+                  "sound_part", "moved", "farthest", "collapsed", "drift_rms", "drift_worst",
+                  "outside", "smallest_quality");
+        Runner(*options).run();
+    });
+}
+
+}  // namespace tracked_mcf::experiments

@@ -1,0 +1,180 @@
+#include "tests/support/cotangent_flow.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "filter_tracked_mcf/core/errors.h"
+#include "filter_tracked_mcf/core/grid.h"
+
+namespace tracked_mcf {
+
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+/// A triangle's stiffness is that of one with at least this quality: larger cotangents would drown
+/// all others. It is stiff enough for collinear vertices to stay so.
+constexpr double kLeastQuality = 1e-6;
+
+/// Of a vertex's initial mass: what it keeps at least. The matrix would become singular otherwise
+/// where the surface has shrunk to nothing.
+constexpr double kLeastMassRatio = 1e-4;
+
+/// Below, a triangle's part of the surface is no longer to be trusted.
+constexpr double kDoubtfulQuality = 0.01;
+constexpr double kDoubtfulAreaRatio = 0.01;
+
+/// Above, the solution is refined once.
+constexpr double kResidualGoal = 1e-12;
+
+double area(const TriangleMesh& mesh, const Triangle& t) {
+    return 0.5 * (mesh.positions[t[1]] - mesh.positions[t[0]])
+                     .cross(mesh.positions[t[2]] - mesh.positions[t[0]])
+                     .norm();
+}
+
+/// Columns: the edges opposite to the corners, going round.
+Matrix3d opposite_edges(const TriangleMesh& mesh, const Triangle& t) {
+    Matrix3d edges;
+    for (int i = 0; i < 3; ++i) {
+        edges.col(i) = mesh.positions[t[(i + 2) % 3]] - mesh.positions[t[(i + 1) % 3]];
+    }
+    return edges;
+}
+
+/// What a triangle's three linear functions add to the system of the displacement.
+struct Element {
+    Matrix3d matrix;       ///< mass + δ stiffness
+    Matrix3d right_sides;  ///< columns: -δ times the gradient of the area, corner by corner
+};
+
+/// The gradient, which is S x, is formed as n × edge / 2: the rounding errors of large cotangents
+/// would not cancel in a product.
+Element element_of(const TriangleMesh& mesh, const Triangle& t, double step_size) {
+    const Matrix3d edges = opposite_edges(mesh, t);
+    if (edges.isZero(0)) return {Matrix3d::Zero(), Matrix3d::Zero()};
+    const double least_area = kLeastQuality * edges.squaredNorm() / (4 * std::sqrt(3.0));
+    const Vector3d normal = edges.col(0).cross(edges.col(1)).normalized();
+    Element element;
+    element.matrix =
+        area(mesh, t) / 12 * (Matrix3d::Ones() + Matrix3d::Identity()) +
+        step_size / (4 * std::max(area(mesh, t), least_area)) * (edges.transpose() * edges);
+    for (int i = 0; i < 3; ++i) {
+        element.right_sides.col(i) = -0.5 * step_size * normal.cross(edges.col(i));
+    }
+    return element;
+}
+
+std::vector<std::uint8_t> boundary_vertices(const TriangleMesh& mesh,
+                                            const std::vector<std::int32_t>& welded) {
+    std::vector<std::uint8_t> on_boundary(mesh.positions.size());
+    const std::vector<std::uint8_t> edges = boundary_edges(mesh, welded);
+    for (std::size_t t = 0; t < edges.size(); ++t) {
+        for (int i = 0; i < 3; ++i) {
+            if ((edges[t] >> i & 1) == 0) continue;
+            on_boundary[welded[mesh.triangles[t][i]]] = 1;
+            on_boundary[welded[mesh.triangles[t][(i + 1) % 3]]] = 1;
+        }
+    }
+    return on_boundary;
+}
+
+}  // namespace
+
+double triangle_quality(const TriangleMesh& mesh, const Triangle& triangle) {
+    const double squares = opposite_edges(mesh, triangle).squaredNorm();
+    return squares > 0 ? 4 * std::sqrt(3.0) * area(mesh, triangle) / squares : 0;
+}
+
+CotangentFlow::CotangentFlow(const TriangleMesh& mesh, double step_size, BoundaryCondition boundary)
+    : mesh_(mesh),
+      welded_(weld_coincident_vertices(mesh)),
+      held_(mesh.positions.size()),
+      degenerated_(mesh.triangles.size()) {
+    const double side = longest_side(mesh);
+    step_size_ = step_size * side * side;
+    if (boundary == BoundaryCondition::LockedCells) held_ = boundary_vertices(mesh, welded_);
+    for (const Triangle& t : mesh.triangles) initial_areas_.push_back(area(mesh, t));
+    initial_masses_ = masses();
+    look_for_degenerated();
+}
+
+void CotangentFlow::step() {
+    assemble();
+    const Points displacement = solve();
+    for (std::size_t i = 0; i < welded_.size(); ++i) {
+        mesh_.positions[i] += displacement.row(welded_[i]).transpose();
+    }
+    look_for_degenerated();
+}
+
+std::vector<double> CotangentFlow::masses() const {
+    std::vector<double> masses(mesh_.positions.size());
+    for (const Triangle& t : mesh_.triangles) {
+        for (const std::int32_t vertex : t) masses[welded_[vertex]] += area(mesh_, t) / 3;
+    }
+    return masses;
+}
+
+/// The pattern is the same in every step: entries that are not to count are there, and zero.
+void CotangentFlow::assemble() {
+    const auto size = static_cast<Eigen::Index>(mesh_.positions.size());
+    std::vector<Eigen::Triplet<double>> entries;
+    entries.reserve(9 * mesh_.triangles.size() + mesh_.positions.size());
+    right_side_.setZero(size, 3);
+    for (const Triangle& t : mesh_.triangles) {
+        const Element element = element_of(mesh_, t, step_size_);
+        for (int i = 0; i < 3; ++i) {
+            const std::int32_t row = welded_[t[i]];
+            for (int j = 0; j < 3; ++j) {
+                const std::int32_t column = welded_[t[j]];
+                const bool counts = held_[row] == 0 && held_[column] == 0;
+                entries.emplace_back(row, column, counts ? element.matrix(i, j) : 0);
+            }
+            if (held_[row] == 0) right_side_.row(row) += element.right_sides.col(i).transpose();
+        }
+    }
+    const std::vector<double> masses = this->masses();
+    for (std::int32_t i = 0; i < size; ++i) {
+        const double missing = std::max(0.0, kLeastMassRatio * initial_masses_[i] - masses[i]);
+        // A held vertex, or one in no triangle, has an empty row and no right side.
+        const bool is_empty = held_[i] != 0 || masses[i] + missing == 0;
+        entries.emplace_back(i, i, is_empty ? step_size_ : missing);
+    }
+    matrix_.resize(size, size);
+    matrix_.setFromTriplets(entries.begin(), entries.end());
+}
+
+CotangentFlow::Points CotangentFlow::solve() {
+    if (!is_analyzed_) solver_.analyzePattern(matrix_);
+    is_analyzed_ = true;
+    solver_.factorize(matrix_);
+    if (solver_.info() != Eigen::Success) {
+        throw NumericalFailure("The cotangent flow's matrix cannot be factorised.");
+    }
+    const double norm = std::max(right_side_.norm(), 1e-300);
+    Points displacement = solver_.solve(right_side_);
+    Points residual = right_side_ - matrix_ * displacement;
+    if (residual.norm() > kResidualGoal * norm) {
+        displacement += solver_.solve(residual);
+        residual = right_side_ - matrix_ * displacement;
+    }
+    relative_residual_ = residual.norm() / norm;
+    return displacement;
+}
+
+void CotangentFlow::look_for_degenerated() {
+    smallest_quality_ = 1;
+    for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
+        const Triangle& t = mesh_.triangles[i];
+        const double quality = triangle_quality(mesh_, t);
+        smallest_quality_ = std::min(smallest_quality_, quality);
+        if (quality < kDoubtfulQuality || area(mesh_, t) < kDoubtfulAreaRatio * initial_areas_[i]) {
+            degenerated_[i] = 1;
+        }
+    }
+}
+
+}  // namespace tracked_mcf
