@@ -6,6 +6,7 @@
 
 #include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/grid.h"
+#include "filter_tracked_mcf/core/mesh_topology.h"
 
 namespace tracked_mcf {
 
@@ -67,15 +68,16 @@ Element element_of(const TriangleMesh& mesh, const Triangle& t, double step_size
     return element;
 }
 
-std::vector<std::uint8_t> boundary_vertices(const TriangleMesh& mesh,
-                                            const std::vector<std::int32_t>& welded) {
+/// Of every welded vertex.
+std::vector<std::uint8_t> boundary_vertices(const TriangleMesh& mesh) {
+    const MeshTopology topology = topology_of(mesh);
     std::vector<std::uint8_t> on_boundary(mesh.positions.size());
-    const std::vector<std::uint8_t> edges = boundary_edges(mesh, welded);
+    const std::vector<std::uint8_t> edges = boundary_edges(topology);
     for (std::size_t t = 0; t < edges.size(); ++t) {
         for (int i = 0; i < 3; ++i) {
             if ((edges[t] >> i & 1) == 0) continue;
-            on_boundary[welded[mesh.triangles[t][i]]] = 1;
-            on_boundary[welded[mesh.triangles[t][(i + 1) % 3]]] = 1;
+            on_boundary[topology.triangles[t][i]] = 1;
+            on_boundary[topology.triangles[t][(i + 1) % 3]] = 1;
         }
     }
     return on_boundary;
@@ -95,7 +97,7 @@ CotangentFlow::CotangentFlow(const TriangleMesh& mesh, double step_size, Boundar
       degenerated_(mesh.triangles.size()) {
     const double side = longest_side(mesh);
     step_size_ = step_size * side * side;
-    if (boundary == BoundaryCondition::LockedCells) held_ = boundary_vertices(mesh, welded_);
+    if (boundary == BoundaryCondition::LockedCells) held_ = boundary_vertices(mesh);
     for (const Triangle& t : mesh.triangles) initial_areas_.push_back(area(mesh, t));
     initial_masses_ = masses();
     look_for_degenerated();
