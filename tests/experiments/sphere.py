@@ -100,7 +100,8 @@ def main():
              for configuration in configurations}
     print_table(experiment, lines)
     print_mesh_error(experiment, frequency)
-    check(experiment, lines[CONVERGED], lines[TIGHT])
+    if not options.quick:  # on a small sphere the mesh's own error hides all others
+        check(experiment, lines[CONVERGED], lines[TIGHT])
     plot(experiment, lines)
     experiment.finish()
 
