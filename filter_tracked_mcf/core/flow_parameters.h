@@ -28,7 +28,7 @@ inline constexpr double kMaximumStepSize = 1e9;
 inline constexpr int kMaximumIterations = 1000000;
 inline constexpr int kMaximumCycles = 1000;
 inline constexpr double kMaximumStabilization = 1e3;
-inline constexpr double kDefaultStabilization = 0.003;
+inline constexpr double kDefaultStabilization = 0.01;
 inline constexpr int kMaximumThreads = 1024;
 
 /// The knobs of the flow, with the defaults that suit a scan.
