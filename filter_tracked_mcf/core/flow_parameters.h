@@ -64,6 +64,10 @@ struct FlowParameters {
     /// kDefaultStabilization if the solver is Converged, which it makes possible, else 0.
     std::optional<double> stabilization;
 
+    /// Whether test functions of which most has collapsed keep their coefficient (pinches.h). If
+    /// not, thin parts explode once they have pinched: for comparison only.
+    bool anchor_pinches = true;
+
     /// OneWCycle: W-cycles in each step, at least 1; the paper uses one.
     int cycles = 1;
 
