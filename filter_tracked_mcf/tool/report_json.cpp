@@ -113,7 +113,7 @@ std::string summary(const CommandLine& line, const FlowReport& report) {
 }
 
 std::string warning(const CommandLine& line, const FlowReport& report) {
-    const std::string text = shortfall(report, line.parameters.tolerance);
+    std::string text = shortfall(report, line.parameters.tolerance);
     if (text.empty()) return text;
     const char* const advice = stabilization_of(line.parameters) < kDefaultStabilization
                                    ? " Give a larger --stabilization or --tolerance."
