@@ -27,15 +27,19 @@ double ConjugateGradients::precondition(Multigrid& multigrid) {
     z_.setZero(4, r_.cols());
     multigrid.cycle(r_, z_);
     rz_ = dot(r_, z_);
-    return std::sqrt(std::max(rz_.sum(), 0.0));
+    return norm();
+}
+
+double ConjugateGradients::norm() const {
+    // Were the V-cycle not positive for once, for rounding, that must not pass for convergence.
+    return std::sqrt(rz_.cwiseAbs().sum());
 }
 
 double ConjugateGradients::descend(Multigrid& multigrid, double target, int maximum_iterations,
                                    int& iterations) {
-    double norm = std::sqrt(std::max(rz_.sum(), 0.0));
     x_.setZero(4, r_.cols());
     p_ = z_;
-    while (norm > target && iterations < maximum_iterations) {
+    while (norm() > target && iterations < maximum_iterations) {
         multigrid.finest().multiply(p_, q_);
         const Eigen::Vector4f step = ratio(rz_, dot(p_, q_));
         parallel_for_rows(r_.cols(), [&](std::int32_t row) {
@@ -43,14 +47,14 @@ double ConjugateGradients::descend(Multigrid& multigrid, double target, int maxi
             r_.col(row) -= step.cwiseProduct(q_.col(row));
         });
         const Eigen::Vector4d before = rz_;
-        norm = precondition(multigrid);
+        precondition(multigrid);
         ++iterations;
         const Eigen::Vector4f turn = ratio(rz_, before);
         parallel_for_rows(r_.cols(), [&](std::int32_t row) {
             p_.col(row) = z_.col(row) + turn.cwiseProduct(p_.col(row));
         });
     }
-    return norm;
+    return norm();
 }
 
 Convergence ConjugateGradients::solve(Multigrid& multigrid, const Field& right_side,
@@ -61,19 +65,19 @@ Convergence ConjugateGradients::solve(Multigrid& multigrid, const Field& right_s
     const double goal = tolerance * start;
     const bool refines = tolerance < kSinglePrecision;
     Convergence result;
-    double norm = start;
-    for (double before = start; norm > goal && result.iterations < maximum_iterations;) {
-        norm = descend(multigrid, std::max(goal, kSinglePrecision * before), maximum_iterations,
-                       result.iterations);
+    double reached = start;
+    for (double before = start; reached > goal && result.iterations < maximum_iterations;) {
+        reached = descend(multigrid, std::max(goal, kSinglePrecision * before), maximum_iterations,
+                          result.iterations);
         x += x_.topRows<3>().transpose().cast<double>();
         if (!refines) break;
         multigrid.finest().residual(right_side, x, r_);
-        norm = precondition(multigrid);
-        if (!(norm < kWorthRefining * before)) break;
-        before = norm;
+        reached = precondition(multigrid);
+        if (!(reached < kWorthRefining * before)) break;
+        before = reached;
     }
-    result.relative_residual = start > 0 ? norm / start : 0;
-    result.reached_tolerance = norm <= goal;
+    result.relative_residual = start > 0 ? reached / start : 0;
+    result.reached_tolerance = reached <= goal;
     return result;
 }
 

@@ -36,9 +36,11 @@ public:
 
 private:
     /// Conjugate gradients from x_ = 0 for the right side in r_, with z_ = V-cycle(r_), until
-    /// √(r·z) is at most `target`.
+    /// √(r·z), which is returned, is at most `target`.
     double descend(Multigrid& multigrid, double target, int maximum_iterations, int& iterations);
+    /// Makes z_ and rz_ from r_; returns norm().
     double precondition(Multigrid& multigrid);
+    double norm() const;  ///< √(r·z)
 
     Field x_, r_, z_, p_, q_;
     Eigen::Vector4d rz_;  ///< r·z of every coordinate

@@ -87,7 +87,9 @@ void Flow::assemble(StepReport& report) {
     assemble_elements(elements_, displacement_, {1.0F, static_cast<float>(grid_step_size_)},
                       systems_);
     stabilization_.add(stabilization_of(parameters_), grid_step_size_, systems_.matrices);
-    freeze_pinched(elements_, supports_, systems_, multigrid_.frozen());
+    if (parameters_.anchor_pinches) {
+        freeze_pinched(elements_, supports_, systems_, multigrid_.frozen());
+    }
     multigrid_.refresh(systems_.matrices);
     multigrid_.finest().assemble(systems_.right_sides, right_side_);
     report.area = systems_.area * elements_.grid.cell_size * elements_.grid.cell_size;

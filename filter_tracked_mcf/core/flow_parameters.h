@@ -28,7 +28,7 @@ inline constexpr double kMaximumStepSize = 1e9;
 inline constexpr int kMaximumIterations = 1000000;
 inline constexpr int kMaximumCycles = 1000;
 inline constexpr double kMaximumStabilization = 1e3;
-inline constexpr double kDefaultStabilization = 0.003;
+inline constexpr double kDefaultStabilization = 0.01;
 inline constexpr int kMaximumThreads = 1024;
 
 /// The knobs of the flow, with the defaults that suit a scan.
@@ -64,6 +64,10 @@ struct FlowParameters {
     /// paper's system. Unset: kDefaultStabilization if the solver is Converged, which it makes
     /// possible, else 0.
     std::optional<double> stabilization;
+
+    /// Whether test functions of which most has collapsed keep their coefficient (pinches.h). If
+    /// not, thin parts explode once they have pinched: for comparison only.
+    bool anchor_pinches = true;
 
     /// OneWCycle: W-cycles in each step, at least 1; the paper uses one.
     int cycles = 1;

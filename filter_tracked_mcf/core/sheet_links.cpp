@@ -158,8 +158,10 @@ public:
                 LinkCollector collector(out);
                 std::vector<Piece> pieces;
                 for (auto triangle = static_cast<std::int32_t>(begin); triangle < end; ++triangle) {
+                    const Groups::Members members = fragments_of_.members(triangle);
+                    if (members.end() - members.begin() < 2) continue;
                     pieces.clear();
-                    for (const std::int32_t fragment : fragments_of_.members(triangle)) {
+                    for (const std::int32_t fragment : members) {
                         pieces.push_back(piece_of(element_of_[fragment]));
                     }
                     collector.link_touching(pieces);

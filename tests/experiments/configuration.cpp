@@ -34,6 +34,8 @@ void apply(const std::string& word, FlowParameters& parameters) {
         set_paper(parameters);
     } else if (word == "separate" || word == "glued") {
         parameters.separate_sheets = word == "separate";
+    } else if (word == "unanchored") {
+        parameters.anchor_pinches = false;
     } else if (word != "converged") {
         throw std::invalid_argument("there is no '" + word + "' in a configuration");
     }

@@ -16,6 +16,7 @@ namespace tracked_mcf::experiments {
 ///   cycles=N       of the paper's solver
 ///   separate       sheets separated
 ///   glued          sheets not separated
+///   unanchored     what has pinched is not held
 ///
 /// Throws std::invalid_argument for anything else.
 FlowParameters parse_configuration(const std::string& words);

@@ -3,7 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "filter_tracked_mcf/core/flow.h"
+#include "filter_tracked_mcf/core/boundary.h"
+#include "filter_tracked_mcf/core/conjugate_gradients.h"
+#include "filter_tracked_mcf/core/stabilization.h"
 #include "tests/experiments/configuration.h"
 #include "tests/experiments/csv.h"
 #include "tests/experiments/experiments.h"
@@ -20,28 +22,59 @@ struct Options {
     std::vector<std::string> configurations;
 };
 
-void measure(const TriangleMesh& mesh, FlowParameters parameters,
-             const std::string& configuration) {
-    Flow flow(mesh, parameters);
-    flow.step();
-    const FlowReport& report = flow.report();
-    const StepReport& step = report.steps.back();
-    print_row(parameters.depth, parameters.step_size, configuration, report.unknowns,
-              step.solver_iterations, step.relative_residual, step.reached_tolerance ? 1 : 0,
-              step.residual_after / step.residual_before, step.solve_seconds);
-}
+/// The first step's system on one octree, for any step size and weight of the stabilisation.
+class FirstStep {
+public:
+    FirstStep(const TriangleMesh& mesh, int depth, bool separate_sheets)
+        : grid_(enclosing_grid(mesh, depth)),
+          cells_per_side_(longest_side(mesh) / grid_.cell_size),
+          elements_(build_tracked_elements(mesh, grid_, Cubature::ThreePoints, separate_sheets)),
+          stabilization_(elements_),
+          multigrid_(elements_, no_unknowns(elements_), kPreconditioner) {}
+
+    void assemble(double step_size) {
+        step_size_ = step_size * cells_per_side_ * cells_per_side_;
+        assemble_elements(elements_, Coefficients::Zero(elements_.finest().unknown_count(), 3),
+                          {1, static_cast<float>(step_size_)}, systems_);
+    }
+
+    Convergence solve(const FlowParameters& parameters) {
+        std::vector<ElementMatrix> matrices = systems_.matrices;
+        stabilization_.add(stabilization_of(parameters), step_size_, matrices);
+        multigrid_.refresh(matrices);
+        multigrid_.finest().assemble(systems_.right_sides, right_side_);
+        return conjugate_gradients_.solve(multigrid_, right_side_, parameters.tolerance,
+                                          kMaximumSolverIterations, solution_);
+    }
+
+    std::int32_t unknown_count() const { return elements_.finest().unknown_count(); }
+
+private:
+    Grid grid_;
+    double cells_per_side_;
+    TrackedElements elements_;
+    Stabilization stabilization_;
+    Multigrid multigrid_;
+    double step_size_ = 0;
+    ElementSystems systems_;
+    ConjugateGradients conjugate_gradients_;
+    Field right_side_;
+    Coefficients solution_;
+};
 
 void run(const Options& options) {
     print_row("depth", "step_size", "configuration", "unknowns", "iterations", "relative_residual",
-              "reached_tolerance", "residual_ratio", "solve_seconds");
+              "reached_tolerance");
     const TriangleMesh mesh = named_mesh(options.mesh);
     for (const int depth : options.depths) {
+        FirstStep step(mesh, depth, FlowParameters().separate_sheets);
         for (const double step_size : options.step_sizes) {
+            step.assemble(step_size);
             for (const std::string& configuration : options.configurations) {
-                FlowParameters parameters = parse_configuration(configuration);
-                parameters.depth = depth;
-                parameters.step_size = step_size;
-                measure(mesh, parameters, configuration);
+                const Convergence convergence = step.solve(parse_configuration(configuration));
+                print_row(depth, step_size, configuration, step.unknown_count(),
+                          convergence.iterations, convergence.relative_residual,
+                          convergence.reached_tolerance ? 1 : 0);
             }
         }
     }

@@ -13,6 +13,7 @@ import sys
 
 from experiment import CGAL_THIN_SCANS, CONVERGED, PAPER, SHARED_THIN_SCANS, Experiment, label
 
+UNANCHORED = f"{CONVERGED},unanchored"
 UNIT = 1e-3
 FLOWS = [(1e-5, [100, 200]), (5e-4, [80])]
 CHECKED_FLOW = (1e-5, 100)
@@ -107,7 +108,7 @@ def plot(experiment, rows, configurations):
 def main():
     experiment = Experiment("pinches", __doc__, add_options)
     options = experiment.options
-    configurations = [PAPER, CONVERGED, *options.configurations]
+    configurations = [PAPER, CONVERGED, UNANCHORED, *options.configurations]
     scans = experiment.scans(SHARED_THIN_SCANS, CGAL_THIN_SCANS)
     rows, drawings = [], []
     for scan in scans:

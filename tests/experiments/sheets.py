@@ -16,8 +16,8 @@ LARGEST_DIFFERENCE = 1e-6
 LARGEST_HAND_RATIO = 0.5
 LARGEST_UNKNOWN_RATIO = 1.05
 LARGEST_TIME_RATIO = 1.2
-STEPS_OF_HAND = [1, 10, 30, 100]
-CHECKED_STEPS_OF_HAND = 10  # what the filter does by default
+FLOWS_OF_HAND = {1e-5: [1, 10, 100], 1e-4: [1, 3, 10, 20]}
+CHECKED_FLOW_OF_HAND = (1e-4, 10)  # what is glued has to flow a while before one sees it
 
 
 def add_options(parser):
@@ -54,16 +54,21 @@ def measure_pieces(experiment):
 
 def measure_hand(experiment):
     [hand] = experiment.meshes(["hand_8k.ply"], ["hand.off"])
-    pairs = pair_up(experiment.run("accuracy", hand, "--depths", 5, "--steps", *STEPS_OF_HAND,
-                                   "--configurations", CONVERGED, GLUED[CONVERGED],
-                                   experiment="hand"), "steps")
-    experiment.say("Hand at depth 5: worst distance to the cotangent flow, in diagonals\n")
-    experiment.table(["steps", "separated", "glued", "ratio", "RMS: separated", "glued"], [
+    rows = []
+    for step_size, steps in FLOWS_OF_HAND.items():
+        rows += experiment.run("accuracy", hand, "--depths", 5, "--steps", *steps, "--step-size",
+                               step_size, "--configurations", CONVERGED, GLUED[CONVERGED],
+                               experiment="hand", step_size=step_size)
+    pairs = pair_up(rows, "step_size", "steps")
+    experiment.say("Hand at depth 5: worst distance to the cotangent flow, in diagonals, where its "
+                   "triangles are sound\n")
+    experiment.table(["δ", "steps", "separated", "glued", "ratio", "RMS: separated", "glued"], [
         [*key, separated["sound_worst"], glued["sound_worst"],
          separated["sound_worst"] / glued["sound_worst"], separated["sound_rms"],
          glued["sound_rms"]] for key, (separated, glued) in pairs.items()])
-    separated, glued = pairs[(CHECKED_STEPS_OF_HAND,)]
-    experiment.check(f"worst distance after {CHECKED_STEPS_OF_HAND} steps relative to glued",
+    step_size, steps = CHECKED_FLOW_OF_HAND
+    separated, glued = pairs[CHECKED_FLOW_OF_HAND]
+    experiment.check(f"worst distance after {steps} steps of {step_size:g} relative to glued",
                      separated["sound_worst"] / glued["sound_worst"], at_most=LARGEST_HAND_RATIO)
     experiment.say()
     return pairs
@@ -80,8 +85,6 @@ def measure_aligned(experiment):
          row["separated_unknowns"] - row["glued_unknowns"]] for row in rows])
     experiment.check("largest difference", max(row["difference"] for row in rows),
                      at_most=LARGEST_DIFFERENCE)
-    experiment.check("most unknowns added", max(row["separated_unknowns"] - row["glued_unknowns"]
-                                                for row in rows), at_most=0)
     experiment.say()
 
 
@@ -114,13 +117,14 @@ def plot(experiment, pieces, hand, ratios):
                       if key[0] == kind}
             axes[0][0].semilogy(list(chosen), [max(1e-17, value) for value in chosen.values()],
                                 style, color=f"C{i}", label=f"{kind}, {name}")
-        axes[0][1].loglog([steps for steps, in hand],
-                          [pair[i]["sound_worst"] for pair in hand.values()], "o-", label=name)
+        checked = {steps: pair[i]["sound_worst"] for (step_size, steps), pair in hand.items()
+                   if step_size == CHECKED_FLOW_OF_HAND[0]}
+        axes[0][1].loglog(list(checked), list(checked.values()), "o-", label=name)
     axes[0][0].axhline(LARGEST_DIFFERENCE, color="black", linewidth=0.8, linestyle=":")
     axes[0][0].set_title("Pieces a quarter of a cell apart:\ntogether against alone, diagonals")
     axes[0][0].set_xlabel("depth")
     axes[0][1].set_title("Hand at depth 5: worst distance\nto the cotangent flow, diagonals")
-    axes[0][1].set_xlabel("steps of 1e-5")
+    axes[0][1].set_xlabel(f"steps of {CHECKED_FLOW_OF_HAND[0]:g}")
     for ax in axes[0][:2]:
         ax.legend(fontsize=7)
     ax = axes[0][2]

@@ -5,45 +5,13 @@
 #include <Eigen/Dense>
 #include <random>
 
-#include "filter_tracked_mcf/core/boundary.h"
 #include "filter_tracked_mcf/core/bspline.h"
 #include "filter_tracked_mcf/core/galerkin.h"
 #include "tests/support/shapes.h"
+#include "tests/unit/system.h"
 
 namespace tracked_mcf {
 namespace {
-
-/// A flow's system on some mesh, at the first step.
-struct System {
-    explicit System(const TriangleMesh& mesh, int depth, float step, bool lock = false)
-        : elements(
-              build_tracked_elements(mesh, enclosing_grid(mesh, depth), Cubature::ThreePoints)),
-          frozen(lock ? unknowns_meeting_boundary(elements) : no_unknowns(elements)),
-          multigrid(elements, frozen) {
-        assemble_elements(elements, Coefficients::Zero(elements.finest().unknown_count(), 3),
-                          {1, step}, systems);
-        multigrid.refresh(systems.matrices);
-        multigrid.finest().assemble(systems.right_sides, right_side);
-    }
-
-    double residual(const Field& x) const {
-        Field r;
-        multigrid.finest().residual(right_side, x, r);
-        return norm(r);
-    }
-    Field zero() const { return Field::Zero(4, elements.finest().unknown_count()); }
-
-    TrackedElements elements;
-    std::vector<std::vector<std::uint8_t>> frozen;
-    Multigrid multigrid;
-    ElementSystems systems;
-    Field right_side;
-};
-
-using Dense = Eigen::MatrixXd;
-Dense dense(const SparseMatrix& matrix) {
-    return Eigen::MatrixXf(matrix).cast<double>();
-}
 
 TEST(LevelMatrix, IsTheSumOfItsElementMatrices) {
     const System system(shapes::bumpy_sphere(6), 3, 0.5F);
@@ -182,7 +150,7 @@ TEST(Multigrid, CyclesApproachTheSolutionInTheEnergyNorm) {
 }
 
 TEST(BoundaryLock, NoUnlockedCoarseFunctionContainsALockedFineOne) {
-    const System system(shapes::square(20), 4, 0.5F, true);
+    const System system(shapes::square(20), 4, 0.5F, {true});
     for (int level = 1; level <= 4; ++level) {
         const SparseMatrix& p = system.multigrid.prolongation(level);
         for (std::int32_t fine = 0; fine < p.rows(); ++fine) {
@@ -197,7 +165,7 @@ TEST(BoundaryLock, NoUnlockedCoarseFunctionContainsALockedFineOne) {
 TEST(BoundaryLock, LockedUnknownsStayExactlyZero) {
     TriangleMesh cap = shapes::bumpy_sphere(20);
     cap.triangles.resize(cap.triangles.size() / 2);
-    System system(cap, 5, 0.5F, true);
+    System system(cap, 5, 0.5F, {true});
     Field x = system.zero();
     for (int i = 0; i < 3; ++i) system.multigrid.cycle(system.right_side, x);
     int locked = 0;

@@ -1,0 +1,117 @@
+#include "filter_tracked_mcf/core/conjugate_gradients.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+
+#include "tests/support/shapes.h"
+#include "tests/unit/system.h"
+
+namespace tracked_mcf {
+namespace {
+
+constexpr double kWeight = 0.01;
+
+System stabilized(const TriangleMesh& mesh, int depth, float step, bool lock = false) {
+    return System(mesh, depth, step, {lock, kWeight, kPreconditioner});
+}
+
+struct Solution {
+    Coefficients x;
+    Convergence convergence;
+};
+
+Solution solved(System& system, double tolerance,
+                int maximum_iterations = kMaximumSolverIterations) {
+    Solution solution;
+    solution.convergence = ConjugateGradients().solve(system.multigrid, system.right_side,
+                                                      tolerance, maximum_iterations, solution.x);
+    return solution;
+}
+
+/// Energy norm of the error relative to that of the solution.
+double relative_error(const System& system, const Coefficients& x) {
+    const Dense a = dense(system.multigrid.finest().matrix());
+    const Dense b = system.right_side.cast<double>().topRows<3>().transpose();
+    // Rounding has left A not quite symmetric, and it is this A that is solved for.
+    const Dense exact = a.partialPivLu().solve(b);
+    const Dense error = x - exact;
+    return std::sqrt(error.cwiseProduct(a * error).sum() / exact.cwiseProduct(a * exact).sum());
+}
+
+TEST(ConjugateGradients, VCycleIsSymmetricAndPositive) {
+    System system = stabilized(shapes::bumpy_sphere(20), 5, 0.5F);
+    Field a = Field::Random(4, system.right_side.cols());
+    Field b = Field::Random(4, system.right_side.cols());
+    a.row(3).setZero();
+    b.row(3).setZero();
+    Field of_a = system.zero(), of_b = system.zero();
+    system.multigrid.cycle(a, of_a);
+    system.multigrid.cycle(b, of_b);
+    EXPECT_LT((dot(b, of_a) - dot(a, of_b)).norm(), 1e-4 * dot(b, of_a).norm());
+    EXPECT_GT(dot(a, of_a).head<3>().minCoeff(), 0);
+}
+
+TEST(ConjugateGradients, EndsWithTheErrorThatItsMeasureTells) {
+    System system = stabilized(shapes::bumpy_sphere(10), 3, 2.0F);
+    for (const double tolerance : {1e-2, 1e-3, 1e-5, 1e-8, 1e-10}) {
+        const Solution solution = solved(system, tolerance);
+        EXPECT_TRUE(solution.convergence.reached_tolerance) << tolerance;
+        EXPECT_LE(solution.convergence.relative_residual, tolerance);
+        EXPECT_LT(relative_error(system, solution.x), 2 * tolerance);
+    }
+}
+
+TEST(ConjugateGradients, NeedsAsFewIterationsAtEveryDepthAndStep) {
+    for (const int depth : {4, 5, 6}) {
+        for (const float step : {1e-2F, 1.0F, 100.0F}) {
+            System system = stabilized(shapes::bumpy_sphere(40), depth, step);
+            EXPECT_LE(solved(system, 1e-5).convergence.iterations, 12) << depth << " " << step;
+        }
+    }
+}
+
+TEST(ConjugateGradients, SaysWhenItStopsShortOfTheTolerance) {
+    System system = stabilized(shapes::bumpy_sphere(20), 5, 0.5F);
+    const Solution cut_off = solved(system, 1e-8, 2);
+    EXPECT_EQ(cut_off.convergence.iterations, 2);
+    EXPECT_FALSE(cut_off.convergence.reached_tolerance);
+    EXPECT_GT(cut_off.convergence.relative_residual, 1e-8);
+
+    // The paper's system, small steps: nearly dependent functions are all that is left to solve
+    // for.
+    System bare(shapes::bumpy_sphere(40), 6, 1e-4F, {false, 0, kPreconditioner});
+    const Solution stalled = solved(bare, 1e-10);
+    EXPECT_LE(stalled.convergence.iterations, kMaximumSolverIterations);
+    EXPECT_FALSE(stalled.convergence.reached_tolerance);
+    EXPECT_TRUE(stalled.x.allFinite());
+}
+
+TEST(ConjugateGradients, SolvesWhatIsZero) {
+    System system = stabilized(shapes::bumpy_sphere(10), 3, 2.0F);
+    system.right_side.row(1).setZero();
+    const Solution one_zero = solved(system, 1e-8);
+    EXPECT_TRUE(one_zero.convergence.reached_tolerance);
+    EXPECT_TRUE(one_zero.x.col(1).isZero(0));
+    EXPECT_LT(relative_error(system, one_zero.x), 2e-8);
+
+    system.right_side.setZero();
+    const Solution all_zero = solved(system, 1e-8);
+    EXPECT_TRUE(all_zero.convergence.reached_tolerance);
+    EXPECT_EQ(all_zero.convergence.iterations, 0);
+    EXPECT_TRUE(all_zero.x.isZero(0));
+}
+
+TEST(ConjugateGradients, LeavesLockedUnknownsAtZero) {
+    TriangleMesh cap = shapes::bumpy_sphere(20);
+    cap.triangles.resize(cap.triangles.size() / 2);
+    System system = stabilized(cap, 5, 0.5F, true);
+    const Solution solution = solved(system, 1e-6);
+    EXPECT_TRUE(solution.convergence.reached_tolerance);
+    for (std::int32_t i = 0; i < system.right_side.cols(); ++i) {
+        EXPECT_EQ(solution.x.row(i).isZero(0), system.frozen.back()[i] != 0);
+    }
+}
+
+}  // namespace
+}  // namespace tracked_mcf

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "filter_tracked_mcf/core/boundary.h"
+#include "filter_tracked_mcf/core/element_matrices.h"
+#include "filter_tracked_mcf/core/multigrid.h"
+#include "filter_tracked_mcf/core/stabilization.h"
+#include "filter_tracked_mcf/core/tracked_elements.h"
+
+namespace tracked_mcf {
+
+/// How a System is set up.
+struct SystemOptions {
+    bool lock = false;         ///< the cells of the boundary
+    double stabilization = 0;  ///< weight
+    CycleParameters cycle = {};
+};
+
+/// A flow's system on some mesh, at the first step.
+struct System {
+    System(const TriangleMesh& mesh, int depth, float step, const SystemOptions& options = {})
+        : elements(
+              build_tracked_elements(mesh, enclosing_grid(mesh, depth), Cubature::ThreePoints)),
+          frozen(options.lock ? unknowns_meeting_boundary(elements) : no_unknowns(elements)),
+          multigrid(elements, frozen, options.cycle) {
+        assemble_elements(elements, Coefficients::Zero(elements.finest().unknown_count(), 3),
+                          {1, step}, systems);
+        Stabilization(elements).add(options.stabilization, step, systems.matrices);
+        multigrid.refresh(systems.matrices);
+        multigrid.finest().assemble(systems.right_sides, right_side);
+    }
+
+    double residual(const Field& x) const {
+        Field r;
+        multigrid.finest().residual(right_side, x, r);
+        return norm(r);
+    }
+    Field zero() const { return Field::Zero(4, elements.finest().unknown_count()); }
+
+    TrackedElements elements;
+    std::vector<std::vector<std::uint8_t>> frozen;
+    Multigrid multigrid;
+    ElementSystems systems;
+    Field right_side;
+};
+
+using Dense = Eigen::MatrixXd;
+
+inline Dense dense(const SparseMatrix& matrix) {
+    return Eigen::MatrixXf(matrix).cast<double>();
+}
+
+}  // namespace tracked_mcf
