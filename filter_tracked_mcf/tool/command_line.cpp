@@ -142,7 +142,7 @@ void add_solver_numerics(CLI::App& app, FlowParameters& parameters) {
                            "paper's system, on which --solver converged takes more iterations "
                            "and may stop short."))
         ->type_name("X")
-        ->default_str("0.003, with --solver w-cycle 0");
+        ->default_str(CLI::detail::to_string(kDefaultStabilization) + ", with --solver w-cycle 0");
     app.add_option("--cycles", parameters.cycles,
                    help_of("With --solver w-cycle: W-cycles of multigrid in each step, 1 to 1000. "
                            "The paper uses one; more solve each step's equations more exactly, and "

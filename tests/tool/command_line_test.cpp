@@ -113,7 +113,7 @@ TEST(CommandLine, TheSolverDecidesOnTheStabilizationUnlessItIsGiven) {
     };
     EXPECT_EQ(stabilization({"--solver", "converged"}), kDefaultStabilization);
     EXPECT_EQ(stabilization({"--solver", "w-cycle"}), 0);
-    EXPECT_EQ(stabilization({"--solver", "w-cycle", "--stabilization", "0.01"}), 0.01);
+    EXPECT_EQ(stabilization({"--solver", "w-cycle", "--stabilization", "0.02"}), 0.02);
     EXPECT_EQ(stabilization({"--stabilization", "0"}), 0);
 }
 

@@ -95,7 +95,7 @@ TEST_F(Program, SolversDiffer) {
     };
     const std::string converged = smoothed("");
     const std::string one_cycle = smoothed("--solver w-cycle");
-    EXPECT_EQ(smoothed("--solver converged --tolerance 1e-3 --stabilization 0.003"), converged);
+    EXPECT_EQ(smoothed("--solver converged --tolerance 1e-3 --stabilization 0.01"), converged);
     EXPECT_EQ(smoothed("--solver w-cycle --cycles 1 --stabilization 0"), one_cycle);
     EXPECT_NE(one_cycle, converged);
     EXPECT_NE(smoothed("--solver w-cycle --cycles 2"), one_cycle);

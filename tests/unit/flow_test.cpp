@@ -408,7 +408,7 @@ TEST(Evolve, SaysOfANumberOutOfRangeWhatToGive) {
     p.tolerance = 1e-10;
     p.stabilization = -1;
     EXPECT_EQ(complaint(p),
-              "stabilization is -1; give a number from 0, which is none, to 1000, such as 0.003.");
+              "stabilization is -1; give a number from 0, which is none, to 1000, such as 0.01.");
     for (const double weight : {0.0, kMaximumStabilization}) {
         p.stabilization = weight;
         EXPECT_EQ(complaint(p), "none");
