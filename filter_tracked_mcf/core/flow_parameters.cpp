@@ -16,6 +16,38 @@ void check_range(const char* name, int value, int smallest, int largest, const c
                            ".");
 }
 
+[[noreturn]] void refuse(const char* name, double value, const std::string& what_to_give) {
+    std::ostringstream message;
+    message << name << " is " << value << "; give a number " << what_to_give << ".";
+    throw InvalidParameter(message.str());
+}
+
+std::string shortest(double value) {
+    std::ostringstream text;
+    text << value;
+    return text.str();
+}
+
+// All are written so that what is not a number is refused as well.
+
+void check_step_size(double step_size) {
+    if (step_size > 0 && step_size <= kMaximumStepSize) return;
+    refuse("step_size", step_size,
+           "greater than 0 and at most " + shortest(kMaximumStepSize) + ", such as 1e-5");
+}
+
+void check_tolerance(double tolerance) {
+    if (tolerance > 0 && tolerance < 1) return;
+    refuse("tolerance", tolerance, "greater than 0 and less than 1, such as 1e-3");
+}
+
+void check_stabilization(double weight) {
+    if (weight >= 0 && weight <= kMaximumStabilization) return;
+    refuse("stabilization", weight,
+           "from 0, which is none, to " + shortest(kMaximumStabilization) + ", such as " +
+               shortest(kDefaultStabilization));
+}
+
 }  // namespace
 
 double stabilization_of(const FlowParameters& parameters) {
@@ -29,13 +61,9 @@ void validate(const FlowParameters& parameters) {
     check_range("cycles", parameters.cycles, 1, kMaximumCycles, "");
     check_range("threads", parameters.threads, 0, kMaximumThreads,
                 ", where 0 takes all that OpenMP offers");
-    const double step = parameters.step_size;
-    if (!(step > 0 && step <= kMaximumStepSize)) {
-        std::ostringstream message;
-        message << "step_size is " << step << "; give a number greater than 0 and at most "
-                << kMaximumStepSize << ", such as 1e-5.";
-        throw InvalidParameter(message.str());
-    }
+    check_step_size(parameters.step_size);
+    check_tolerance(parameters.tolerance);
+    check_stabilization(stabilization_of(parameters));
 }
 
 }  // namespace tracked_mcf

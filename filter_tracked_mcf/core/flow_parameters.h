@@ -60,8 +60,9 @@ struct FlowParameters {
     /// 0, less than 1.
     double tolerance = 1e-3;
 
-    /// Weight κ of the stabilisation (stabilization.h), at least 0; 0 is the paper's system. Unset:
-    /// kDefaultStabilization if the solver is Converged, which it makes possible, else 0.
+    /// Weight κ of the stabilisation (stabilization.h), 0 to kMaximumStabilization; 0 is the
+    /// paper's system. Unset: kDefaultStabilization if the solver is Converged, which it makes
+    /// possible, else 0.
     std::optional<double> stabilization;
 
     /// Whether test functions of which most has collapsed keep their coefficient (pinches.h). If

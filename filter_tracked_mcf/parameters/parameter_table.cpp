@@ -43,6 +43,18 @@ const std::vector<ParameterDescription>& parameter_table() {
          "meshes degenerate quickly.",
          ParameterDescription::Choice{static_cast<int>(defaults.boundary),
                                       {"Locked cells", "Free"}}},
+        {"separate_sheets", "Separate sheets",
+         "Parts of the surface that share a grid cell but are not connected in it, such as two "
+         "fingers or the two sides of a thin plate, move each on its own. Off, as in the paper, "
+         "they stick together. Leave it on, unless to compare with the paper.",
+         ParameterDescription::Boolean{defaults.separate_sheets}},
+        {"solver", "Solver",
+         "How far each step's equations are solved. Converged: until the error is far below the "
+         "grid's own; a step that does not get there is reported. One W-cycle (paper): by one "
+         "multigrid cycle, however far that comes. Take Converged, unless to compare with the "
+         "paper.",
+         ParameterDescription::Choice{static_cast<int>(defaults.solver),
+                                      {"Converged", "One W-cycle (paper)"}}},
     };
     return table;
 }

@@ -15,6 +15,9 @@ struct ParameterDescription {
     struct Real {
         double default_value;
     };
+    struct Boolean {
+        bool default_value;
+    };
     struct Choice {
         int default_value;                ///< index into labels
         std::vector<std::string> labels;  ///< as a dialog shows them, such as "Locked cells"
@@ -23,7 +26,7 @@ struct ParameterDescription {
     std::string name;     ///< in scripts: lower case and underscores, never changes
     std::string label;    ///< in a dialog
     std::string tooltip;  ///< what it means, its units, and what happens when it grows
-    std::variant<Integer, Real, Choice> type;
+    std::variant<Integer, Real, Boolean, Choice> type;
 };
 
 /// The filter's name in menus and scripts.

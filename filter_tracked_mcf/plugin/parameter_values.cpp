@@ -51,6 +51,8 @@ FlowParameters flow_parameters(const ParameterValues& values) {
     parameters.step_size = read<double>(values, "step_size");
     parameters.iterations = read<int>(values, "iterations");
     parameters.boundary = static_cast<BoundaryCondition>(read<int>(values, "boundary"));
+    parameters.separate_sheets = read<bool>(values, "separate_sheets");
+    parameters.solver = static_cast<Solver>(read<int>(values, "solver"));
     return parameters;
 }
 

@@ -8,8 +8,8 @@
 
 namespace tracked_mcf {
 
-/// The value of an Integer or a Real, or the index of a Choice's label.
-using ParameterValue = std::variant<int, double>;
+/// The value of an Integer, a Real or a Boolean, or the index of a Choice's label.
+using ParameterValue = std::variant<int, double, bool>;
 
 /// What a host gives for the parameters of the table, by name.
 using ParameterValues = std::map<std::string, ParameterValue>;

@@ -5,6 +5,8 @@
 #include <numeric>
 #include <sstream>
 
+#include "filter_tracked_mcf/parameters/shortfall.h"
+
 namespace tracked_mcf {
 
 FilterOutcome guard(const std::function<std::string()>& work) {
@@ -38,7 +40,7 @@ Progress as_progress(HostCallback* callback) {
     };
 }
 
-std::string summary(const FlowReport& report) {
+std::string summary(const FlowParameters& parameters, const FlowReport& report) {
     std::ostringstream text;
     text.precision(3);
     text << "Smoothed " << report.vertices << " vertices by " << report.steps.size()
@@ -49,6 +51,11 @@ std::string summary(const FlowReport& report) {
          << " s for the steps.";
     if (report.degenerate_triangles > 0) {
         text << " " << report.degenerate_triangles << " faces have no area and had no say.";
+    }
+    const std::string warning = shortfall(report, parameters.tolerance);
+    if (!warning.empty()) {
+        text << " Warning: " << warning
+             << " Look at the result; a smaller step size or depth may help.";
     }
     return text.str();
 }

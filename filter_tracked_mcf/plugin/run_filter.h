@@ -27,8 +27,8 @@ namespace run_filter_detail {
 /// A host's callback, which may be null, as the core's.
 Progress as_progress(HostCallback* callback);
 
-/// The report in a sentence or two.
-std::string summary(const FlowReport& report);
+/// The report in a few sentences.
+std::string summary(const FlowParameters& parameters, const FlowReport& report);
 
 }  // namespace run_filter_detail
 
@@ -43,7 +43,7 @@ std::string run_filter(VcgMesh& mesh, const ParameterValues& values, HostCallbac
     TriangleMesh moved = to_triangle_mesh(mesh);
     const FlowReport report = evolve(moved, parameters, as_progress(callback));
     write_positions(moved, mesh);
-    return summary(report);
+    return summary(parameters, report);
 }
 
 }  // namespace tracked_mcf

@@ -20,6 +20,11 @@ const std::map<std::string, BoundaryCondition> kBoundaries = {
 const std::map<std::string, Cubature> kCubatures = {
     {"1", Cubature::OnePoint}, {"3", Cubature::ThreePoints}, {"11", Cubature::Degree6}};
 
+const std::map<std::string, bool> kSwitches = {{"on", true}, {"off", false}};
+
+const std::map<std::string, Solver> kSolvers = {{"converged", Solver::Converged},
+                                                {"w-cycle", Solver::OneWCycle}};
+
 constexpr std::size_t kNameColumns = 26, kTextColumns = 70;
 
 const char* const kDescription =
@@ -43,7 +48,8 @@ const char* const kExamples =
     "OUTPUT may be the same file: it is replaced only when all has gone well.\n"
     "\n"
     "Exit codes: 0 done; 1 the mesh cannot be read or smoothed; 2 wrong use of options; 3 a\n"
-    "result cannot be written. Errors are one line on the error output.\n"
+    "result cannot be written. Errors are one line on the error output. So is the warning that a\n"
+    "step's solver stopped short of the tolerance, even with --quiet; it leaves the exit code 0.\n"
     "\n"
     "The method is that of M. Chuang and M. Kazhdan, Fast Mean-Curvature Flow via\n"
     "Finite-Elements Tracking, 2011.\n";
@@ -86,7 +92,7 @@ CLI::Validator one_of(const Map& names) {
 
 /// Option names and texts as they come from the parser, before they have a meaning.
 struct Texts {
-    std::string input, output, report, boundary, cubature;
+    std::string input, output, report, boundary, cubature, separate_sheets, solver;
 };
 
 void add_files(CLI::App& app, Texts& texts) {
@@ -112,6 +118,37 @@ void add_parameters(CLI::App& app, FlowParameters& parameters, Texts& texts) {
         ->type_name("locked-cells|free")
         ->check(one_of(kBoundaries))
         ->capture_default_str();
+    app.add_option("--separate-sheets", texts.separate_sheets, shared_help("separate_sheets"))
+        ->type_name("on|off")
+        ->check(one_of(kSwitches))
+        ->capture_default_str();
+    app.add_option("--solver", texts.solver, shared_help("solver"))
+        ->type_name("converged|w-cycle")
+        ->check(one_of(kSolvers))
+        ->capture_default_str();
+}
+
+void add_solver_numerics(CLI::App& app, FlowParameters& parameters) {
+    app.add_option("--tolerance", parameters.tolerance,
+                   help_of("With --solver converged: a step is solved when its residual, measured "
+                           "so that it tells the error's energy, has fallen to this fraction of "
+                           "where it began; greater than 0, less than 1. Smaller takes more "
+                           "iterations; the default leaves the grid's own error the larger."))
+        ->type_name("X")
+        ->default_str("1e-3");
+    app.add_option("--stabilization", parameters.stabilization,
+                   help_of("Weight of the volume stabilisation, without unit, 0 to 1000. It lets "
+                           "the solver converge; much more of it holds the surface back. 0 is the "
+                           "paper's system, on which --solver converged takes more iterations "
+                           "and may stop short."))
+        ->type_name("X")
+        ->default_str(CLI::detail::to_string(kDefaultStabilization) + ", with --solver w-cycle 0");
+    app.add_option("--cycles", parameters.cycles,
+                   help_of("With --solver w-cycle: W-cycles of multigrid in each step, 1 to 1000. "
+                           "The paper uses one; more solve each step's equations more exactly, and "
+                           "the time grows in proportion."))
+        ->type_name("N")
+        ->capture_default_str();
 }
 
 void add_numerics(CLI::App& app, FlowParameters& parameters, Texts& texts) {
@@ -120,12 +157,6 @@ void add_numerics(CLI::App& app, FlowParameters& parameters, Texts& texts) {
                            "is slow, and both are there to compare with."))
         ->type_name("1|3|11")
         ->check(one_of(kCubatures))
-        ->capture_default_str();
-    app.add_option("--cycles", parameters.cycles,
-                   help_of("W-cycles of the multigrid solver in each step. More solve each step's "
-                           "equations more exactly; the time grows in proportion. One is enough "
-                           "unless the step size is large."))
-        ->type_name("N")
         ->capture_default_str();
     app.add_option("--threads", parameters.threads,
                    help_of("Threads; 0 takes all that OpenMP offers (OMP_NUM_THREADS is "
@@ -138,7 +169,8 @@ void add_output(CLI::App& app, Texts& texts, bool& quiet) {
     app.add_option("--report", texts.report,
                    help_of("Write sizes, times, residuals and memory to a JSON file."))
         ->type_name("FILE.json");
-    app.add_flag("--quiet", quiet, help_of("No summary and no progress bar; errors only."));
+    app.add_flag("--quiet", quiet,
+                 help_of("No summary and no progress bar; errors and warnings only."));
 }
 
 fs::path resolved(const fs::path& path) {
@@ -168,6 +200,8 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     Texts texts;
     texts.boundary = boundary_name(line.parameters.boundary);
     texts.cubature = std::to_string(cubature_name(line.parameters.cubature));
+    texts.separate_sheets = line.parameters.separate_sheets ? "on" : "off";
+    texts.solver = solver_name(line.parameters.solver);
 
     CLI::App app(wrapped(kDescription, kNameColumns + kTextColumns) + "\n", "tracked_mcf");
     app.get_formatter()->column_width(kNameColumns);
@@ -175,6 +209,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     app.set_version_flag("--version", std::string("tracked_mcf ") + program_version());
     add_files(app, texts);
     add_parameters(app, line.parameters, texts);
+    add_solver_numerics(app, line.parameters);
     add_numerics(app, line.parameters, texts);
     add_output(app, texts, line.quiet);
     try {
@@ -193,6 +228,8 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     line.report = texts.report;
     line.parameters.boundary = kBoundaries.at(texts.boundary);
     line.parameters.cubature = kCubatures.at(texts.cubature);
+    line.parameters.separate_sheets = kSwitches.at(texts.separate_sheets);
+    line.parameters.solver = kSolvers.at(texts.solver);
     check_paths(line);
     return line;
 }
@@ -204,6 +241,10 @@ const char* boundary_name(BoundaryCondition boundary) {
 int cubature_name(Cubature cubature) {
     if (cubature == Cubature::OnePoint) return 1;
     return cubature == Cubature::ThreePoints ? 3 : 11;
+}
+
+const char* solver_name(Solver solver) {
+    return solver == Solver::OneWCycle ? "w-cycle" : "converged";
 }
 
 const char* program_version() {

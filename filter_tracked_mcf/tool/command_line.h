@@ -32,6 +32,9 @@ CommandLine parse_command_line(int argc, const char* const* argv);
 /// How the option --boundary spells it.
 const char* boundary_name(BoundaryCondition boundary);
 
+/// How --solver spells it.
+const char* solver_name(Solver solver);
+
 /// What --cubature calls it: its number of samples on a split triangle.
 int cubature_name(Cubature cubature);
 

@@ -32,6 +32,10 @@ FlowReport evolve_with_progress(TriangleMesh& mesh, const CommandLine& line) {
     });
 }
 
+void complain(const std::string& message) {
+    std::cerr << "tracked_mcf: " << message << '\n';
+}
+
 void run(const CommandLine& line) {
     validate(line.parameters);
     // What cannot be written in the end is said before the long work begins.
@@ -48,13 +52,15 @@ void run(const CommandLine& line) {
     output.commit();
     if (report_file) report_file->commit();
     if (!line.quiet) std::cout << summary(line, report) << std::flush;
+    const std::string shortcoming = warning(line, report);
+    if (!shortcoming.empty()) complain("warning: " + shortcoming);
 }
 
 int fail(ExitCode code, std::string message) {
     // Files are quoted, and what stands in a damaged one must not reach the terminal.
     const auto is_control = [](unsigned char c) { return c < ' ' || c == 127; };
     std::replace_if(message.begin(), message.end(), is_control, ' ');
-    std::cerr << "tracked_mcf: " << message << '\n';
+    complain(message);
     return code;
 }
 

@@ -1,8 +1,11 @@
 #include "filter_tracked_mcf/tool/report_json.h"
 
+#include <algorithm>
 #include <iomanip>
 #include <nlohmann/json.hpp>
 #include <sstream>
+
+#include "filter_tracked_mcf/parameters/shortfall.h"
 
 namespace tracked_mcf {
 
@@ -15,18 +18,42 @@ Json parameters_json(const FlowParameters& parameters) {
             {"step_size", parameters.step_size},
             {"iterations", parameters.iterations},
             {"boundary", boundary_name(parameters.boundary)},
+            {"separate_sheets", parameters.separate_sheets},
             {"cubature", cubature_name(parameters.cubature)},
+            {"solver", solver_name(parameters.solver)},
+            {"tolerance", parameters.tolerance},
+            {"stabilization", stabilization_of(parameters)},
             {"cycles", parameters.cycles},
             {"threads", parameters.threads}};
 }
 
-Json step_json(const StepReport& step) {
+Json step_json(const StepReport& step, Solver solver) {
+    const bool knows_tolerance = solver == Solver::Converged;
     return {{"assemble_seconds", step.assemble_seconds},
             {"solve_seconds", step.solve_seconds},
             {"residual_before", step.residual_before},
             {"residual_after", step.residual_after},
+            {"solver_iterations", step.solver_iterations},
+            {"relative_residual", knows_tolerance ? Json(step.relative_residual) : Json()},
+            {"reached_tolerance", knows_tolerance ? Json(step.reached_tolerance) : Json()},
             {"area", step.area},
             {"collapsed_samples", step.collapsed_samples}};
+}
+
+/// How the steps were solved, such as "4 to 6 iterations of conjugate gradients".
+std::string effort(const FlowParameters& parameters, const std::vector<StepReport>& steps) {
+    if (steps.empty()) return "nothing";
+    const auto [least, most] = std::minmax_element(
+        steps.begin(), steps.end(),
+        [](const auto& a, const auto& b) { return a.solver_iterations < b.solver_iterations; });
+    const bool cycles = parameters.solver == Solver::OneWCycle;
+    std::ostringstream text;
+    text << least->solver_iterations;
+    if (most->solver_iterations > least->solver_iterations)
+        text << " to " << most->solver_iterations;
+    text << (cycles ? " W-cycle" : " iteration") << (most->solver_iterations == 1 ? "" : "s");
+    if (!cycles) text << " of conjugate gradients";
+    return text.str();
 }
 
 double total_seconds(const FlowReport& report) {
@@ -40,7 +67,9 @@ double total_seconds(const FlowReport& report) {
 
 std::string report_json(const CommandLine& line, const FlowReport& report) {
     Json steps = Json::array();
-    for (const StepReport& step : report.steps) steps.push_back(step_json(step));
+    for (const StepReport& step : report.steps) {
+        steps.push_back(step_json(step, line.parameters.solver));
+    }
     const Json json = {{"program", "tracked_mcf"},
                        {"version", program_version()},
                        {"input", line.input.string()},
@@ -53,6 +82,7 @@ std::string report_json(const CommandLine& line, const FlowReport& report) {
                        {"depth", report.depth},
                        {"cell_size", report.cell_size},
                        {"cells", report.cells},
+                       {"elements", report.elements},
                        {"unknowns", report.unknowns},
                        {"locked_unknowns", report.locked_unknowns},
                        {"fragments", report.fragments},
@@ -76,10 +106,19 @@ std::string summary(const CommandLine& line, const FlowReport& report) {
          << " unknowns";
     if (report.locked_unknowns > 0)
         text << ", of which " << report.locked_unknowns << " are locked";
-    text << "\n"
+    text << "\nsolved by " << effort(line.parameters, report.steps) << " in each step\n"
          << report.steps.size() << " steps of " << line.parameters.step_size << " in " << std::fixed
          << std::setprecision(1) << total_seconds(report) << " s: " << line.output.string() << "\n";
     return text.str();
+}
+
+std::string warning(const CommandLine& line, const FlowReport& report) {
+    std::string text = shortfall(report, line.parameters.tolerance);
+    if (text.empty()) return text;
+    const char* const advice = stabilization_of(line.parameters) < kDefaultStabilization
+                                   ? " Give a larger --stabilization or --tolerance."
+                                   : " Give a larger --tolerance or a smaller --step-size.";
+    return text + advice;
 }
 
 }  // namespace tracked_mcf

@@ -8,10 +8,15 @@
 namespace tracked_mcf {
 
 /// What was asked for and what was done, as indented JSON: the version, file names, parameters
-/// and every member of the flow's report, under the names that they have in the code.
+/// and every member of the flow's report, under the names that they have in the code. The
+/// stabilisation is the one used, whether asked for or not. W-cycles know no tolerance: what steps
+/// say of it is then null.
 std::string report_json(const CommandLine& line, const FlowReport& report);
 
-/// The same for a person, in three lines.
+/// The same for a person, in four lines.
 std::string summary(const CommandLine& line, const FlowReport& report);
+
+/// What the person must know even if no summary is wanted, in a line; empty if nothing.
+std::string warning(const CommandLine& line, const FlowReport& report);
 
 }  // namespace tracked_mcf

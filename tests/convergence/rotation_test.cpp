@@ -10,15 +10,13 @@
 namespace tracked_mcf {
 namespace {
 
-/// Root mean square distance between flowing a turned mesh and turning the flowed one, both
-/// well solved.
+/// Root mean square distance between flowing a turned mesh and turning the flowed one.
 double disagreement(const TriangleMesh& mesh, const Eigen::Affine3d& turn, int depth) {
     // δ is relative to the bounding box, which turning changes: keep the absolute one.
     const auto flowed = [&](TriangleMesh m) {
         FlowParameters parameters;
         parameters.depth = depth;
         parameters.iterations = 3;
-        parameters.cycles = 10;
         const double side = longest_side(m);
         parameters.step_size = 1e-3 / (side * side);
         evolve(m, parameters);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <tuple>
 #include <utility>
 
 #include "filter_tracked_mcf/core/evolve.h"
@@ -55,14 +56,16 @@ double longest_edge(const TriangleMesh& mesh) {
 }
 
 /// Flows a mesh and checks what must hold however much of it pinches.
-FlowReport flow(TriangleMesh& mesh, double step_size, int iterations) {
+FlowReport flow(TriangleMesh& mesh, Solver solver, double step_size, int iterations) {
     const TriangleMesh before = mesh;
     FlowParameters parameters;
+    parameters.solver = solver;
     parameters.step_size = step_size;
     parameters.iterations = iterations;
     FlowReport report = evolve(mesh, parameters);
     for (std::size_t i = 1; i < report.steps.size(); ++i) {
         EXPECT_LE(report.steps[i].area, report.steps[i - 1].area + 1e-6 * report.area_before) << i;
+        EXPECT_TRUE(report.steps[i].reached_tolerance) << i;
     }
     Eigen::AlignedBox3d box;
     for (const auto& position : before.positions) box.extend(position);
@@ -71,10 +74,13 @@ FlowReport flow(TriangleMesh& mesh, double step_size, int iterations) {
     return report;
 }
 
-class LongFlow : public testing::TestWithParam<const char*> {
+class LongFlow : public testing::TestWithParam<std::tuple<const char*, Solver>> {
 protected:
+    static const char* scan() { return std::get<0>(GetParam()); }
+    static Solver solver() { return std::get<1>(GetParam()); }
+
     void SetUp() override {
-        const std::string path = std::string(TRACKED_MCF_CGAL_MESHES) + "/" + GetParam();
+        const std::string path = std::string(TRACKED_MCF_CGAL_MESHES) + "/" + scan();
         if (!std::filesystem::exists(path)) {
             GTEST_SKIP() << path << " is missing; external/cgal_meshes.sh fetches it";
         }
@@ -84,7 +90,7 @@ protected:
         std::printf(
             "%s, depth %d: area %.4g to %.4g, mean angle %.4f to %.4f, longest edge "
             "%.3g to %.3g, %lld collapsed\n",
-            GetParam(), report.depth, report.area_before, report.area_after,
+            scan(), report.depth, report.area_before, report.area_after,
             roughness(before_, before_), roughness(after, before_), longest_edge(before_),
             longest_edge(after), static_cast<long long>(report.steps.back().collapsed_samples));
     }
@@ -93,26 +99,28 @@ protected:
 
 TEST_P(LongFlow, ShortStepsStayStableAndSmooth) {
     TriangleMesh mesh = before_;
-    const FlowReport report = flow(mesh, 1e-5, 200);
+    const FlowReport report = flow(mesh, solver(), 1e-5, 200);
     print(report, mesh);
     EXPECT_LT(roughness(mesh, before_), roughness(before_, before_));
 }
 
 TEST_P(LongFlow, LongStepsStayStable) {
     TriangleMesh mesh = before_;
-    const FlowReport report = flow(mesh, 5e-4, 80);
+    const FlowReport report = flow(mesh, solver(), 5e-4, 80);
     print(report, mesh);
     EXPECT_LT(report.area_after, 0.25 * report.area_before);
 }
 
-INSTANTIATE_TEST_SUITE_P(Scans, LongFlow,
-                         testing::Values("armadillo.off", "camel.off", "refined_elephant.off",
-                                         "mannequin-devil.off"),
-                         [](const auto& scan) {
-                             std::string name = scan.param;
-                             for (char& c : name) c = std::isalnum(c) != 0 ? c : '_';
-                             return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    Scans, LongFlow,
+    testing::Combine(testing::Values("armadillo.off", "camel.off", "refined_elephant.off",
+                                     "mannequin-devil.off"),
+                     testing::Values(Solver::Converged, Solver::OneWCycle)),
+    [](const auto& test) {
+        std::string name = std::get<0>(test.param);
+        for (char& c : name) c = std::isalnum(c) != 0 ? c : '_';
+        return name + (std::get<1>(test.param) == Solver::Converged ? "_Converged" : "_OneWCycle");
+    });
 
 }  // namespace
 }  // namespace tracked_mcf

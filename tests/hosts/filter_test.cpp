@@ -15,7 +15,8 @@ namespace tracked_mcf {
 namespace {
 
 ParameterValues values_other_than_default() {
-    return {{"depth", 7}, {"step_size", 2e-4}, {"iterations", 3}, {"boundary", 1}};
+    return {{"depth", 7},    {"step_size", 2e-4},        {"iterations", 3},
+            {"boundary", 1}, {"separate_sheets", false}, {"solver", 1}};
 }
 
 TEST(ParameterValues, EveryParameterOfTheTableIsRead) {
@@ -32,6 +33,16 @@ TEST(ParameterValues, ReachTheCoreUnchanged) {
     EXPECT_EQ(parameters.step_size, 2e-4);
     EXPECT_EQ(parameters.iterations, 3);
     EXPECT_EQ(parameters.boundary, BoundaryCondition::Free);
+    EXPECT_FALSE(parameters.separate_sheets);
+    EXPECT_EQ(parameters.solver, Solver::OneWCycle);
+}
+
+TEST(ParameterValues, OneWCycleIsThePapersSystem) {
+    ParameterValues values = values_other_than_default();
+    EXPECT_EQ(stabilization_of(flow_parameters(values)), 0);
+    EXPECT_EQ(flow_parameters(values).cycles, 1);
+    values["solver"] = 0;
+    EXPECT_EQ(stabilization_of(flow_parameters(values)), kDefaultStabilization);
 }
 
 TEST(ParameterValues, AChoiceWithoutALabelIsRefusedWithTheLabels) {
@@ -49,9 +60,13 @@ TEST(ParameterValues, AChoiceWithoutALabelIsRefusedWithTheLabels) {
 }
 
 TEST(ParameterValues, AValueOfTheWrongTypeIsRefused) {
-    ParameterValues values = values_other_than_default();
-    values["step_size"] = 1;
-    EXPECT_THROW(flow_parameters(values), InvalidParameter);
+    const std::map<std::string, ParameterValue> wrong = {
+        {"step_size", 1}, {"separate_sheets", 1}, {"solver", true}, {"depth", 3.0}};
+    for (const auto& [name, value] : wrong) {
+        ParameterValues values = values_other_than_default();
+        values[name] = value;
+        EXPECT_THROW(flow_parameters(values), InvalidParameter) << name;
+    }
 }
 
 TEST(ShortestDecimal, RecoversWhatWasTyped) {
@@ -62,6 +77,21 @@ TEST(ShortestDecimal, RecoversWhatWasTyped) {
     EXPECT_TRUE(std::isnan(shortest_decimal(std::numeric_limits<float>::quiet_NaN())));
     EXPECT_EQ(shortest_decimal(-std::numeric_limits<float>::infinity()),
               -std::numeric_limits<double>::infinity());
+}
+
+TEST(Summary, SaysWhichStepStoppedShortOfTheToleranceAndWhatToDo) {
+    using run_filter_detail::summary;
+    FlowReport report;
+    report.steps.resize(5);
+    EXPECT_EQ(summary({}, report).find("Warning"), std::string::npos);
+    report.steps[3].reached_tolerance = false;
+    report.steps[3].relative_residual = 0.02;
+    report.steps[3].solver_iterations = 100;
+    const std::string text = summary({}, report);
+    EXPECT_NE(text.find(" Warning: The solver stopped short of the tolerance 0.001 in 1 of 5 "
+                        "steps: step 4, at 0.02 after 100 iterations. Look at the result; "),
+              std::string::npos)
+        << text;
 }
 
 TEST(Guard, TurnsEveryExceptionIntoAMessage) {

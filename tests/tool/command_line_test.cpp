@@ -48,19 +48,49 @@ TEST(CommandLine, DefaultsAreThoseOfTheFlow) {
     EXPECT_EQ(line.parameters.iterations, defaults.iterations);
     EXPECT_EQ(line.parameters.boundary, defaults.boundary);
     EXPECT_EQ(line.parameters.cubature, defaults.cubature);
+    EXPECT_EQ(line.parameters.separate_sheets, defaults.separate_sheets);
+    EXPECT_EQ(line.parameters.solver, defaults.solver);
+    EXPECT_EQ(line.parameters.tolerance, defaults.tolerance);
+    EXPECT_EQ(line.parameters.stabilization, defaults.stabilization);
     EXPECT_EQ(line.parameters.cycles, defaults.cycles);
     EXPECT_EQ(line.parameters.threads, defaults.threads);
 }
 
 TEST(CommandLine, EveryOptionIsTaken) {
-    const CommandLine line =
-        parse({"a.PLY", "b.Stl", "--depth", "7", "--step-size", "2.5e-4", "--iterations=3",
-               "--boundary", "free", "--cubature", "11", "--cycles", "4", "--threads", "2",
-               "--report", "r.json", "--quiet"});
+    const CommandLine line = parse({"a.PLY",
+                                    "b.Stl",
+                                    "--depth",
+                                    "7",
+                                    "--step-size",
+                                    "2.5e-4",
+                                    "--iterations=3",
+                                    "--boundary",
+                                    "free",
+                                    "--separate-sheets",
+                                    "off",
+                                    "--solver",
+                                    "w-cycle",
+                                    "--tolerance",
+                                    "1e-10",
+                                    "--stabilization",
+                                    "0.5",
+                                    "--cubature",
+                                    "11",
+                                    "--cycles",
+                                    "4",
+                                    "--threads",
+                                    "2",
+                                    "--report",
+                                    "r.json",
+                                    "--quiet"});
     EXPECT_EQ(line.parameters.depth, 7);
     EXPECT_EQ(line.parameters.step_size, 2.5e-4);
     EXPECT_EQ(line.parameters.iterations, 3);
     EXPECT_EQ(line.parameters.boundary, BoundaryCondition::Free);
+    EXPECT_FALSE(line.parameters.separate_sheets);
+    EXPECT_EQ(line.parameters.solver, Solver::OneWCycle);
+    EXPECT_EQ(line.parameters.tolerance, 1e-10);
+    EXPECT_EQ(line.parameters.stabilization, 0.5);
     EXPECT_EQ(line.parameters.cubature, Cubature::Degree6);
     EXPECT_EQ(line.parameters.cycles, 4);
     EXPECT_EQ(line.parameters.threads, 2);
@@ -72,6 +102,19 @@ TEST(CommandLine, NegativeNumbersAndNotANumberReachTheFlowsOwnCheck) {
     EXPECT_EQ(parse({"a.ply", "b.ply", "--step-size", "-1"}).parameters.step_size, -1);
     EXPECT_TRUE(std::isnan(parse({"a.ply", "b.ply", "--step-size", "nan"}).parameters.step_size));
     EXPECT_EQ(parse({"a.ply", "b.ply", "--depth", "-2"}).parameters.depth, -2);
+    EXPECT_EQ(parse({"a.ply", "b.ply", "--stabilization", "-1"}).parameters.stabilization, -1.0);
+    EXPECT_TRUE(std::isnan(parse({"a.ply", "b.ply", "--tolerance", "nan"}).parameters.tolerance));
+}
+
+TEST(CommandLine, TheSolverDecidesOnTheStabilizationUnlessItIsGiven) {
+    const auto stabilization = [](std::vector<const char*> options) {
+        options.insert(options.begin(), {"a.ply", "b.ply"});
+        return stabilization_of(parse(options).parameters);
+    };
+    EXPECT_EQ(stabilization({"--solver", "converged"}), kDefaultStabilization);
+    EXPECT_EQ(stabilization({"--solver", "w-cycle"}), 0);
+    EXPECT_EQ(stabilization({"--solver", "w-cycle", "--stabilization", "0.02"}), 0.02);
+    EXPECT_EQ(stabilization({"--stabilization", "0"}), 0);
 }
 
 TEST(CommandLine, WhatCannotBeUnderstoodIsSaid) {
@@ -83,6 +126,10 @@ TEST(CommandLine, WhatCannotBeUnderstoodIsSaid) {
     EXPECT_THAT(complaint({"a.ply", "b.ply", "--depth", "99999999999"}), HasSubstr("--depth"));
     EXPECT_THAT(complaint({"a.ply", "b.ply", "--boundary", "open"}), HasSubstr("locked-cells"));
     EXPECT_THAT(complaint({"a.ply", "b.ply", "--cubature", "2"}), HasSubstr("11"));
+    EXPECT_THAT(complaint({"a.ply", "b.ply", "--separate-sheets", "1"}), HasSubstr("off"));
+    EXPECT_THAT(complaint({"a.ply", "b.ply", "--solver", "cg"}), HasSubstr("w-cycle"));
+    EXPECT_THAT(complaint({"a.ply", "b.ply", "--tolerance", "x"}), HasSubstr("--tolerance = x"));
+    EXPECT_THAT(complaint({"a.ply", "b.ply", "--stabilization", "x"}), HasSubstr("stabilization"));
     EXPECT_THAT(complaint({"a.ply", "b.ply", "--speed", "2"}), HasSubstr("--speed"));
     EXPECT_THAT(complaint({"a.ply", "b.ply", "c.ply"}), HasSubstr("c.ply"));
     EXPECT_THAT(complaint({"a.ply", "b.ply", "--bad"}), HasSubstr("tracked_mcf --help"));
@@ -104,10 +151,30 @@ TEST(CommandLine, TheReportMustNotReplaceAMesh) {
 
 TEST(CommandLine, HelpNamesEveryOptionAndExplainsTheSharedParameters) {
     const std::string help = parse({"--help"}).answer;
-    for (const char* option :
-         {"INPUT", "OUTPUT", "--depth", "--step-size", "--iterations", "--boundary",
-          "locked-cells|free", "--cubature", "1|3|11", "--cycles", "--threads", "--report",
-          "--quiet", "--version", "--help", "Examples:", "Exit codes:", "PLY, OBJ, OFF and STL"}) {
+    for (const char* option : {"INPUT",
+                               "OUTPUT",
+                               "--depth",
+                               "--step-size",
+                               "--iterations",
+                               "--boundary",
+                               "locked-cells|free",
+                               "--separate-sheets",
+                               "on|off",
+                               "--solver",
+                               "converged|w-cycle",
+                               "--tolerance",
+                               "--stabilization",
+                               "--cubature",
+                               "1|3|11",
+                               "--cycles",
+                               "--threads",
+                               "--report",
+                               "--quiet",
+                               "--version",
+                               "--help",
+                               "Examples:",
+                               "Exit codes:",
+                               "PLY, OBJ, OFF and STL"}) {
         EXPECT_THAT(help, HasSubstr(option));
     }
     for (const ParameterDescription& parameter : parameter_table()) {

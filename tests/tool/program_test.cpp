@@ -13,6 +13,7 @@ namespace {
 
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 using ::testing::StartsWith;
 
 const std::string kTetrahedron =
@@ -49,7 +50,8 @@ TEST_F(Program, SmoothsAndSummarises) {
     EXPECT_EQ(result.exit_code, 0);
     EXPECT_THAT(result.errors, IsEmpty()) << "no progress bar where there is no terminal";
     EXPECT_THAT(result.output, HasSubstr("a.off: 4 vertices, 4 triangles\ndepth 4: "));
-    EXPECT_THAT(result.output, HasSubstr("\n3 steps of 0.001 in "));
+    EXPECT_THAT(result.output, HasSubstr(" of conjugate gradients in each step\n3 steps of 0.001 "
+                                         "in "));
     EXPECT_LT(area("b.ply"), 0.99 * area("a.off"));
 }
 
@@ -58,6 +60,64 @@ TEST_F(Program, QuietSaysNothing) {
     EXPECT_EQ(result.exit_code, 0);
     EXPECT_THAT(result.output, IsEmpty());
     EXPECT_THAT(result.errors, IsEmpty());
+}
+
+TEST_F(Program, ATightToleranceIsReached) {
+    write_file(folder_ / "grid.off", grid(20));
+    const ProgramRun result =
+        run("grid.off b.ply --boundary free --tolerance 1e-10 --iterations 2 --report r.json");
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_THAT(result.errors, IsEmpty());
+    EXPECT_THAT(read_file(folder_ / "r.json"), HasSubstr("\"tolerance\": 1e-10"));
+    EXPECT_THAT(read_file(folder_ / "r.json"), Not(HasSubstr("\"reached_tolerance\": false")));
+}
+
+TEST_F(Program, AToleranceThatIsNotReachedIsAWarningEvenWhenQuiet) {
+    // Beyond double precision.
+    const ProgramRun result =
+        run("a.off b.ply --depth 4 --tolerance 1e-30 --iterations 2 --report r.json --quiet");
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_THAT(result.output, IsEmpty());
+    EXPECT_THAT(result.errors,
+                StartsWith("tracked_mcf: warning: The solver stopped short of the tolerance 1e-30 "
+                           "in 2 of 2 steps: the worst is step "));
+    EXPECT_EQ(result.errors.find('\n'), result.errors.size() - 1) << "one line";
+    EXPECT_THAT(read_file(folder_ / "r.json"), HasSubstr("\"reached_tolerance\": false"));
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "b.ply"));
+}
+
+TEST_F(Program, SolversDiffer) {
+    const std::string options = "a.off b.off --depth 4 --step-size 1e-3 --iterations 1 ";
+    const auto smoothed = [&](const std::string& more) {
+        const ProgramRun result = run(options + more);
+        EXPECT_EQ(result.exit_code, 0) << result.errors;
+        return read_file(folder_ / "b.off");
+    };
+    const std::string converged = smoothed("");
+    const std::string one_cycle = smoothed("--solver w-cycle");
+    EXPECT_EQ(smoothed("--solver converged --tolerance 1e-3 --stabilization 0.01"), converged);
+    EXPECT_EQ(smoothed("--solver w-cycle --cycles 1 --stabilization 0"), one_cycle);
+    EXPECT_NE(one_cycle, converged);
+    EXPECT_NE(smoothed("--solver w-cycle --cycles 2"), one_cycle);
+    EXPECT_NE(smoothed("--tolerance 1e-8"), converged);
+    EXPECT_NE(smoothed("--stabilization 0.1"), converged);
+}
+
+TEST_F(Program, SheetsHaveFunctionsOfTheirOwnUnlessSwitchedOff) {
+    // Two squares so close that every cell has both.
+    std::string two = "OFF\n8 4 0\n";
+    for (const char* z : {"0", "0.01"}) {
+        for (const char* xy : {"0 0 ", "1 0 ", "1 1 ", "0 1 "}) two += std::string(xy) + z + "\n";
+    }
+    write_file(folder_ / "two.off", two + "3 0 1 2\n3 0 2 3\n3 4 5 6\n3 4 6 7\n");
+    const auto unknowns = [&](const std::string& option) {
+        const ProgramRun result = run("two.off b.off --depth 3 --report r.json " + option);
+        EXPECT_EQ(result.exit_code, 0) << result.errors;
+        const std::string report = read_file(folder_ / "r.json");
+        return std::stoi(report.substr(report.find("\"unknowns\": ") + 12));
+    };
+    EXPECT_GT(unknowns("--separate-sheets on"), unknowns("--separate-sheets off"));
+    EXPECT_EQ(unknowns(""), unknowns("--separate-sheets on"));
 }
 
 TEST_F(Program, ReplacesItsInputWhenAsked) {
@@ -81,12 +141,28 @@ TEST_F(Program, HelpAndVersionSucceed) {
 }
 
 TEST_F(Program, WrongUseExitsWith2) {
-    for (const char* arguments :
-         {"", "a.off", "a.off b.ply --depth 99", "a.off b.ply --depth -1",
-          "a.off b.ply --iterations 0", "a.off b.ply --iterations abc", "a.off b.ply --step-size 0",
-          "a.off b.ply --step-size -1e-5", "a.off b.ply --step-size nan",
-          "a.off b.ply --step-size inf", "a.off b.ply --cycles 0", "a.off b.ply --threads -1",
-          "a.off b.ply --boundary x", "a.off b.xyz"}) {
+    for (const char* arguments : {"",
+                                  "a.off",
+                                  "a.off b.ply --depth 99",
+                                  "a.off b.ply --depth -1",
+                                  "a.off b.ply --iterations 0",
+                                  "a.off b.ply --iterations abc",
+                                  "a.off b.ply --step-size 0",
+                                  "a.off b.ply --step-size -1e-5",
+                                  "a.off b.ply --step-size nan",
+                                  "a.off b.ply --step-size inf",
+                                  "a.off b.ply --cycles 0",
+                                  "a.off b.ply --threads -1",
+                                  "a.off b.ply --boundary x",
+                                  "a.off b.ply --solver cg",
+                                  "a.off b.ply --separate-sheets maybe",
+                                  "a.off b.ply --tolerance 0",
+                                  "a.off b.ply --tolerance 1",
+                                  "a.off b.ply --tolerance nan",
+                                  "a.off b.ply --stabilization -0.1",
+                                  "a.off b.ply --stabilization nan",
+                                  "a.off b.ply --stabilization inf",
+                                  "a.off b.xyz"}) {
         const ProgramRun result = run(arguments);
         EXPECT_EQ(result.exit_code, 2) << arguments;
         EXPECT_EQ(result.errors.substr(0, 13), "tracked_mcf: ") << arguments;

@@ -16,7 +16,16 @@ TEST(Report, HoldsEveryMemberUnderItsName) {
     CommandLine line;
     line.input = "in.ply";
     line.output = "out.obj";
-    line.parameters = {7, 2e-4, 3, BoundaryCondition::Free, Cubature::Degree6, 2, 1};
+    line.parameters.depth = 7;
+    line.parameters.step_size = 2e-4;
+    line.parameters.iterations = 3;
+    line.parameters.boundary = BoundaryCondition::Free;
+    line.parameters.separate_sheets = false;
+    line.parameters.cubature = Cubature::Degree6;
+    line.parameters.tolerance = 0.5;
+    line.parameters.stabilization = 0.25;
+    line.parameters.cycles = 2;
+    line.parameters.threads = 1;
     FlowReport report;
     report.vertices = 1;
     report.triangles = 2;
@@ -25,28 +34,98 @@ TEST(Report, HoldsEveryMemberUnderItsName) {
     report.depth = 5;
     report.cell_size = 6.5;
     report.cells = 7;
+    report.elements = 14;
     report.unknowns = 8;
     report.locked_unknowns = 9;
     report.fragments = 10;
     report.split_triangles = 11;
     report.samples = 12;
     report.setup_seconds = 13.5;
-    report.steps = {{0.5, 0.25, 1e-3, 1e-6, 12.5, 1}, {0.75, 0.125, 1e-4, 1e-7, 11.5, 2}};
+    report.steps = {{0.5, 0.25, 1e-3, 1e-6, 6, 0.125, true, 12.5, 1},
+                    {0.75, 0.125, 1e-4, 1e-7, 100, 0.75, false, 11.5, 2}};
     report.peak_memory_bytes = std::int64_t{1} << 40;
     const Json expected = Json::parse(R"({
         "program": "tracked_mcf", "version": ")" TRACKED_MCF_VERSION R"(",
         "input": "in.ply", "output": "out.obj",
         "parameters": {"depth": 7, "step_size": 2e-4, "iterations": 3, "boundary": "free",
-                       "cubature": 11, "cycles": 2, "threads": 1},
+                       "separate_sheets": false, "cubature": 11, "solver": "converged",
+                       "tolerance": 0.5, "stabilization": 0.25, "cycles": 2, "threads": 1},
         "vertices": 1, "triangles": 2, "degenerate_triangles": 3, "boundary_edges": 4,
-        "depth": 5, "cell_size": 6.5, "cells": 7, "unknowns": 8, "locked_unknowns": 9,
+        "depth": 5, "cell_size": 6.5, "cells": 7, "elements": 14, "unknowns": 8, "locked_unknowns": 9,
         "fragments": 10, "split_triangles": 11, "samples": 12, "setup_seconds": 13.5,
         "steps": [{"assemble_seconds": 0.5, "solve_seconds": 0.25, "residual_before": 1e-3,
-                   "residual_after": 1e-6, "area": 12.5, "collapsed_samples": 1},
+                   "residual_after": 1e-6, "solver_iterations": 6, "relative_residual": 0.125,
+                   "reached_tolerance": true, "area": 12.5, "collapsed_samples": 1},
                   {"assemble_seconds": 0.75, "solve_seconds": 0.125, "residual_before": 1e-4,
-                   "residual_after": 1e-7, "area": 11.5, "collapsed_samples": 2}],
+                   "residual_after": 1e-7, "solver_iterations": 100, "relative_residual": 0.75,
+                   "reached_tolerance": false, "area": 11.5, "collapsed_samples": 2}],
         "peak_memory_bytes": 1099511627776})");
     EXPECT_EQ(Json::parse(report_json(line, report)), expected);
+}
+
+TEST(Report, HoldsTheStabilizationThatIsUsed) {
+    CommandLine line;
+    const auto stabilization = [&] {
+        return Json::parse(report_json(line, {}))["parameters"]["stabilization"];
+    };
+    EXPECT_EQ(stabilization(), kDefaultStabilization);
+    line.parameters.solver = Solver::OneWCycle;
+    EXPECT_EQ(stabilization(), 0);
+}
+
+TEST(Report, WCyclesKnowNoTolerance) {
+    CommandLine line;
+    line.parameters.solver = Solver::OneWCycle;
+    FlowReport report;
+    report.steps.resize(1);
+    report.steps[0].solver_iterations = 2;
+    const Json json = Json::parse(report_json(line, report));
+    EXPECT_EQ(json["parameters"]["solver"], "w-cycle");
+    const Json step = json["steps"][0];
+    EXPECT_EQ(step["solver_iterations"], 2);
+    EXPECT_TRUE(step["relative_residual"].is_null());
+    EXPECT_TRUE(step["reached_tolerance"].is_null());
+}
+
+std::string line_on_solving(Solver solver, const std::vector<int>& iterations) {
+    CommandLine line;
+    line.parameters.solver = solver;
+    FlowReport report;
+    for (const int count : iterations) {
+        report.steps.emplace_back();
+        report.steps.back().solver_iterations = count;
+    }
+    const std::string text = summary(line, report);
+    const std::size_t begin = text.find("solved by ");
+    return text.substr(begin, text.find('\n', begin) - begin);
+}
+
+TEST(Summary, TellsTheSolversIterations) {
+    EXPECT_EQ(line_on_solving(Solver::Converged, {5, 4, 11}),
+              "solved by 4 to 11 iterations of conjugate gradients in each step");
+    EXPECT_EQ(line_on_solving(Solver::Converged, {1}),
+              "solved by 1 iteration of conjugate gradients in each step");
+    EXPECT_EQ(line_on_solving(Solver::OneWCycle, {1, 1}), "solved by 1 W-cycle in each step");
+    EXPECT_EQ(line_on_solving(Solver::OneWCycle, {3, 3}), "solved by 3 W-cycles in each step");
+}
+
+TEST(Warning, NamesTheWorstStepThatStoppedShort) {
+    CommandLine line;
+    FlowReport report;
+    report.steps.resize(4);
+    EXPECT_EQ(warning(line, report), "");
+    report.steps[2].relative_residual = 0.0321;
+    report.steps[2].solver_iterations = 100;
+    report.steps[2].reached_tolerance = false;
+    EXPECT_EQ(warning(line, report),
+              "The solver stopped short of the tolerance 0.001 in 1 of 4 steps: step 3, at 0.032 "
+              "after 100 iterations. Give a larger --tolerance or a smaller --step-size.");
+    report.steps[1] = report.steps[2];
+    report.steps[1].relative_residual = 0.5;
+    line.parameters.stabilization = 0;
+    EXPECT_EQ(warning(line, report),
+              "The solver stopped short of the tolerance 0.001 in 2 of 4 steps: the worst is step "
+              "2, at 0.5 after 100 iterations. Give a larger --stabilization or --tolerance.");
 }
 
 TEST(Report, IsJsonWhateverTheFileNames) {
@@ -71,12 +150,16 @@ TEST(Report, OfARunIsConsistent) {
     EXPECT_EQ(report["depth"], 4);
     EXPECT_EQ(report["samples"], report["split_triangles"]) << "one sample each";
     EXPECT_GE(report["split_triangles"], report["fragments"]);
+    EXPECT_GE(report["elements"], report["cells"]);
     EXPECT_GE(report["unknowns"], report["cells"]);
     EXPECT_GT(report["peak_memory_bytes"], 1000000);
     ASSERT_EQ(report["steps"].size(), 3u);
     EXPECT_NEAR(report["steps"][0]["area"], 1.5 + std::sqrt(3) / 2, 1e-6) << "summed in floats";
     for (const Json& step : report["steps"]) {
         EXPECT_LT(step["residual_after"], step["residual_before"]);
+        EXPECT_GT(step["solver_iterations"], 0);
+        EXPECT_LE(step["relative_residual"], report["parameters"]["tolerance"]);
+        EXPECT_TRUE(step["reached_tolerance"]);
     }
 }
 

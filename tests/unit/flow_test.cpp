@@ -74,9 +74,7 @@ static_assert(!std::is_copy_constructible_v<Flow> && !std::is_move_constructible
 TEST(Flow, OneStepOfTheSphereIsTheSemiImplicitOne) {
     // r(t+δ) = r³ / (r² + 2δ), section 5.2; the unit sphere's longest side is 2.
     TriangleMesh mesh = shapes::geodesic_sphere(40);
-    FlowParameters p = parameters(5, 1e-3, 1);
-    p.cycles = 3;
-    evolve(mesh, p);
+    evolve(mesh, parameters(5, 1e-3, 1));
     for (const Eigen::Vector3d& position : mesh.positions) {
         EXPECT_NEAR(position.norm(), 1 / (1 + 2 * 4e-3), 3e-4);
     }
@@ -375,6 +373,72 @@ TEST(Evolve, RejectsParametersOutOfRangeAndNamesThem) {
     p.cycles = 1;
     p.threads = -2;
     expect_rejected<InvalidParameter>(mesh, p, "threads");
+    p.threads = 0;
+    for (const double tolerance : {0.0, -1e-3, 1.0, 2.0, kNaN, kInfinity}) {
+        p.tolerance = tolerance;
+        expect_rejected<InvalidParameter>(mesh, p, "tolerance");
+    }
+    p.tolerance = 1e-3;
+    for (const Solver solver : {Solver::Converged, Solver::OneWCycle}) {
+        p.solver = solver;
+        for (const double weight : {-1e-9, 1001.0, kNaN, kInfinity, -kInfinity}) {
+            p.stabilization = weight;
+            expect_rejected<InvalidParameter>(mesh, p, "stabilization");
+        }
+    }
+}
+
+TEST(Evolve, SaysOfANumberOutOfRangeWhatToGive) {
+    const auto complaint = [](const FlowParameters& p) -> std::string {
+        try {
+            validate(p);
+        } catch (const InvalidParameter& error) {
+            return error.what();
+        }
+        return "none";
+    };
+    FlowParameters p;
+    p.step_size = kInfinity;
+    EXPECT_EQ(complaint(p),
+              "step_size is inf; give a number greater than 0 and at most 1e+09, such as 1e-5.");
+    p.step_size = 1e-5;
+    p.tolerance = 1;
+    EXPECT_EQ(complaint(p),
+              "tolerance is 1; give a number greater than 0 and less than 1, such as 1e-3.");
+    p.tolerance = 1e-10;
+    p.stabilization = -1;
+    EXPECT_EQ(complaint(p),
+              "stabilization is -1; give a number from 0, which is none, to 1000, such as 0.01.");
+    for (const double weight : {0.0, kMaximumStabilization}) {
+        p.stabilization = weight;
+        EXPECT_EQ(complaint(p), "none");
+    }
+}
+
+TEST(Evolve, StabilizesByDefaultWhatIsToConverge) {
+    FlowParameters p;
+    EXPECT_EQ(stabilization_of(p), kDefaultStabilization);
+    p.solver = Solver::OneWCycle;
+    EXPECT_EQ(stabilization_of(p), 0);
+    p.stabilization = 0.1;
+    EXPECT_EQ(stabilization_of(p), 0.1);
+    p.solver = Solver::Converged;
+    p.stabilization = 0;
+    EXPECT_EQ(stabilization_of(p), 0);
+}
+
+TEST(Evolve, ReachesATightToleranceOrSaysThatItDidNot) {
+    FlowParameters p = parameters(4, 1e-3, 2);
+    for (const double tolerance : {1e-10, 1e-30}) {  // the second one is beyond double precision
+        p.tolerance = tolerance;
+        TriangleMesh mesh = shapes::bumpy_sphere(10);
+        for (const StepReport& step : evolve(mesh, p).steps) {
+            EXPECT_EQ(step.reached_tolerance, tolerance == 1e-10);
+            EXPECT_EQ(step.reached_tolerance, step.relative_residual <= tolerance);
+            EXPECT_GT(step.solver_iterations, 3);
+            EXPECT_LE(step.solver_iterations, kMaximumSolverIterations);
+        }
+    }
 }
 
 TEST(Evolve, RejectsMeshesThatCannotFlow) {

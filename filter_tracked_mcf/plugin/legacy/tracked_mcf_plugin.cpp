@@ -13,6 +13,7 @@ constexpr int kMeanCurvatureFlow = 0;
 
 using Integer = ParameterDescription::Integer;
 using Real = ParameterDescription::Real;
+using Boolean = ParameterDescription::Boolean;
 using Choice = ParameterDescription::Choice;
 
 QString text(const std::string& string) {
@@ -34,6 +35,7 @@ struct AddParameter {
     void operator()(const Real& type) const {
         add<RichFloat>(static_cast<float>(type.default_value));
     }
+    void operator()(const Boolean& type) const { add<RichBool>(type.default_value); }
     void operator()(const Choice& type) const {
         add<RichEnum>(type.default_value, texts(type.labels));
     }
@@ -56,6 +58,9 @@ struct ReadValue {
     }
     Result operator()(const Real&) const {
         return value.isFloat() ? Result(shortest_decimal(value.getFloat())) : std::nullopt;
+    }
+    Result operator()(const Boolean&) const {
+        return value.isBool() ? Result(value.getBool()) : std::nullopt;
     }
     Result operator()(const Choice&) const {
         return value.isEnum() ? Result(value.getEnum()) : std::nullopt;

@@ -1,7 +1,9 @@
 #!/usr/bin/env bash
 # Works the filter's dialog in stock MeshLab as a person would and takes pictures on the way; fails
 # if the preview does not show the result, take it back, and agree with what Apply does:
-# xvfb-run -a -s "-screen 0 1280x960x24" dialog_screenshot.sh PREFIX MESH OUT_DIR
+# xvfb-run -a -s "-screen 0 1360x1280x24" dialog_screenshot.sh PREFIX MESH OUT_DIR
+#
+# A dialog grows by itself to two thirds of the screen's height, hence a high screen: all help fits.
 set -euo pipefail
 
 prefix=$1 mesh=$2 out=$(realpath -m "$3")
@@ -25,8 +27,8 @@ wait_for() { # WHAT COMMAND...: until it succeeds
 }
 # MeshLab gives its window a size of its own as it starts, at any moment.
 fill_screen() {
-    xdotool windowsize "$window" 1280 960 sleep 1
-    xdotool getwindowgeometry "$window" | grep -q 1280x960
+    xdotool windowsize "$window" 1360 1280 sleep 1
+    xdotool getwindowgeometry "$window" | grep -q 1360x1280
 }
 find_dialog() { timeout 10 xdotool search --sync --onlyvisible --name "^Mean Curvature Flow$"; }
 # On a busy machine keys come before the search is there to take them: begin again.

@@ -19,7 +19,7 @@ off infinite 4 2 "${square[@]:0:3}" "1 inf 0" "3 0 1 2" "3 1 3 2"
 off degenerate 4 2 "0 0 0" "1 0 0" "2 0 0" "3 0 0" "3 0 1 2" "3 1 3 2"
 
 failures=0
-refuses() { # MESSAGE MESH DEPTH STEP_SIZE ITERATIONS BOUNDARY
+refuses() { # MESSAGE MESH DEPTH STEP_SIZE ITERATIONS BOUNDARY [SEPARATE_SHEETS SOLVER]
     rm -f "$work/out.ply"
     "$here/flow_script.sh" "${@:3}" > "$work/script.mlx"
     local code=0
@@ -46,4 +46,6 @@ refuses "step_size is -" good 0 -1e-5 10 0
 refuses "step_size is nan" good 0 nan 10 0
 refuses "boundary is 2" good 0 1e-5 10 2
 refuses "boundary is -1" good 0 1e-5 10 -1
+refuses "solver is 2" good 0 1e-5 10 0 true 2
+refuses "solver is -1" good 0 1e-5 10 0 true -1
 exit "$((failures > 0))"

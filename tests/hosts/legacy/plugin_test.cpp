@@ -82,6 +82,10 @@ struct ExpectParameter {
         EXPECT_EQ(actual.stringType(), "RichFloat");
         EXPECT_EQ(actual.value().getFloat(), static_cast<float>(expected.default_value));
     }
+    void operator()(const ParameterDescription::Boolean& expected) const {
+        EXPECT_EQ(actual.stringType(), "RichBool");
+        EXPECT_EQ(actual.value().getBool(), expected.default_value);
+    }
     void operator()(const ParameterDescription::Choice& expected) const {
         ASSERT_EQ(actual.stringType(), "RichEnum");
         EXPECT_EQ(actual.value().getEnum(), expected.default_value);
@@ -121,6 +125,31 @@ TEST_F(Plugin, MovesPositionsAndNothingElse) {
     for (std::size_t i = 0; i < before.size(); ++i) EXPECT_NE(before[i], after[i]) << i;
     EXPECT_TRUE(Belongings(layer) == belongings);
     EXPECT_TRUE(log_text().contains("1800 vertices")) << log_text().toStdString();
+}
+
+TEST_F(Plugin, EveryParameterHasAnEffect) {
+    // So flat that its two sides share cells.
+    for (CVertexO& vertex : layer.cm.vert) vertex.P()[2] *= 0.05F;
+    const auto original = layer.cm.vert;
+    const auto smoothed = [&] {
+        for (std::size_t i = 0; i < original.size(); ++i) layer.cm.vert[i].P() = original[i].cP();
+        EXPECT_TRUE(apply()) << log_text().toStdString();
+        return position_bits(layer);
+    };
+    const auto by_default = smoothed();
+    EXPECT_EQ(smoothed(), by_default);
+    const auto with = [&](const char* name, const Value& value) {
+        const RichParameterList defaults = parameters;
+        parameters.setValue(name, value);
+        auto result = smoothed();
+        parameters = defaults;
+        return result;
+    };
+    EXPECT_NE(with("depth", IntValue(3)), by_default);
+    EXPECT_NE(with("step_size", FloatValue(1e-4f)), by_default);
+    EXPECT_NE(with("iterations", IntValue(1)), by_default);
+    EXPECT_NE(with("separate_sheets", BoolValue(false)), by_default);
+    EXPECT_NE(with("solver", EnumValue(1)), by_default);
 }
 
 TEST_F(Plugin, UpdatesBoxAndNormals) {
@@ -239,13 +268,17 @@ void break_a_face(MeshModel& layer, RichParameterList&) {
     layer.cm.face[3].V(1) = nullptr;
 }
 
-void make_depth_a_real(MeshModel&, RichParameterList& list) {
-    RichParameterList other;
-    for (const RichParameter& parameter : list) {
-        if (parameter.name() != "depth") other.addParam(parameter);
-    }
-    other.addParam(RichFloat("depth", 5));
-    list = other;
+/// Puts a parameter of the same name, but another type, into the list.
+template <class RichType, class Number>
+auto replace(const char* name, Number value) {
+    return [=](MeshModel&, RichParameterList& list) {
+        RichParameterList other;
+        for (const RichParameter& parameter : list) {
+            if (parameter.name() != name) other.addParam(parameter);
+        }
+        other.addParam(RichType(name, value));
+        list = other;
+    };
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -267,7 +300,10 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"StepSizeInfinite", set<FloatValue>("step_size", kInfinity), "step_size"},
         BadInput{"BoundaryTooLarge", set<EnumValue>("boundary", 2), "boundary"},
         BadInput{"BoundaryNegative", set<EnumValue>("boundary", -1), "boundary"},
-        BadInput{"DepthOfTheWrongType", make_depth_a_real, "depth"}),
+        BadInput{"SolverTooLarge", set<EnumValue>("solver", 2), "solver"},
+        BadInput{"SolverNegative", set<EnumValue>("solver", -1), "solver"},
+        BadInput{"SheetsOfTheWrongType", replace<RichInt>("separate_sheets", 1), "separate_sheets"},
+        BadInput{"DepthOfTheWrongType", replace<RichFloat>("depth", 5.0F), "depth"}),
     [](const auto& test) { return std::string(test.param.name); });
 
 }  // namespace
