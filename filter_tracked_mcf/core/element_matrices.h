@@ -26,7 +26,7 @@ struct SystemWeights {
 /// Samples whose deformed area is at most this fraction of their initial area have collapsed: the
 /// surface there has become a thread or a point and its metric means nothing. They contribute
 /// nothing (section 5.1).
-inline constexpr float kCollapsedAreaRatio = 1e-5F;
+inline constexpr float kCollapsedAreaRatio = 1e-4F;
 
 /// What has collapsed of one element: of each function ∫ B_I² over that part of the initial
 /// surface.

@@ -4,7 +4,9 @@ namespace tracked_mcf {
 
 namespace {
 
-constexpr float kPinchedShare = 0.5F;
+/// Large enough that a stray sample does not count, small enough that what has collapsed hardly
+/// moves with functions that are not frozen.
+constexpr float kPinchedShare = 0.01F;
 
 }  // namespace
 
