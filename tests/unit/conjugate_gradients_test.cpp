@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <cmath>
+#include <limits>
 
 #include "tests/support/shapes.h"
 #include "tests/unit/system.h"
@@ -100,6 +102,17 @@ TEST(ConjugateGradients, SolvesWhatIsZero) {
     EXPECT_TRUE(all_zero.convergence.reached_tolerance);
     EXPECT_EQ(all_zero.convergence.iterations, 0);
     EXPECT_TRUE(all_zero.x.isZero(0));
+}
+
+TEST(ConjugateGradients, SaysWhenNumbersAreNotFinite) {
+    using Limits = std::numeric_limits<float>;
+    for (const float bad : {Limits::quiet_NaN(), Limits::infinity(), Limits::max()}) {
+        System system = stabilized(shapes::bumpy_sphere(10), 3, 2.0F);
+        system.right_side(0, 5) = bad;
+        const Solution solution = solved(system, 1e-3);
+        EXPECT_FALSE(solution.convergence.reached_tolerance) << bad;
+        EXPECT_FALSE(std::isfinite(solution.convergence.relative_residual)) << bad;
+    }
 }
 
 TEST(ConjugateGradients, LeavesLockedUnknownsAtZero) {
