@@ -173,11 +173,14 @@ TEST(Flow, ResultIsTheSameBitsWhateverTheNumberOfThreads) {
     // Large enough for many blocks and several slabs.
     const TriangleMesh mesh = shapes::bumpy_sphere(60);
     FlowParameters p = parameters(7, 1e-4, 2);
-    p.threads = 1;
-    const TriangleMesh one = evolved(mesh, p);
-    for (const int threads : {2, 3, 5}) {
-        p.threads = threads;
-        EXPECT_TRUE(same_bits(evolved(mesh, p), one)) << threads;
+    for (const Solver solver : {Solver::Converged, Solver::OneWCycle}) {
+        p.solver = solver;
+        p.threads = 1;
+        const TriangleMesh one = evolved(mesh, p);
+        for (const int threads : {2, 3, 5}) {
+            p.threads = threads;
+            EXPECT_TRUE(same_bits(evolved(mesh, p), one)) << threads;
+        }
     }
 }
 
