@@ -76,8 +76,8 @@ Convergence ConjugateGradients::solve(Multigrid& multigrid, const Field& right_s
         if (!(reached < kWorthRefining * before)) break;
         before = reached;
     }
-    result.relative_residual = start > 0 ? reached / start : 0;
-    result.reached_tolerance = reached <= goal;
+    result.relative_residual = start == 0 ? 0 : reached / start;
+    result.reached_tolerance = std::isfinite(reached) && reached <= goal;
     return result;
 }
 

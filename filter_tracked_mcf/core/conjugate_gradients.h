@@ -16,8 +16,10 @@ inline constexpr int kMaximumSolverIterations = 100;
 /// V-cycle is nearly the inverse of A, this is nearly the error's energy norm. The plain 2-norm of
 /// r says little, being dominated by functions that are nearly dependent on the surface.
 struct Convergence {
-    int iterations = 0;            ///< V-cycles applied within conjugate gradients
-    double relative_residual = 0;  ///< √(r·z), over the three coordinates, relative to the start
+    int iterations = 0;  ///< V-cycles applied within conjugate gradients
+    /// √(r·z), over the three coordinates, relative to the start; not finite if the numbers are
+    /// not.
+    double relative_residual = 0;
     bool reached_tolerance = true;
 };
 

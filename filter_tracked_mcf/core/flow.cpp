@@ -109,7 +109,8 @@ void Flow::solve(StepReport& report) {
     }
     multigrid_.finest().residual(right_side_, solution_, residual_);
     report.residual_after = norm(residual_);
-    if (!all_finite(solution_)) {
+    // Conjugate gradients leave the solution at zero if the system is not finite.
+    if (!all_finite(solution_) || !std::isfinite(report.relative_residual)) {
         throw NumericalFailure(
             "The flow broke down: its numbers are no longer finite. Use a smaller step size or "
             "fewer iterations.");

@@ -68,8 +68,9 @@ void LevelMatrix::assemble(const std::vector<ElementMatrix>& elements,
         for (auto row = static_cast<std::int32_t>(begin); row < end; ++row) {
             assemble_row(row, elements, sums);
             const float diagonal = sums[row];
-            const bool moves = frozen[row] == 0 && diagonal > kSmallestDiagonal;
-            inverse_diagonal_[row] = moves ? 1 / diagonal : 0;
+            // What is not a number must not pass for a function that stays.
+            const bool stays = frozen[row] != 0 || diagonal <= kSmallestDiagonal;
+            inverse_diagonal_[row] = stays ? 0 : 1 / diagonal;
             store_row(row, sums);
         }
     });

@@ -58,7 +58,7 @@ TEST(ElementSmoother, BackwardIsTheAdjointOfForward) {
     const LevelMatrix& matrix = system.multigrid.finest();
     ElementSmoother smoother(system.elements.finest());
     smoother.refresh(matrix);
-    const Field a = random_field(system), b = random_field(system);
+    const Field a = random_right_side(system), b = random_right_side(system);
     Field forward = system.zero(), backward = system.zero();
     smoother.sweep(matrix, a, forward);
     smoother.sweep_backward(matrix, b, backward);

@@ -10,6 +10,7 @@
 
 #include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/evolve.h"
+#include "filter_tracked_mcf/core/flow.h"
 #include "filter_tracked_mcf/core/mesh_topology.h"
 #include "tests/support/shapes.h"
 
@@ -170,11 +171,25 @@ TEST(Flow, ResultIsTheSameBitsWhateverTheNumberOfThreads) {
     // Large enough for many blocks and several slabs.
     const TriangleMesh mesh = shapes::bumpy_sphere(60);
     FlowParameters p = parameters(7, 1e-4, 2);
-    p.threads = 1;
-    const TriangleMesh one = evolved(mesh, p);
-    for (const int threads : {2, 3, 5}) {
-        p.threads = threads;
-        EXPECT_TRUE(same_bits(evolved(mesh, p), one)) << threads;
+    for (const Solver solver : {Solver::Converged, Solver::OneWCycle}) {
+        p.solver = solver;
+        p.threads = 1;
+        const TriangleMesh one = evolved(mesh, p);
+        for (const int threads : {2, 3, 5}) {
+            p.threads = threads;
+            EXPECT_TRUE(same_bits(evolved(mesh, p), one)) << threads;
+        }
+    }
+}
+
+TEST(Flow, ThrowsWhenItsNumbersAreNotFinite) {
+    for (const Solver solver : {Solver::Converged, Solver::OneWCycle}) {
+        FlowParameters p = parameters(4, 1e-4, 1);
+        p.solver = solver;
+        p.stabilization = std::numeric_limits<double>::quiet_NaN();  // which validate() rejects
+        Flow flow(shapes::bumpy_sphere(10), p);
+        EXPECT_THROW(flow.step(), NumericalFailure);
+        EXPECT_TRUE(flow.displacement().isZero(0));
     }
 }
 

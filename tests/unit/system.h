@@ -46,6 +46,16 @@ struct System {
     Field right_side;
 };
 
+/// A times a random field. Something random itself would be all but noise on the nearly dependent
+/// functions, beside which the rest of an operator hardly shows.
+inline Field random_right_side(const System& system) {
+    Field random = Field::Random(4, system.right_side.cols());
+    random.row(3).setZero();
+    Field right_side;
+    system.multigrid.finest().multiply(random, right_side);
+    return right_side;
+}
+
 using Dense = Eigen::MatrixXd;
 
 inline Dense dense(const SparseMatrix& matrix) {
