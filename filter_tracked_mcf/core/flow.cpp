@@ -18,10 +18,14 @@ Grid grid_for(const TriangleMesh& mesh, int depth) {
     return enclosing_grid(mesh, depth == 0 ? automatic_depth(mesh) : depth);
 }
 
+/// In grid units. Beyond, single precision loses the mass matrix beside δ S, and with it where a
+/// closed surface is.
+constexpr double kLargestStepSize = 1e5;
+
 /// δ is given for the model scaled to longest side 1; the grid has scaled it to side / h.
 double to_grid_units(double step_size, const TriangleMesh& mesh, const Grid& grid) {
     const double cells = longest_side(mesh) / grid.cell_size;
-    return step_size * cells * cells;
+    return std::min(step_size * cells * cells, kLargestStepSize);
 }
 
 std::vector<std::vector<std::uint8_t>> locked_unknowns(const TrackedElements& elements,

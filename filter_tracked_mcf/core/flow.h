@@ -30,7 +30,8 @@ public:
     Flow& operator=(const Flow&) = delete;
 
     /// Solves (D + δS) d = -δ S x(t) for the displacement d = x(t+δ) - x(t), which is equation 2,
-    /// and adds it. Throws NumericalFailure if it is not finite, leaving the embedding as it was.
+    /// stabilised if so asked, and adds it. Throws NumericalFailure if it is not finite, leaving
+    /// the embedding as it was.
     void step();
 
     /// Moves the vertices of the mesh that the flow was made from, positions as they were then, to
@@ -41,7 +42,7 @@ public:
     const TrackedElements& elements() const { return elements_; }
     /// Coefficients of X_t minus the identity, grid units.
     const Coefficients& displacement() const { return displacement_; }
-    /// δ in grid units: δ / h².
+    /// δ in grid units: δ / h², at most 1e5.
     double grid_step_size() const { return grid_step_size_; }
 
 private:

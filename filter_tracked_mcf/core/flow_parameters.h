@@ -39,8 +39,8 @@ struct FlowParameters {
 
     /// Step size δ for the model scaled so that the longest side of its bounding box is 1. δ is a
     /// time, so a squared length: detail smaller than about √δ is smoothed away by one step.
-    /// Greater than 0 and at most kMaximumStepSize, where all of the step is long since the
-    /// Laplacian.
+    /// Greater than 0 and at most kMaximumStepSize; from 1e5 squared cells on, where all of the
+    /// step is long since the Laplacian, larger steps act like that one.
     double step_size = 1e-5;
 
     /// Number of semi-implicit steps, 1 to kMaximumIterations.

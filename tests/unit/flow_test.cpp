@@ -494,5 +494,21 @@ TEST(Evolve, HugeStepsAndTinyMeshesStayFinite) {
     for (const auto& position : evolved(triangle, p).positions) EXPECT_TRUE(position.allFinite());
 }
 
+TEST(Evolve, ClosedMeshesStayInTheirBoxAtAnyStepSize) {
+    const TriangleMesh mesh = shapes::bumpy_sphere(16);
+    const Grid box = enclosing_grid(mesh, 0);
+    for (const Solver solver : {Solver::Converged, Solver::OneWCycle}) {
+        for (const double step : {1.0, 1e2, 1e4, 1e6, kMaximumStepSize}) {
+            FlowParameters p = parameters(6, step, 2);
+            p.solver = solver;
+            for (const auto& position : evolved(mesh, p).positions) {
+                const Eigen::Vector3d local = box.to_grid(position);
+                EXPECT_GT(local.minCoeff(), 0) << step;
+                EXPECT_LT(local.maxCoeff(), 1) << step;
+            }
+        }
+    }
+}
+
 }  // namespace
 }  // namespace tracked_mcf
