@@ -38,6 +38,10 @@ CycleParameters cycle_parameters(Solver solver) {
     return solver == Solver::Converged ? kPreconditioner : CycleParameters();
 }
 
+float pinched_share(Solver solver) {
+    return solver == Solver::Converged ? kPinchedShareConverged : kPinchedShareOneWCycle;
+}
+
 bool all_finite(const Coefficients& coefficients) {
     // A sum is finite only if every term is, and needs no branch for each.
     return std::isfinite(coefficients.squaredNorm());
@@ -92,7 +96,8 @@ void Flow::assemble(StepReport& report) {
                       systems_);
     stabilization_.add(stabilization_of(parameters_), grid_step_size_, systems_.matrices);
     if (parameters_.anchor_pinches) {
-        freeze_pinched(elements_, supports_, systems_, multigrid_.frozen());
+        freeze_pinched(elements_, supports_, systems_, pinched_share(parameters_.solver),
+                       multigrid_.frozen());
     }
     multigrid_.refresh(systems_.matrices);
     multigrid_.finest().assemble(systems_.right_sides, right_side_);

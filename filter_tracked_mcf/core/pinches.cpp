@@ -2,16 +2,9 @@
 
 namespace tracked_mcf {
 
-namespace {
-
-/// Large enough that a stray sample does not count, small enough that what has collapsed hardly
-/// moves with functions that are not frozen.
-constexpr float kPinchedShare = 0.01F;
-
-}  // namespace
-
 void freeze_pinched(const TrackedElements& elements, const Supports& supports,
-                    const ElementSystems& systems, std::vector<std::uint8_t>& frozen) {
+                    const ElementSystems& systems, float pinched_share,
+                    std::vector<std::uint8_t>& frozen) {
     if (systems.collapses.empty()) return;
     std::vector<float> collapsed(supports.mass.size(), 0.0F);
     for (const Collapse& collapse : systems.collapses) {
@@ -21,7 +14,7 @@ void freeze_pinched(const TrackedElements& elements, const Supports& supports,
         }
     }
     for (std::size_t unknown = 0; unknown < collapsed.size(); ++unknown) {
-        if (collapsed[unknown] > kPinchedShare * supports.mass[unknown]) frozen[unknown] = 1;
+        if (collapsed[unknown] > pinched_share * supports.mass[unknown]) frozen[unknown] = 1;
     }
 }
 
