@@ -83,9 +83,8 @@ TEST(Stabilization, CostsNothingForWhatIsConstantAlongTheNormal) {
             Eigen::Vector3d(corner_bit(corner, 0), corner_bit(corner, 1), corner_bit(corner, 2))
                 .dot(tangent);
     }
-    for (std::size_t element = 0; element < matrices.size(); ++element) {
-        EXPECT_LT((matrix(matrices[element]) * linear).norm(),
-                  1e-5 * matrix(matrices[element]).norm());
+    for (const ElementMatrix& element : matrices) {
+        EXPECT_LT((matrix(element) * linear).norm(), 1e-5 * matrix(element).norm());
     }
 }
 
