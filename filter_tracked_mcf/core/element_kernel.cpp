@@ -90,6 +90,18 @@ TRACKED_MCF_INLINE Lanes derivative_along(const Functions& f, const Vector& q) {
     return q.x * f.dx + q.y * f.dy + q.z * f.dz;
 }
 
+/// The lower triangular C with C Cᵀ = √|g| g⁻¹ for the metric g of dX = [a b], whose √|g| is
+/// `area`. The initial metric's is the identity.
+struct MetricFactor {
+    float c11, c21, c22;
+};
+TRACKED_MCF_INLINE MetricFactor factor(const Vector& a, const Vector& b, float area) {
+    const float inverse_area = 1 / area;
+    const float c11 = __builtin_sqrtf(dot(b, b) * inverse_area);
+    const float c22 = 1 / c11;
+    return {c11, -dot(a, b) * inverse_area * c22, c22};
+}
+
 }  // namespace
 
 #if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
@@ -106,6 +118,7 @@ ElementTotals integrate_element(const ElementInput& input, const SystemWeights& 
     Lanes force[3] = {};
     ElementTotals totals;
 
+    const bool conformalized = weights.flow == FlowKind::Conformalized;
     const Trilinear ux = trilinear(input.displacement[0]);
     const Trilinear uy = trilinear(input.displacement[1]);
     const Trilinear uz = trilinear(input.displacement[2]);
@@ -126,7 +139,7 @@ ElementTotals integrate_element(const ElementInput& input, const SystemWeights& 
             // √|g| as the length of a × b, which cancels far less than a determinant.
             const Vector normal = cross(a, b);
             const float area = __builtin_sqrtf(dot(normal, normal));
-            if (!(area > kCollapsedAreaRatio)) {
+            if (!conformalized && !(area > kCollapsedAreaRatio)) {
                 ++totals.collapsed_samples;
                 const Lanes value = functions_at(at).value;
                 const Lanes mass = sample->weight * value * value;
@@ -137,14 +150,11 @@ ElementTotals integrate_element(const ElementInput& input, const SystemWeights& 
             }
 
             // √|g| g⁻¹ = C Cᵀ with C lower triangular and of determinant 1; q = [t1 t2] C.
-            const float inverse_area = 1 / area;
-            const float c11 = __builtin_sqrtf(dot(b, b) * inverse_area);
-            const float c22 = 1 / c11;
-            const float c21 = -dot(a, b) * inverse_area * c22;
-            const Vector q1 = c11 * t.t1 + c21 * t.t2;
-            const Vector q2 = c22 * t.t2;
-            const Vector jq1 = c11 * a + c21 * b;
-            const Vector jq2 = c22 * b;
+            const MetricFactor c = conformalized ? MetricFactor{1, 0, 1} : factor(a, b, area);
+            const Vector q1 = c.c11 * t.t1 + c.c21 * t.t2;
+            const Vector q2 = c.c22 * t.t2;
+            const Vector jq1 = c.c11 * a + c.c21 * b;
+            const Vector jq2 = c.c22 * b;
 
             const Functions f = functions_at(at);
             const Lanes p1 = derivative_along(f, q1);

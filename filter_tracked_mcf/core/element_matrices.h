@@ -17,15 +17,18 @@ struct ElementVector {
     alignas(32) float entry[3][8];
 };
 
-/// Factors of the matrices in what is assembled: mass * D + stiffness * S, grid units.
+/// What is assembled: mass * D + stiffness * S, grid units.
 struct SystemWeights {
     float mass = 1;
     float stiffness = 0;
+    /// S of the present metric or, for conformalized flow, of the initial one. D is of the present.
+    FlowKind flow = FlowKind::MeanCurvature;
 };
 
 /// Samples whose deformed area is at most this fraction of their initial area have collapsed: the
 /// surface there has become a thread or a point and its metric means nothing. They contribute
-/// nothing (section 5.1).
+/// nothing (section 5.1). Not so in a conformalized flow, where the stiffness is that of the
+/// initial metric and nothing is divided by an area.
 inline constexpr float kCollapsedAreaRatio = 1e-4F;
 
 /// What has collapsed of one element: of each function ∫ B_I² over that part of the initial
@@ -51,6 +54,7 @@ struct ElementSystems {
 ///     matrices     mass * ∫ B_I B_J + stiffness * ∫ ∇B_I · ∇B_J      (equation 4)
 ///     right sides  -stiffness * ∫ ∇B_I · ∇X_t
 ///
+/// (of a conformalized flow, gradients and their integrals under the initial metric),
 /// so that with mass 1 and stiffness δ, solving for d = X_{t+δ} - X_t is equation 2. Single
 /// precision: differences of u within a cell are taken in double first, so what is lost is relative
 /// to the deformation of one cell. Results are the same bits at any number of threads.

@@ -1,10 +1,13 @@
 #include "filter_tracked_mcf/core/evolve.h"
 
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "filter_tracked_mcf/core/flow.h"
 #include "filter_tracked_mcf/core/parallel.h"
 #include "filter_tracked_mcf/core/peak_memory.h"
+#include "filter_tracked_mcf/core/rescaling.h"
 #include "filter_tracked_mcf/core/stopwatch.h"
 
 namespace tracked_mcf {
@@ -36,9 +39,33 @@ private:
     double total_;
 };
 
+/// Makes the steps, until the last or until there is nothing left to do.
+void run(Flow& flow, std::optional<Rescaler>& rescaler, int iterations,
+         const ProgressMeter& meter) {
+    for (int step = 0; step < iterations; ++step) {
+        meter.begin_step(step, iterations);
+        if (!flow.step()) return;
+        if (rescaler && !rescaler->restore(flow)) return;
+    }
+}
+
+/// Brings the mesh to where the flow has led, or to where it was before the last step if the
+/// surface has vanished in that one, which the flow itself would notice in the next.
+void finish(Flow& flow, TriangleMesh& mesh, const Selection& selection) {
+    const std::vector<Eigen::Vector3d> start = mesh.positions;
+    const double area = surface_area(mesh, selection);
+    flow.move_vertices(mesh);
+    if (flow.report().stop == Stop::None && surface_area(mesh, selection) <= kVanishedArea * area) {
+        flow.take_back();
+        mesh.positions = start;
+        flow.move_vertices(mesh);
+    }
+}
+
 }  // namespace
 
-FlowReport evolve(TriangleMesh& mesh, const FlowParameters& parameters, const Progress& progress) {
+FlowReport evolve(TriangleMesh& mesh, const Selection& selection, const FlowParameters& parameters,
+                  const Progress& progress) {
     validate(parameters);
     validate(mesh);
     const ThreadCountScope threads(parameters.threads);
@@ -46,21 +73,25 @@ FlowReport evolve(TriangleMesh& mesh, const FlowParameters& parameters, const Pr
 
     meter.begin_setup();
     const Stopwatch setup;
-    Flow flow(mesh, parameters);
+    std::optional<Rescaler> rescaler;
+    if (parameters.rescale != Rescaling::None) rescaler.emplace(mesh, selection, parameters);
+    Flow flow(mesh, parameters, selection);
     const double setup_seconds = setup.seconds();
-    for (int step = 0; step < parameters.iterations; ++step) {
-        meter.begin_step(step, parameters.iterations);
-        flow.step();
-    }
+    run(flow, rescaler, parameters.iterations, meter);
     meter.done();
 
+    const double area_before = surface_area(mesh, selection);
+    finish(flow, mesh, selection);
     FlowReport report = flow.report();
     report.setup_seconds = setup_seconds;
-    report.area_before = surface_area(mesh);
-    flow.move_vertices(mesh);
-    report.area_after = surface_area(mesh);
+    report.area_before = area_before;
+    report.area_after = surface_area(mesh, selection);
     report.peak_memory_bytes = peak_memory_bytes();
     return report;
+}
+
+FlowReport evolve(TriangleMesh& mesh, const FlowParameters& parameters, const Progress& progress) {
+    return evolve(mesh, {}, parameters, progress);
 }
 
 }  // namespace tracked_mcf

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "filter_tracked_mcf/core/domain.h"
 #include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/flow_parameters.h"
 #include "filter_tracked_mcf/core/flow_report.h"
@@ -8,12 +9,18 @@
 
 namespace tracked_mcf {
 
-/// Smooths `mesh` by mean-curvature flow with tracked octree finite elements: the one call that
-/// hosts make. Positions are written only after the last step has succeeded; vertices that do not
-/// move, those no triangle uses among them, keep their bits.
+/// Smooths `mesh`, or only its selected triangles, by mean-curvature flow with tracked octree
+/// finite elements: the one call that hosts make. Positions are written only after the last step
+/// has succeeded; vertices that do not move, those that are held or that no selected triangle uses
+/// among them, keep their bits. A flow that has nothing left to do ends before its last step, as
+/// FlowReport::stop says.
 ///
 /// Throws InvalidMesh, InvalidParameter, NumericalFailure or Cancelled (errors.h), leaving the mesh
 /// as it was.
+FlowReport evolve(TriangleMesh& mesh, const Selection& selection, const FlowParameters& parameters,
+                  const Progress& progress = {});
+
+/// The same for all of the mesh.
 FlowReport evolve(TriangleMesh& mesh, const FlowParameters& parameters,
                   const Progress& progress = {});
 

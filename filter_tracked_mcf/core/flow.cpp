@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "filter_tracked_mcf/core/automatic_depth.h"
-#include "filter_tracked_mcf/core/boundary.h"
 #include "filter_tracked_mcf/core/errors.h"
+#include "filter_tracked_mcf/core/locked_cells.h"
 #include "filter_tracked_mcf/core/parallel.h"
 #include "filter_tracked_mcf/core/pinches.h"
 #include "filter_tracked_mcf/core/stopwatch.h"
@@ -14,23 +14,25 @@ namespace tracked_mcf {
 
 namespace {
 
-Grid grid_for(const TriangleMesh& mesh, int depth) {
-    return enclosing_grid(mesh, depth == 0 ? automatic_depth(mesh) : depth);
+Grid grid_for(const TriangleMesh& mesh, const Domain& domain, int depth) {
+    const Grid cube = enclosing_grid(mesh, 0);
+    return with_depth(cube, depth == 0 ? automatic_depth(domain.surface(), cube) : depth);
 }
 
 /// In grid units. Beyond, single precision loses the mass matrix beside δ S, and with it where a
 /// closed surface is.
 constexpr double kLargestStepSize = 1e5;
 
-/// δ is given for the model scaled to longest side 1; the grid has scaled it to side / h.
-double to_grid_units(double step_size, const TriangleMesh& mesh, const Grid& grid) {
-    const double cells = longest_side(mesh) / grid.cell_size;
-    return std::min(step_size * cells * cells, kLargestStepSize);
+/// δ is given for the model scaled to longest side 1, or in squared mesh units.
+double to_grid_units(const FlowParameters& parameters, const TriangleMesh& mesh, const Grid& grid) {
+    const double unit = parameters.absolute ? 1 : longest_side(mesh);
+    const double cells = unit / grid.cell_size;
+    return std::min(parameters.step_size * cells * cells, kLargestStepSize);
 }
 
 std::vector<std::vector<std::uint8_t>> locked_unknowns(const TrackedElements& elements,
                                                        BoundaryCondition boundary) {
-    return boundary == BoundaryCondition::LockedCells ? unknowns_meeting_boundary(elements)
+    return boundary == BoundaryCondition::LockedCells ? unknowns_meeting_held_edges(elements)
                                                       : no_unknowns(elements);
 }
 
@@ -49,29 +51,39 @@ bool all_finite(const Coefficients& coefficients) {
 
 }  // namespace
 
-Flow::Flow(const TriangleMesh& mesh, const FlowParameters& parameters)
-    : Flow(mesh, parameters, grid_for(mesh, parameters.depth)) {}
+Flow::Flow(const TriangleMesh& mesh, const FlowParameters& parameters, const Selection& selection)
+    : Flow(mesh, Domain(mesh, selection, parameters.boundary), parameters) {}
 
-Flow::Flow(const TriangleMesh& mesh, const FlowParameters& parameters, const Grid& grid)
+Flow::Flow(const TriangleMesh& mesh, const FlowParameters& parameters, const Grid& grid,
+           const Selection& selection)
+    : Flow(mesh, Domain(mesh, selection, parameters.boundary), parameters, grid) {}
+
+Flow::Flow(const TriangleMesh& mesh, const Domain& domain, const FlowParameters& parameters)
+    : Flow(mesh, domain, parameters, grid_for(mesh, domain, parameters.depth)) {}
+
+Flow::Flow(const TriangleMesh& mesh, const Domain& domain, const FlowParameters& parameters,
+           const Grid& grid)
     : parameters_(parameters),
       elements_(
-          build_tracked_elements(mesh, grid, parameters.cubature, parameters.separate_sheets)),
-      grid_step_size_(to_grid_units(parameters.step_size, mesh, grid)),
+          build_tracked_elements(domain, grid, parameters.cubature, parameters.separate_sheets)),
+      grid_step_size_(to_grid_units(parameters, mesh, grid)),
       multigrid_(elements_, locked_unknowns(elements_, parameters.boundary),
                  cycle_parameters(parameters.solver)),
       stabilization_(elements_),
       supports_(measure_supports(elements_)),
+      held_curve_(elements_),
       displacement_(Coefficients::Zero(elements_.finest().unknown_count(), 3)) {
-    fill_report(mesh);
+    fill_report(domain);
     // With the stabilisation, functions that hardly meet the surface follow those that do.
     if (stabilization_of(parameters) == 0) freeze_negligible(supports_, multigrid_.frozen());
 }
 
-void Flow::fill_report(const TriangleMesh& mesh) {
+void Flow::fill_report(const Domain& domain) {
     report_.vertices = elements_.referenced_vertex_count;
-    report_.triangles = static_cast<std::int64_t>(mesh.triangles.size());
+    report_.triangles = static_cast<std::int64_t>(domain.surface().triangles.size());
     report_.degenerate_triangles = elements_.degenerate_triangle_count;
-    report_.boundary_edges = elements_.boundary_edge_count;
+    report_.boundary_edges = domain.boundary_edge_count();
+    report_.held_vertices = elements_.held_vertex_count;
     report_.depth = elements_.grid.depth;
     report_.cell_size = elements_.grid.cell_size;
     report_.cells = count_cells(elements_.finest());
@@ -83,17 +95,45 @@ void Flow::fill_report(const TriangleMesh& mesh) {
     report_.samples = static_cast<std::int64_t>(elements_.samples.size());
 }
 
-void Flow::step() {
+bool Flow::step() {
     StepReport report;
     assemble(report);
+    if (!report_.steps.empty() && report.area <= kVanishedArea * report_.steps.front().area) {
+        take_back();
+        return false;
+    }
+    if (!can_move()) {
+        report_.stop = Stop::NothingMoves;
+        return false;
+    }
     solve(report);
     report_.steps.push_back(report);
+    return true;
+}
+
+void Flow::take_back() {
+    displacement_ = previous_;
+    report_.steps.pop_back();
+    report_.stop = Stop::Vanished;
+}
+
+bool Flow::can_move() const {
+    const std::vector<float>& inverse_diagonal = multigrid_.finest().inverse_diagonal();
+    return std::any_of(inverse_diagonal.begin(), inverse_diagonal.end(),
+                       [](float inverse) { return inverse != 0; });
+}
+
+void Flow::scale(const Eigen::Vector3d& centre, double factor) {
+    const Eigen::RowVector3d fixed = elements_.grid.to_grid(centre).transpose();
+    const Coefficients from_centre = identity_coefficients(elements_).rowwise() - fixed;
+    displacement_ = factor * displacement_ + (factor - 1) * from_centre;
 }
 
 void Flow::assemble(StepReport& report) {
     const Stopwatch stopwatch;
-    assemble_elements(elements_, displacement_, {1.0F, static_cast<float>(grid_step_size_)},
-                      systems_);
+    assemble_elements(elements_, displacement_,
+                      {1.0F, static_cast<float>(grid_step_size_), parameters_.flow}, systems_);
+    if (holds_curve()) held_curve_.add(displacement_, grid_step_size_, systems_);
     stabilization_.add(stabilization_of(parameters_), grid_step_size_, systems_.matrices);
     if (parameters_.anchor_pinches) {
         freeze_pinched(elements_, supports_, systems_, pinched_share(parameters_.solver),
@@ -124,7 +164,9 @@ void Flow::solve(StepReport& report) {
             "The flow broke down: its numbers are no longer finite. Use a smaller step size or "
             "fewer iterations.");
     }
+    previous_ = displacement_;
     displacement_ += solution_;
+    if (holds_curve()) held_curve_.take_up(displacement_);
     report.solve_seconds = stopwatch.seconds();
 }
 
@@ -150,7 +192,7 @@ void Flow::move_vertices(TriangleMesh& mesh) const {
                                                                               std::int64_t end) {
         for (std::int64_t i = begin; i < end; ++i) {
             const VertexPlace& place = elements_.vertices[i];
-            if (place.element == VertexPlace::kNowhere) continue;
+            if (place.element == VertexPlace::kNowhere || elements_.vertex_held[i] != 0) continue;
             const Eigen::Vector3d moved =
                 elements_.grid.cell_size * evaluate_vertex(elements_, displacement_, place);
             if (!moved.isZero(0)) mesh.positions[i] += moved;

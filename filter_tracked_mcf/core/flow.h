@@ -1,9 +1,11 @@
 #pragma once
 
 #include "filter_tracked_mcf/core/conjugate_gradients.h"
+#include "filter_tracked_mcf/core/domain.h"
 #include "filter_tracked_mcf/core/flow_parameters.h"
 #include "filter_tracked_mcf/core/flow_report.h"
 #include "filter_tracked_mcf/core/grid.h"
+#include "filter_tracked_mcf/core/held_curve.h"
 #include "filter_tracked_mcf/core/multigrid.h"
 #include "filter_tracked_mcf/core/stabilization.h"
 #include "filter_tracked_mcf/core/supports.h"
@@ -12,6 +14,9 @@
 
 namespace tracked_mcf {
 
+/// From this share of its initial area on, a surface counts as vanished.
+inline constexpr double kVanishedArea = 1e-3;
+
 /// A mean-curvature flow under way: set up once from the initial surface, then stepped. What is
 /// tracked never changes; what a step changes is the displacement of the embedding.
 ///
@@ -19,12 +24,15 @@ namespace tracked_mcf {
 /// want to look at every step.
 class Flow {
 public:
-    /// Sets up for a mesh and parameters that validate() accepts. Throws InvalidMesh if all
-    /// triangles are degenerate.
-    Flow(const TriangleMesh& mesh, const FlowParameters& parameters);
+    /// Sets up for a mesh and parameters that validate() accepts, on the grid that encloses all of
+    /// the mesh, be all of it selected or not. Throws InvalidMesh if all triangles are degenerate,
+    /// and what Domain throws.
+    Flow(const TriangleMesh& mesh, const FlowParameters& parameters,
+         const Selection& selection = {});
 
-    /// The same on a grid of the caller's choice, which must enclose the mesh.
-    Flow(const TriangleMesh& mesh, const FlowParameters& parameters, const Grid& grid);
+    /// The same on a grid of the caller's choice, which must enclose the selected triangles.
+    Flow(const TriangleMesh& mesh, const FlowParameters& parameters, const Grid& grid,
+         const Selection& selection = {});
 
     Flow(const Flow&) = delete;
     Flow& operator=(const Flow&) = delete;
@@ -32,7 +40,16 @@ public:
     /// Solves (D + δS) d = -δ S x(t) for the displacement d = x(t+δ) - x(t), which is equation 2,
     /// stabilised if so asked, and adds it. Throws NumericalFailure if it is not finite, leaving
     /// the embedding as it was.
-    void step();
+    ///
+    /// Returns false if there is nothing left to do, as report().stop then says: where the last
+    /// step left next to no area it is taken back.
+    bool step();
+
+    /// Takes the last step back because the surface has vanished in it; once after a step.
+    void take_back();
+
+    /// Scales the embedding about `centre` (mesh units) by `factor`.
+    void scale(const Eigen::Vector3d& centre, double factor);
 
     /// Moves the vertices of the mesh that the flow was made from, positions as they were then, to
     /// where the flow has brought them. Those that did not move keep their bits.
@@ -46,11 +63,17 @@ public:
     double grid_step_size() const { return grid_step_size_; }
 
 private:
+    Flow(const TriangleMesh& mesh, const Domain& domain, const FlowParameters& parameters);
+    Flow(const TriangleMesh& mesh, const Domain& domain, const FlowParameters& parameters,
+         const Grid& grid);
+
+    bool can_move() const;
+    bool holds_curve() const { return parameters_.boundary != BoundaryCondition::LockedCells; }
     void assemble(StepReport& report);
     void solve(StepReport& report);
     void solve_by_conjugate_gradients(StepReport& report);
     void solve_by_cycles(StepReport& report);
-    void fill_report(const TriangleMesh& mesh);
+    void fill_report(const Domain& domain);
 
     FlowParameters parameters_;
     FlowReport report_;
@@ -59,7 +82,9 @@ private:
     Multigrid multigrid_;
     Stabilization stabilization_;
     Supports supports_;
+    HeldCurve held_curve_;
     Coefficients displacement_;
+    Coefficients previous_;  ///< displacement before the last step
 
     // Refilled by every step.
     ElementSystems systems_;

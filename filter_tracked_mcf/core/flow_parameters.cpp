@@ -1,5 +1,6 @@
 #include "filter_tracked_mcf/core/flow_parameters.h"
 
+#include <cmath>
 #include <sstream>
 #include <string>
 
@@ -30,7 +31,11 @@ std::string shortest(double value) {
 
 // All are written so that what is not a number is refused as well.
 
-void check_step_size(double step_size) {
+void check_step_size(double step_size, bool absolute) {
+    if (absolute) {
+        if (step_size > 0 && std::isfinite(step_size)) return;
+        refuse("step_size", step_size, "greater than 0, in squared units of the mesh");
+    }
     if (step_size > 0 && step_size <= kMaximumStepSize) return;
     refuse("step_size", step_size,
            "greater than 0 and at most " + shortest(kMaximumStepSize) + ", such as 1e-5");
@@ -61,7 +66,7 @@ void validate(const FlowParameters& parameters) {
     check_range("cycles", parameters.cycles, 1, kMaximumCycles, "");
     check_range("threads", parameters.threads, 0, kMaximumThreads,
                 ", where 0 takes all that OpenMP offers");
-    check_step_size(parameters.step_size);
+    check_step_size(parameters.step_size, parameters.absolute);
     check_tolerance(parameters.tolerance);
     check_stabilization(stabilization_of(parameters));
 }

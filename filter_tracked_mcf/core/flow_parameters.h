@@ -4,11 +4,25 @@
 
 namespace tracked_mcf {
 
-/// What happens at the boundary of an open mesh.
+/// What happens at the boundary of an open mesh: the edges of one triangle only, once coincident
+/// vertices are one.
 enum class BoundaryCondition {
+    Locked,       ///< the boundary is held, and nothing beside it (held_curve.h)
     LockedCells,  ///< test functions whose support meets the boundary keep their coefficient (5.3)
     Free          ///< nothing is held
 };
+
+/// Which flow. Both start alike.
+enum class FlowKind {
+    MeanCurvature,  ///< mass and stiffness of the present metric
+    /// Mass of the present metric, stiffness of the initial one (Kazhdan, Solomon and Ben-Chen,
+    /// "Can Mean-Curvature Flow be Modified to be Non-singular?", 2012): nothing pinches, and a
+    /// closed surface without handles becomes a sphere.
+    Conformalized
+};
+
+/// What every step restores by scaling the surface about its centroid.
+enum class Rescaling { None, KeepArea, KeepVolume };
 
 /// Where a triangle of a clipped polygon is sampled (section 4.2, Figure 8).
 enum class Cubature {
@@ -43,10 +57,19 @@ struct FlowParameters {
     /// step is long since the Laplacian, larger steps act like that one.
     double step_size = 1e-5;
 
+    /// Whether step_size is in squared units of the mesh instead: then finite and greater than 0.
+    bool absolute = false;
+
     /// Number of semi-implicit steps, 1 to kMaximumIterations.
     int iterations = 10;
 
-    BoundaryCondition boundary = BoundaryCondition::LockedCells;
+    FlowKind flow = FlowKind::MeanCurvature;
+    BoundaryCondition boundary = BoundaryCondition::Locked;
+
+    /// KeepVolume wants a closed surface with consistently oriented triangles; neither goes with
+    /// anything held.
+    Rescaling rescale = Rescaling::None;
+
     Cubature cubature = Cubature::ThreePoints;
 
     /// Whether parts of the surface that share a cell, but are not connected inside it, get

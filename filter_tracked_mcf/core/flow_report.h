@@ -21,12 +21,20 @@ struct StepReport {
     std::int64_t collapsed_samples = 0;  ///< left out because their area has collapsed
 };
 
+/// Why a flow ended before it had made all its steps.
+enum class Stop {
+    None,          ///< it did not
+    Vanished,      ///< the next step would have left no area; its positions are not taken
+    NothingMoves,  ///< every test function is locked or has pinched
+};
+
 /// What a whole flow did: sizes, seconds by phase, residuals.
 struct FlowReport {
     std::int64_t vertices = 0;  ///< that triangles refer to
     std::int64_t triangles = 0;
     std::int64_t degenerate_triangles = 0;  ///< without area: they have no say in the flow
     std::int64_t boundary_edges = 0;
+    std::int64_t held_vertices = 0;  ///< that triangles refer to: they keep their bits
     int depth = 0;
     double cell_size = 0;              ///< of the finest level, mesh units
     std::int64_t cells = 0;            ///< occupied cells of the finest level
@@ -36,10 +44,11 @@ struct FlowReport {
     std::int64_t fragments = 0;        ///< triangles clipped to cells
     std::int64_t split_triangles = 0;  ///< fragments fanned into triangles
     std::int64_t samples = 0;          ///< cubature samples
-    double area_before = 0;            ///< of the mesh, its units²
+    double area_before = 0;            ///< of the triangles that flow, mesh units²
     double area_after = 0;
     double setup_seconds = 0;
-    std::vector<StepReport> steps;
+    std::vector<StepReport> steps;  ///< as many as were made
+    Stop stop = Stop::None;
     std::int64_t peak_memory_bytes = 0;  ///< of the whole process; 0 where the system does not say
 };
 

@@ -54,11 +54,12 @@ double longest_side(const TriangleMesh& mesh) {
 Grid enclosing_grid(const TriangleMesh& mesh, int depth) {
     const Eigen::AlignedBox3d box = bounding_box(mesh);
     const double cube_side = kCubeToModel * checked_longest_side(box);
-    Grid grid;
-    grid.depth = depth;
-    grid.cell_size = std::ldexp(cube_side, -depth);
-    grid.origin = box.center() - Eigen::Vector3d::Constant(0.5 * cube_side);
-    return grid;
+    const Eigen::Vector3d origin = box.center() - Eigen::Vector3d::Constant(0.5 * cube_side);
+    return with_depth({origin, cube_side, 0}, depth);
+}
+
+Grid with_depth(const Grid& grid, int depth) {
+    return {grid.origin, std::ldexp(grid.cell_size, grid.depth - depth), depth};
 }
 
 }  // namespace tracked_mcf

@@ -30,4 +30,7 @@ double longest_side(const TriangleMesh& mesh);
 /// vertices only) and the same centre.
 Grid enclosing_grid(const TriangleMesh& mesh, int depth);
 
+/// The same cube with 2^depth cells a side.
+Grid with_depth(const Grid& grid, int depth);
+
 }  // namespace tracked_mcf

@@ -91,4 +91,17 @@ std::vector<std::uint8_t> boundary_edges(const MeshTopology& topology) {
     return boundary;
 }
 
+bool is_oriented_consistently(const MeshTopology& topology) {
+    std::vector<std::int32_t> balance(static_cast<std::size_t>(topology.edge_count), 0);
+    for (std::size_t triangle = 0; triangle < topology.triangles.size(); ++triangle) {
+        const Triangle& t = topology.triangles[triangle];
+        for (int side = 0; side < 3; ++side) {
+            const std::int32_t edge = topology.edges[triangle][side];
+            if (edge != MeshTopology::kNoEdge)
+                balance[edge] += t[side] < t[(side + 1) % 3] ? 1 : -1;
+        }
+    }
+    return std::all_of(balance.begin(), balance.end(), [](auto sum) { return sum == 0; });
+}
+
 }  // namespace tracked_mcf

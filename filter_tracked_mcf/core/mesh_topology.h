@@ -30,4 +30,8 @@ MeshTopology topology_of(const TriangleMesh& mesh);
 /// Triangles with two equal vertices do not count at all.
 std::vector<std::uint8_t> boundary_edges(const MeshTopology& topology);
 
+/// Whether every edge is gone along as often in one direction as in the other by the triangles that
+/// have it. Of a surface that is closed besides, that makes the enclosed volume well defined.
+bool is_oriented_consistently(const MeshTopology& topology);
+
 }  // namespace tracked_mcf

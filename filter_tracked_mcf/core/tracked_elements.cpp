@@ -12,6 +12,7 @@
 #include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/fan.h"
 #include "filter_tracked_mcf/core/fragments.h"
+#include "filter_tracked_mcf/core/held_samples.h"
 #include "filter_tracked_mcf/core/mesh_topology.h"
 #include "filter_tracked_mcf/core/parallel.h"
 #include "filter_tracked_mcf/core/sheet_links.h"
@@ -40,14 +41,12 @@ Eigen::Vector3f unit_normal(const std::array<Eigen::Vector3d, 3>& corners) {
 /// Fills in what TrackedElements holds about the fragments, element by element.
 class ElementBuilder {
 public:
-    ElementBuilder(TrackedElements& elements, const GridMesh& mesh, const MeshTopology& topology,
-                   const std::vector<FragmentEntry>& entries,
-                   const std::vector<std::uint8_t>& boundary, const std::vector<CubatureNode>& rule)
+    ElementBuilder(TrackedElements& elements, const Domain& domain, const GridMesh& mesh,
+                   const std::vector<FragmentEntry>& entries, const std::vector<CubatureNode>& rule)
         : elements_(elements),
+          domain_(domain),
           mesh_(mesh),
-          topology_(topology),
           entries_(entries),
-          boundary_(boundary),
           rule_(rule),
           claims_(mesh.positions.size()) {
         for (auto& vertex : claims_) vertex.store(kUnclaimed, std::memory_order_relaxed);
@@ -81,7 +80,7 @@ private:
         elements_.sample_begin.push_back(samples);
         elements_.fragments.resize(entries_.size());
         elements_.samples.resize(static_cast<std::size_t>(samples));
-        elements_.on_boundary.assign(elements_.finest().cells.size(), 0);
+        elements_.held.assign(elements_.finest().cells.size(), 0);
     }
 
     void fill_element(std::int32_t element) {
@@ -90,7 +89,7 @@ private:
         for (std::int64_t i = elements_.fragment_begin[element];
              i < elements_.fragment_begin[element + 1]; ++i) {
             const std::int32_t triangle = entries_[i].triangle;
-            note_vertices_and_boundary(entries_[i], element);
+            note_vertices_and_holds(entries_[i], element);
             if (entries_[i].split_triangles == 0) continue;
             const auto corners = mesh_.corners(triangle);
             const Polygon polygon = clip_to_cell(corners, cell);
@@ -105,19 +104,19 @@ private:
         }
     }
 
-    void note_vertices_and_boundary(const FragmentEntry& entry, std::int32_t element) {
+    void note_vertices_and_holds(const FragmentEntry& entry, std::int32_t element) {
         for (int i = 0; i < 3; ++i) {
             if (((entry.corners >> i) & 1) == 0) continue;
-            claim(claims_[topology_.triangles[entry.triangle][i]], element);
+            claim(claims_[domain_.topology().triangles[entry.triangle][i]], element);
         }
-        if ((entry.edges & boundary_[entry.triangle]) != 0) elements_.on_boundary[element] = 1;
+        if ((entry.edges & domain_.held_edges()[entry.triangle]) != 0) elements_.held[element] = 1;
     }
 
     void place_vertices() {
         elements_.vertices.resize(mesh_.positions.size());
         for (std::size_t vertex = 0; vertex < mesh_.positions.size(); ++vertex) {
             // Coincident vertices take their first one's place, so that soups stay together.
-            const std::int32_t first = topology_.welded[vertex];
+            const std::int32_t first = domain_.topology().welded[vertex];
             const std::int32_t element = claims_[first].load(std::memory_order_relaxed);
             if (element == kUnclaimed) continue;
             const Cell cell = cell_at(elements_.finest().cells[element]);
@@ -128,10 +127,9 @@ private:
     }
 
     TrackedElements& elements_;
+    const Domain& domain_;
     const GridMesh& mesh_;
-    const MeshTopology& topology_;
     const std::vector<FragmentEntry>& entries_;
-    const std::vector<std::uint8_t>& boundary_;
     const std::vector<CubatureNode>& rule_;
     Claims claims_;
 };
@@ -151,36 +149,38 @@ void build_octree(TrackedElements& elements, const GridMesh& mesh, const MeshTop
     elements.fragment_begin = std::move(finest.fragment_begin);
 }
 
-std::int64_t count_bits(const std::vector<std::uint8_t>& masks) {
-    std::int64_t count = 0;
-    for (const std::uint8_t mask : masks)
-        count += (mask & 1) + ((mask >> 1) & 1) + ((mask >> 2) & 1);
-    return count;
-}
-
 }  // namespace
 
-TrackedElements build_tracked_elements(const TriangleMesh& mesh, const Grid& grid,
-                                       Cubature cubature, bool separate_sheets) {
-    const GridMesh grid_mesh = to_grid(mesh, grid);
+TrackedElements build_tracked_elements(const Domain& domain, const Grid& grid, Cubature cubature,
+                                       bool separate_sheets) {
+    const TriangleMesh& surface = domain.surface();
+    const GridMesh grid_mesh = to_grid(surface, grid);
     TrackedElements elements;
     elements.grid = grid;
     elements.degenerate_triangle_count = count_degenerate(grid_mesh);
-    if (elements.degenerate_triangle_count == static_cast<std::int64_t>(mesh.triangles.size())) {
+    if (elements.degenerate_triangle_count == static_cast<std::int64_t>(surface.triangles.size())) {
         throw InvalidMesh(
             "All faces are degenerate: none has an area, so there is no surface to smooth.");
     }
-    const MeshTopology topology = topology_of(mesh);
-    const std::vector<std::uint8_t> boundary = boundary_edges(topology);
-    const std::vector<bool> referenced = referenced_vertices(mesh);
+    const std::vector<bool> referenced = referenced_vertices(surface);
     elements.referenced_vertex_count = std::count(referenced.begin(), referenced.end(), true);
-    elements.boundary_edge_count = count_bits(boundary);
+    elements.vertex_held = domain.held_vertices();
+    for (std::size_t vertex = 0; vertex < referenced.size(); ++vertex) {
+        elements.held_vertex_count +=
+            referenced[vertex] && elements.vertex_held[vertex] != 0 ? 1 : 0;
+    }
 
     std::vector<FragmentEntry> entries = list_fragments(grid_mesh, grid);
-    build_octree(elements, grid_mesh, topology, entries, separate_sheets);
-    ElementBuilder(elements, grid_mesh, topology, entries, boundary, cubature_rule(cubature))
-        .build();
+    build_octree(elements, grid_mesh, domain.topology(), entries, separate_sheets);
+    ElementBuilder(elements, domain, grid_mesh, entries, cubature_rule(cubature)).build();
+    elements.held_samples = sample_held_edges(elements, grid_mesh, entries, domain.held_edges());
     return elements;
+}
+
+TrackedElements build_tracked_elements(const TriangleMesh& mesh, const Grid& grid,
+                                       Cubature cubature, bool separate_sheets) {
+    return build_tracked_elements(Domain(mesh, BoundaryCondition::Locked), grid, cubature,
+                                  separate_sheets);
 }
 
 Coefficients identity_coefficients(const TrackedElements& elements) {

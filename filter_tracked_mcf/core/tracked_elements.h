@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "filter_tracked_mcf/core/domain.h"
 #include "filter_tracked_mcf/core/flow_parameters.h"
 #include "filter_tracked_mcf/core/grid.h"
 #include "filter_tracked_mcf/core/octree.h"
@@ -21,6 +22,14 @@ struct Sample {
 struct Fragment {
     float normal[3];            ///< unit normal of the initial triangle; 0 if degenerate
     std::int32_t sample_count;  ///< consecutive in TrackedElements::samples
+};
+
+/// A point at which the surface is held, on the piece of a held edge in one element.
+struct HeldSample {
+    std::int32_t element;
+    Eigen::Vector3f local;     ///< local coordinates in its cell
+    Eigen::Vector3f conormal;  ///< unit vector in the triangle's plane, square to the edge, outward
+    float weight;              ///< length it stands for on the initial surface, grid units
 };
 
 /// Where a vertex lies: a finest element and local coordinates in its cell. Vertices that no
@@ -47,20 +56,26 @@ struct TrackedElements {
     std::vector<std::int64_t> sample_begin;    ///< of every finest element, and the end
 
     std::vector<VertexPlace> vertices;      ///< of every vertex; coincident vertices share theirs
-    std::vector<std::uint8_t> on_boundary;  ///< of every finest element: a boundary edge meets it
+    std::vector<std::uint8_t> vertex_held;  ///< of every vertex: it keeps its bits
+    std::vector<std::uint8_t> held;         ///< of every finest element: a held edge meets it
+    std::vector<HeldSample> held_samples;   ///< sorted by finest element
 
     std::int64_t split_triangle_count = 0;
     std::int64_t fragment_count = 0;  ///< of triangles that are not degenerate
     std::int64_t referenced_vertex_count = 0;
+    std::int64_t held_vertex_count = 0;          ///< of those
     std::int64_t degenerate_triangle_count = 0;  ///< see is_degenerate
-    std::int64_t boundary_edge_count = 0;
 
     const Level& finest() const { return levels.back(); }
 };
 
-/// Clips the mesh to the grid, builds the octree over it and places samples and vertices; see
-/// FlowParameters for the rest. Throws InvalidMesh if all triangles are degenerate or a vertex lies
-/// outside the grid's cube.
+/// Clips the domain's surface to the grid, builds the octree over it and places samples and
+/// vertices; see FlowParameters for the rest. Throws InvalidMesh if all triangles are degenerate or
+/// a vertex lies outside the grid's cube.
+TrackedElements build_tracked_elements(const Domain& domain, const Grid& grid, Cubature cubature,
+                                       bool separate_sheets = true);
+
+/// The same for all of a mesh with its boundary held.
 TrackedElements build_tracked_elements(const TriangleMesh& mesh, const Grid& grid,
                                        Cubature cubature, bool separate_sheets = true);
 

@@ -81,15 +81,39 @@ std::vector<std::int32_t> weld_coincident_vertices(const TriangleMesh& mesh) {
     return welded;
 }
 
+Eigen::Vector3d twice_vector_area(const TriangleMesh& mesh, const Triangle& triangle) {
+    const Eigen::Vector3d& origin = mesh.positions[triangle[0]];
+    return (mesh.positions[triangle[1]] - origin).cross(mesh.positions[triangle[2]] - origin);
+}
+
 double surface_area(const TriangleMesh& mesh) {
     double twice = 0;
-    for (const Triangle& triangle : mesh.triangles) {
-        const Eigen::Vector3d& origin = mesh.positions[triangle[0]];
-        twice += (mesh.positions[triangle[1]] - origin)
-                     .cross(mesh.positions[triangle[2]] - origin)
-                     .norm();
-    }
+    for (const Triangle& triangle : mesh.triangles)
+        twice += twice_vector_area(mesh, triangle).norm();
     return 0.5 * twice;
+}
+
+// Both sum relative to a vertex, so that far from the origin no digits are lost.
+
+Eigen::Vector3d surface_centroid(const TriangleMesh& mesh) {
+    const Eigen::Vector3d& near = mesh.positions[mesh.triangles.front()[0]];
+    Eigen::Vector3d moment = Eigen::Vector3d::Zero();
+    double weight = 0;
+    for (const Triangle& triangle : mesh.triangles) {
+        const double area = twice_vector_area(mesh, triangle).norm();
+        for (const std::int32_t vertex : triangle) moment += area * (mesh.positions[vertex] - near);
+        weight += 3 * area;
+    }
+    return near + moment / weight;
+}
+
+double enclosed_volume(const TriangleMesh& mesh) {
+    const Eigen::Vector3d& near = mesh.positions[mesh.triangles.front()[0]];
+    double six_times = 0;
+    for (const Triangle& triangle : mesh.triangles) {
+        six_times += (mesh.positions[triangle[0]] - near).dot(twice_vector_area(mesh, triangle));
+    }
+    return six_times / 6;
 }
 
 }  // namespace tracked_mcf

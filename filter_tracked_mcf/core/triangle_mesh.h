@@ -29,7 +29,17 @@ std::vector<bool> referenced_vertices(const TriangleMesh& mesh);
 /// unreferenced vertex is its own. A triangle soup welded this way is the mesh it came from.
 std::vector<std::int32_t> weld_coincident_vertices(const TriangleMesh& mesh);
 
+/// A triangle's normal, twice as long as its area in squared units of the mesh.
+Eigen::Vector3d twice_vector_area(const TriangleMesh& mesh, const Triangle& triangle);
+
 /// Surface area, in squared units of the mesh.
 double surface_area(const TriangleMesh& mesh);
+
+/// Centre of mass of the surface, which must have an area.
+Eigen::Vector3d surface_centroid(const TriangleMesh& mesh);
+
+/// The volume inside a closed mesh whose triangles are oriented consistently, in cubed units of the
+/// mesh: negative if they are seen from outside in clockwise order.
+double enclosed_volume(const TriangleMesh& mesh);
 
 }  // namespace tracked_mcf

@@ -15,6 +15,7 @@ namespace fs = std::filesystem;
 namespace {
 
 const std::map<std::string, BoundaryCondition> kBoundaries = {
+    {"locked", BoundaryCondition::Locked},
     {"locked-cells", BoundaryCondition::LockedCells}, {"free", BoundaryCondition::Free}};
 
 const std::map<std::string, Cubature> kCubatures = {

@@ -16,11 +16,6 @@
 namespace tracked_mcf {
 namespace {
 
-Eigen::Vector3d twice_vector_area(const TriangleMesh& mesh, const Triangle& t) {
-    return (mesh.positions[t[1]] - mesh.positions[t[0]])
-        .cross(mesh.positions[t[2]] - mesh.positions[t[0]]);
-}
-
 /// Mean angle between the normals of neighbouring triangles of `mesh`, weighted by their area; of
 /// triangles that still have a tenth of the area they had in `initial`, for what has collapsed to
 /// threads is not smooth. Small where a surface is.

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "filter_tracked_mcf/core/boundary.h"
+#include "filter_tracked_mcf/core/locked_cells.h"
 #include "filter_tracked_mcf/core/conjugate_gradients.h"
 #include "filter_tracked_mcf/core/stabilization.h"
 #include "tests/experiments/configuration.h"

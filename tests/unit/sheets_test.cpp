@@ -11,7 +11,7 @@
 #include <set>
 #include <string>
 
-#include "filter_tracked_mcf/core/boundary.h"
+#include "filter_tracked_mcf/core/locked_cells.h"
 #include "filter_tracked_mcf/core/bspline.h"
 #include "filter_tracked_mcf/core/clip.h"
 #include "filter_tracked_mcf/core/disjoint_sets.h"

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "filter_tracked_mcf/core/boundary.h"
+#include "filter_tracked_mcf/core/locked_cells.h"
 #include "filter_tracked_mcf/core/element_matrices.h"
 #include "filter_tracked_mcf/core/multigrid.h"
 #include "filter_tracked_mcf/core/stabilization.h"
@@ -23,7 +23,7 @@ struct System {
     System(const TriangleMesh& mesh, int depth, float step, const SystemOptions& options = {})
         : elements(
               build_tracked_elements(mesh, enclosing_grid(mesh, depth), Cubature::ThreePoints)),
-          frozen(options.lock ? unknowns_meeting_boundary(elements) : no_unknowns(elements)),
+          frozen(options.lock ? unknowns_meeting_held_edges(elements) : no_unknowns(elements)),
           multigrid(elements, frozen, options.cycle) {
         assemble_elements(elements, Coefficients::Zero(elements.finest().unknown_count(), 3),
                           {1, step}, systems);

@@ -120,7 +120,7 @@ TEST(TrackedElements, BoundaryIsMarkedWhereItsEdgesPass) {
     for (std::int32_t element = 0; element < 64; ++element) {
         const Cell cell = cell_at(elements.finest().cells[element]);
         const bool rim = cell[0] == 0 || cell[0] == 7 || cell[1] == 0 || cell[1] == 7;
-        EXPECT_EQ(elements.on_boundary[element], rim ? 1 : 0);
+        EXPECT_EQ(elements.held[element], rim ? 1 : 0);
     }
 }
 

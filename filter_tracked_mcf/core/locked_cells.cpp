@@ -1,4 +1,4 @@
-#include "filter_tracked_mcf/core/boundary.h"
+#include "filter_tracked_mcf/core/locked_cells.h"
 
 namespace tracked_mcf {
 
@@ -27,9 +27,10 @@ std::vector<std::uint8_t> mark_unknowns(const Level& level,
 
 }  // namespace
 
-std::vector<std::vector<std::uint8_t>> unknowns_meeting_boundary(const TrackedElements& elements) {
+std::vector<std::vector<std::uint8_t>> unknowns_meeting_held_edges(
+    const TrackedElements& elements) {
     std::vector<std::vector<std::uint8_t>> locked(elements.levels.size());
-    std::vector<std::uint8_t> marked = elements.on_boundary;
+    std::vector<std::uint8_t> marked = elements.held;
     for (std::size_t l = elements.levels.size(); l-- > 0;) {
         locked[l] = mark_unknowns(elements.levels[l], marked);
         if (l > 0) marked = mark_parents(elements.levels[l], elements.levels[l - 1], marked);

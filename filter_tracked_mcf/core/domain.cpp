@@ -1,0 +1,120 @@
+#include "filter_tracked_mcf/core/domain.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "filter_tracked_mcf/core/errors.h"
+
+namespace tracked_mcf {
+
+namespace {
+
+void check(const TriangleMesh& mesh, const Selection& selection) {
+    if (selection.empty()) return;
+    if (selection.size() != mesh.triangles.size()) {
+        throw InvalidParameter("The selection is of " + std::to_string(selection.size()) +
+                               " triangles, but the mesh has " +
+                               std::to_string(mesh.triangles.size()) + ".");
+    }
+    if (std::all_of(selection.begin(), selection.end(), [](auto flag) { return flag == 0; })) {
+        throw InvalidMesh(
+            "No face is selected; select the faces to smooth, or smooth the whole mesh.");
+    }
+}
+
+/// The items whose flag is set, in their order.
+template <class Item>
+std::vector<Item> selected_of(const std::vector<Item>& items, const Selection& selection) {
+    std::vector<Item> selected;
+    for (std::size_t i = 0; i < items.size(); ++i) {
+        if (selection[i] != 0) selected.push_back(items[i]);
+    }
+    return selected;
+}
+
+bool bit(std::uint8_t mask, int i) {
+    return ((mask >> i) & 1) != 0;
+}
+
+}  // namespace
+
+double surface_area(const TriangleMesh& mesh, const Selection& selection) {
+    if (selection.empty()) return surface_area(mesh);
+    double twice = 0;
+    for (std::size_t i = 0; i < selection.size(); ++i) {
+        if (selection[i] != 0) twice += twice_vector_area(mesh, mesh.triangles[i]).norm();
+    }
+    return 0.5 * twice;
+}
+
+Domain::Domain(const TriangleMesh& mesh, const Selection& selection, BoundaryCondition boundary)
+    : mesh_(mesh) {
+    check(mesh, selection);
+    topology_ = topology_of(mesh);
+    std::vector<std::uint8_t> boundary_sides = boundary_edges(topology_);
+    if (!selection.empty()) boundary_sides = selected_of(boundary_sides, selection);
+    for (const std::uint8_t mask : boundary_sides) {
+        for (int side = 0; side < 3; ++side) boundary_edge_count_ += bit(mask, side) ? 1 : 0;
+    }
+    held_edges_ = std::move(boundary_sides);
+    if (boundary == BoundaryCondition::Free) held_edges_.assign(held_edges_.size(), 0);
+
+    const MeshTopology whole = selection.empty() ? MeshTopology() : topology_;
+    if (!selection.empty()) {
+        take(selection);
+        hold_seam(whole, selection);
+    }
+    hold_vertices(whole, selection);
+}
+
+void Domain::take(const Selection& selection) {
+    part_ = TriangleMesh{mesh_.positions, selected_of(mesh_.triangles, selection)};
+    topology_.triangles = selected_of(topology_.triangles, selection);
+    topology_.edges = selected_of(topology_.edges, selection);
+}
+
+void Domain::hold_seam(const MeshTopology& whole, const Selection& selection) {
+    std::vector<std::uint8_t> on_seam(static_cast<std::size_t>(whole.edge_count), 0);
+    for (std::size_t triangle = 0; triangle < selection.size(); ++triangle) {
+        if (selection[triangle] != 0) continue;
+        for (const std::int32_t edge : whole.edges[triangle]) {
+            if (edge != MeshTopology::kNoEdge) on_seam[edge] = 1;
+        }
+    }
+    for (std::size_t triangle = 0; triangle < held_edges_.size(); ++triangle) {
+        for (int side = 0; side < 3; ++side) {
+            const std::int32_t edge = topology_.edges[triangle][side];
+            if (edge == MeshTopology::kNoEdge || on_seam[edge] == 0) continue;
+            held_edges_[triangle] |= static_cast<std::uint8_t>(1 << side);
+        }
+    }
+}
+
+void Domain::hold_vertices(const MeshTopology& whole, const Selection& selection) {
+    const std::vector<std::int32_t>& welded = topology_.welded;
+    std::vector<std::uint8_t> held(welded.size(), 0);
+    for (std::size_t triangle = 0; triangle < held_edges_.size(); ++triangle) {
+        for (int side = 0; side < 3; ++side) {
+            if (!bit(held_edges_[triangle], side)) continue;
+            held[topology_.triangles[triangle][side]] = 1;
+            held[topology_.triangles[triangle][(side + 1) % 3]] = 1;
+        }
+    }
+    for (std::size_t triangle = 0; triangle < selection.size(); ++triangle) {
+        if (selection[triangle] != 0) continue;
+        for (const std::int32_t vertex : whole.triangles[triangle]) held[vertex] = 1;
+    }
+    held_vertices_.resize(held.size());
+    for (std::size_t vertex = 0; vertex < held.size(); ++vertex) {
+        held_vertices_[vertex] = held[welded[vertex]];
+    }
+}
+
+bool Domain::holds_anything() const {
+    return std::any_of(held_vertices_.begin(), held_vertices_.end(),
+                       [](auto flag) { return flag != 0; });
+}
+
+}  // namespace tracked_mcf

@@ -1,0 +1,84 @@
+#include "filter_tracked_mcf/core/held_curve.h"
+
+#include "filter_tracked_mcf/core/bspline.h"
+#include "filter_tracked_mcf/core/parallel.h"
+
+namespace tracked_mcf {
+
+namespace {
+
+/// η, in grid units. On scans 3 gives way visibly and 100 locks the cells of the rim.
+constexpr double kSpring = 10;
+
+/// Adds weight * B_I B_J at a point to the matrix, and force * B_I to the right side.
+void add_at(const CornerValues& values, double weight, const Eigen::Vector3d& force,
+            ElementMatrix& matrix, ElementVector& right_side) {
+    for (int row = 0; row < 8; ++row) {
+        for (int column = 0; column < 8; ++column) {
+            matrix.entry[row][column] += static_cast<float>(weight * values[row] * values[column]);
+        }
+        for (int axis = 0; axis < 3; ++axis) {
+            right_side.entry[axis][row] += static_cast<float>(force[axis] * values[row]);
+        }
+    }
+}
+
+}  // namespace
+
+HeldCurve::HeldCurve(const TrackedElements& elements) : elements_(elements) {
+    const std::vector<HeldSample>& samples = elements.held_samples;
+    for (std::size_t begin = 0, end = 0; begin < samples.size(); begin = end) {
+        while (end < samples.size() && samples[end].element == samples[begin].element) ++end;
+        Support support{samples[begin].element, begin, end, Eigen::Vector3d::Zero()};
+        support.pull = mean(support, [](const HeldSample& sample) -> Eigen::Vector3d {
+            return sample.conormal.cast<double>();
+        });
+        supports_.push_back(support);
+    }
+}
+
+void HeldCurve::add(const Coefficients& displacement, double step_size,
+                    ElementSystems& systems) const {
+    parallel_for_blocks(
+        static_cast<std::int64_t>(supports_.size()), [&](std::int64_t begin, std::int64_t end) {
+            for (std::int64_t i = begin; i < end; ++i) {
+                const Support& support = supports_[i];
+                for (std::size_t k = support.begin; k < support.end; ++k) {
+                    const HeldSample& sample = elements_.held_samples[k];
+                    const Eigen::Vector3d pull =
+                        support.pull - kSpring * displacement_at(sample, displacement);
+                    add_at(bspline_values(sample.local.cast<double>()),
+                           sample.weight * step_size * kSpring, sample.weight * step_size * pull,
+                           systems.matrices[support.element], systems.right_sides[support.element]);
+                }
+            }
+        });
+}
+
+void HeldCurve::take_up(const Coefficients& displacement) {
+    for (Support& support : supports_) {
+        support.pull -= kSpring * mean(support, [&](const HeldSample& sample) {
+                            return displacement_at(sample, displacement);
+                        });
+    }
+}
+
+Eigen::Vector3d HeldCurve::displacement_at(const HeldSample& sample,
+                                           const Coefficients& displacement) const {
+    return evaluate_vertex(elements_, displacement, {sample.element, sample.local.cast<double>()});
+}
+
+/// Over the support's length.
+template <class Quantity>
+Eigen::Vector3d HeldCurve::mean(const Support& support, const Quantity& quantity) const {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    double length = 0;
+    for (std::size_t k = support.begin; k < support.end; ++k) {
+        const HeldSample& sample = elements_.held_samples[k];
+        sum += sample.weight * quantity(sample);
+        length += sample.weight;
+    }
+    return sum / length;
+}
+
+}  // namespace tracked_mcf
