@@ -29,11 +29,7 @@ HeldCurve::HeldCurve(const TrackedElements& elements) : elements_(elements) {
     const std::vector<HeldSample>& samples = elements.held_samples;
     for (std::size_t begin = 0, end = 0; begin < samples.size(); begin = end) {
         while (end < samples.size() && samples[end].element == samples[begin].element) ++end;
-        Support support{samples[begin].element, begin, end, Eigen::Vector3d::Zero()};
-        support.pull = mean(support, [](const HeldSample& sample) -> Eigen::Vector3d {
-            return sample.conormal.cast<double>();
-        });
-        supports_.push_back(support);
+        supports_.push_back({samples[begin].element, begin, end, Eigen::Vector3d::Zero()});
     }
 }
 
@@ -45,8 +41,8 @@ void HeldCurve::add(const Coefficients& displacement, double step_size,
                 const Support& support = supports_[i];
                 for (std::size_t k = support.begin; k < support.end; ++k) {
                     const HeldSample& sample = elements_.held_samples[k];
-                    const Eigen::Vector3d pull =
-                        support.pull - kSpring * displacement_at(sample, displacement);
+                    const Eigen::Vector3d pull = sample.conormal.cast<double>() + support.taken_up -
+                                                 kSpring * displacement_at(sample, displacement);
                     add_at(bspline_values(sample.local.cast<double>()),
                            sample.weight * step_size * kSpring, sample.weight * step_size * pull,
                            systems.matrices[support.element], systems.right_sides[support.element]);
@@ -57,28 +53,20 @@ void HeldCurve::add(const Coefficients& displacement, double step_size,
 
 void HeldCurve::take_up(const Coefficients& displacement) {
     for (Support& support : supports_) {
-        support.pull -= kSpring * mean(support, [&](const HeldSample& sample) {
-                            return displacement_at(sample, displacement);
-                        });
+        Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+        double length = 0;
+        for (std::size_t k = support.begin; k < support.end; ++k) {
+            const HeldSample& sample = elements_.held_samples[k];
+            sum += sample.weight * displacement_at(sample, displacement);
+            length += sample.weight;
+        }
+        support.taken_up -= kSpring * sum / length;
     }
 }
 
 Eigen::Vector3d HeldCurve::displacement_at(const HeldSample& sample,
                                            const Coefficients& displacement) const {
     return evaluate_vertex(elements_, displacement, {sample.element, sample.local.cast<double>()});
-}
-
-/// Over the support's length.
-template <class Quantity>
-Eigen::Vector3d HeldCurve::mean(const Support& support, const Quantity& quantity) const {
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    double length = 0;
-    for (std::size_t k = support.begin; k < support.end; ++k) {
-        const HeldSample& sample = elements_.held_samples[k];
-        sum += sample.weight * quantity(sample);
-        length += sample.weight;
-    }
-    return sum / length;
 }
 
 }  // namespace tracked_mcf

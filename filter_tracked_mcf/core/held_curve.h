@@ -13,17 +13,16 @@ namespace tracked_mcf {
 /// Holds the surface along the held edges, and lets everything beside them move.
 ///
 /// To the displacement's system is added, along the held edges' pieces in the cells and in grid
-/// units, the pull δ' (λ - η u) of a support on the surface, u being how far the embedding is from
-/// where it was at the start. The spring η alone would give way by 1 / η of a cell, since a surface
-/// pulls at its rim with the strength 1 of its conormal. So each element has a λ of its own, which
-/// starts as that conormal and takes up what the spring has held after each step (the method of
-/// multipliers; one constant λ an element, for more would lock the cells of a curved rim, as a
-/// large η does). The slip that is left is of second order in the cell size, and η need not be
-/// large. Test functions of LockedCells, by contrast, hold a band of cells.
+/// units, the pull δ' (n + λ - η u) of supports: n is the conormal, against which the initial
+/// surface pulls, and u how far the embedding is from where it was at the start. As the surface
+/// moves, its pull turns, and the spring η alone would give way by up to 1 / η of a cell; so each
+/// element has a λ, zero at the start, which takes up what the spring has held on average after
+/// each step (the method of multipliers). It is constant in an element, and η moderate, because
+/// holding every point of a curved rim exactly would lock its cells. The slip that is left is of
+/// second order in the cell size.
 class HeldCurve {
 public:
-    /// `elements` must outlive this. The supports' pull starts as what keeps the initial surface
-    /// in place.
+    /// `elements` must outlive this.
     explicit HeldCurve(const TrackedElements& elements);
 
     /// Adds the supports to the finest level's system for a step of δ' (grid units) from the
@@ -37,14 +36,12 @@ private:
     /// The held edges' pieces in one element.
     struct Support {
         std::int32_t element;
-        std::size_t begin, end;  ///< in TrackedElements::held_samples
-        Eigen::Vector3d pull;    ///< λ
+        std::size_t begin, end;    ///< in TrackedElements::held_samples
+        Eigen::Vector3d taken_up;  ///< λ
     };
 
     Eigen::Vector3d displacement_at(const HeldSample& sample,
                                     const Coefficients& displacement) const;
-    template <class Quantity>
-    Eigen::Vector3d mean(const Support& support, const Quantity& quantity) const;
 
     const TrackedElements& elements_;
     std::vector<Support> supports_;

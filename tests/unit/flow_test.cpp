@@ -261,7 +261,7 @@ TEST(Flow, LongFlowStaysFiniteAndItsAreaNeverIncreases) {
     for (const TriangleMesh& mesh : {shapes::torus(60, 20, 1, 0.15), shapes::bumpy_sphere(12)}) {
         TriangleMesh flowing = mesh;
         const FlowReport report = evolve(flowing, parameters(5, 2e-3, 100));
-        ASSERT_EQ(report.steps.size(), 100U);
+        EXPECT_TRUE(report.steps.size() == 100 || report.stop == Stop::Vanished);
         for (std::size_t i = 1; i < report.steps.size(); ++i) {
             EXPECT_LE(report.steps[i].area, report.steps[i - 1].area + 1e-6 * report.area_before)
                 << i;
