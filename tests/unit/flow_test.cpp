@@ -2,10 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include <cstring>
 #include <limits>
 #include <memory>
-#include <random>
 #include <type_traits>
 
 #include "filter_tracked_mcf/core/errors.h"
@@ -13,61 +11,13 @@
 #include "filter_tracked_mcf/core/flow.h"
 #include "filter_tracked_mcf/core/mesh_topology.h"
 #include "tests/support/shapes.h"
+#include "tests/unit/flows.h"
 
 namespace tracked_mcf {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-FlowParameters parameters(int depth, double step_size, int iterations) {
-    FlowParameters p;
-    p.depth = depth;
-    p.step_size = step_size;
-    p.iterations = iterations;
-    return p;
-}
-
-TriangleMesh evolved(TriangleMesh mesh, const FlowParameters& p) {
-    evolve(mesh, p);
-    return mesh;
-}
-
-/// Largest distance between vertices of the same index.
-double distance(const TriangleMesh& a, const TriangleMesh& b) {
-    double largest = 0;
-    for (std::size_t i = 0; i < a.positions.size(); ++i) {
-        largest = std::max(largest, (a.positions[i] - b.positions[i]).norm());
-    }
-    return largest;
-}
-
-std::vector<unsigned char> bits(const TriangleMesh& mesh) {
-    std::vector<unsigned char> bytes(mesh.positions.size() * sizeof(Eigen::Vector3d));
-    if (!bytes.empty()) std::memcpy(bytes.data(), mesh.positions[0].data(), bytes.size());
-    return bytes;
-}
-
-/// Stricter than ==: tells -0 from 0, and NaN is itself.
-bool same_bits(const TriangleMesh& a, const TriangleMesh& b) {
-    return bits(a) == bits(b);
-}
-
-TriangleMesh turned(const TriangleMesh& mesh, double angle, const Eigen::Vector3d& axis) {
-    return shapes::transformed(mesh, Eigen::Affine3d(Eigen::AngleAxisd(angle, axis.normalized())));
-}
-
-const double kQuarterTurn = 0.5 * std::acos(-1.0);
-
-/// Adds numbers between -size and size to all coordinates.
-TriangleMesh noisy(TriangleMesh mesh, double size) {
-    std::mt19937 random(5);
-    std::uniform_real_distribution<double> noise(-size, size);
-    for (auto& position : mesh.positions) {
-        position += Eigen::Vector3d(noise(random), noise(random), noise(random));
-    }
-    return mesh;
-}
 
 // It holds references into itself.
 static_assert(!std::is_copy_constructible_v<Flow> && !std::is_move_constructible_v<Flow>);
@@ -190,61 +140,6 @@ TEST(Flow, ThrowsWhenItsNumbersAreNotFinite) {
         Flow flow(shapes::bumpy_sphere(10), p);
         EXPECT_THROW(flow.step(), NumericalFailure);
         EXPECT_TRUE(flow.displacement().isZero(0));
-    }
-}
-
-TEST(Flow, CommutesWithTranslation) {
-    const TriangleMesh mesh = shapes::bumpy_sphere(20);
-    const Eigen::Affine3d shift(Eigen::Translation3d(3.7, -11.3, 5.1));
-    const FlowParameters p = parameters(5, 1e-4, 5);
-    EXPECT_LT(distance(evolved(shapes::transformed(mesh, shift), p),
-                       shapes::transformed(evolved(mesh, p), shift)),
-              1e-6);
-}
-
-TEST(Flow, CommutesWithScaling) {
-    const TriangleMesh mesh = shapes::bumpy_sphere(20);
-    const FlowParameters p = parameters(5, 1e-4, 5);
-    for (const double scale : {1e-9, 0.3, 7.0, 1e12}) {
-        const Eigen::Affine3d scaling(Eigen::Scaling(scale));
-        EXPECT_LT(distance(evolved(shapes::transformed(mesh, scaling), p),
-                           shapes::transformed(evolved(mesh, p), scaling)),
-                  1e-6 * scale);
-    }
-}
-
-// The equations of a mesh turned by 90 degrees are the same to rounding, but smoothers go through
-// them in another order, so what is left is the solver's error: it falls as the solver converges.
-double effect_of_a_quarter_turn(int axis, const FlowParameters& p) {
-    const TriangleMesh mesh = shapes::bumpy_sphere(20);
-    const Eigen::Vector3d around = Eigen::Vector3d::Unit(axis);
-    return distance(evolved(turned(mesh, kQuarterTurn, around), p),
-                    turned(evolved(mesh, p), kQuarterTurn, around));
-}
-
-TEST(Flow, CommutesWithQuarterTurnsAsCyclesConverge) {
-    for (int axis = 0; axis < 3; ++axis) {
-        const auto difference = [&](int cycles) {
-            FlowParameters p = parameters(4, 1e-3, 1);
-            p.solver = Solver::OneWCycle;
-            p.cycles = cycles;
-            return effect_of_a_quarter_turn(axis, p);
-        };
-        const double of_one_cycle = difference(1);
-        EXPECT_LT(difference(10), 0.2 * of_one_cycle);
-        EXPECT_LT(difference(100), 1e-6);  // rounding of single precision
-    }
-}
-
-TEST(Flow, CommutesWithQuarterTurnsToTheTolerance) {
-    for (int axis = 0; axis < 3; ++axis) {
-        const auto difference = [&](double tolerance) {
-            FlowParameters p = parameters(4, 1e-3, 1);
-            p.tolerance = tolerance;
-            return effect_of_a_quarter_turn(axis, p);
-        };
-        EXPECT_LT(difference(1e-4), 1e-4);
-        EXPECT_LT(difference(1e-8), 1e-6);  // rounding of single precision
     }
 }
 

@@ -11,11 +11,11 @@
 #include <set>
 #include <string>
 
-#include "filter_tracked_mcf/core/locked_cells.h"
 #include "filter_tracked_mcf/core/bspline.h"
 #include "filter_tracked_mcf/core/clip.h"
 #include "filter_tracked_mcf/core/disjoint_sets.h"
 #include "filter_tracked_mcf/core/flow.h"
+#include "filter_tracked_mcf/core/locked_cells.h"
 #include "filter_tracked_mcf/core/parallel.h"
 #include "tests/support/shapes.h"
 

@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "filter_tracked_mcf/core/locked_cells.h"
 #include "filter_tracked_mcf/core/element_matrices.h"
+#include "filter_tracked_mcf/core/locked_cells.h"
 #include "filter_tracked_mcf/core/multigrid.h"
 #include "filter_tracked_mcf/core/stabilization.h"
 #include "filter_tracked_mcf/core/tracked_elements.h"

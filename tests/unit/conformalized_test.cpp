@@ -1,0 +1,112 @@
+// Conformalized flow: mass of the present metric, stiffness of the initial one.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "filter_tracked_mcf/core/flow.h"
+#include "tests/support/shapes.h"
+#include "tests/unit/flows.h"
+
+namespace tracked_mcf {
+namespace {
+
+FlowParameters conformalized(int depth, double step_size, int iterations) {
+    FlowParameters p = parameters(depth, step_size, iterations);
+    p.flow = FlowKind::Conformalized;
+    return p;
+}
+
+/// Standard deviation of the vertices' distances from the centroid, over their mean.
+double roundness(const TriangleMesh& mesh) {
+    const Eigen::Vector3d centre = surface_centroid(mesh);
+    double sum = 0, squares = 0;
+    for (const Eigen::Vector3d& p : mesh.positions) {
+        sum += (p - centre).norm();
+        squares += (p - centre).squaredNorm();
+    }
+    const double mean = sum / static_cast<double>(mesh.positions.size());
+    const double variance = squares / static_cast<double>(mesh.positions.size()) - mean * mean;
+    return std::sqrt(std::max(0.0, variance)) / mean;
+}
+
+TEST(Conformalized, StiffnessIsTheInitialOneAndMassThePresentOne) {
+    const TriangleMesh mesh = shapes::bumpy_sphere(12);
+    const TrackedElements elements =
+        build_tracked_elements(mesh, enclosing_grid(mesh, 4), Cubature::ThreePoints);
+    const Coefficients rest = Coefficients::Zero(elements.finest().unknown_count(), 3);
+    const Coefficients squeezed = -0.4 * identity_coefficients(elements);
+    const auto assembled = [&](const Coefficients& at, float mass, float stiffness, FlowKind flow) {
+        ElementSystems systems;
+        assemble_elements(elements, at, {mass, stiffness, flow}, systems);
+        return systems.matrices;
+    };
+    const auto expect_equal = [](const std::vector<ElementMatrix>& a,
+                                 const std::vector<ElementMatrix>& b) {
+        ASSERT_EQ(a.size(), b.size());
+        for (std::size_t element = 0; element < a.size(); ++element) {
+            for (int row = 0; row < 8; ++row) {
+                for (int column = 0; column < 8; ++column) {
+                    EXPECT_NEAR(a[element].entry[row][column], b[element].entry[row][column], 1e-5);
+                }
+            }
+        }
+    };
+    // Metrics that differ by a factor have the same stiffness, so the map must also turn and shear.
+    Coefficients sheared = squeezed;
+    sheared.col(0) += 0.3 * squeezed.col(1);
+    expect_equal(assembled(sheared, 0, 1, FlowKind::Conformalized),
+                 assembled(rest, 0, 1, FlowKind::MeanCurvature));
+    expect_equal(assembled(sheared, 1, 0, FlowKind::Conformalized),
+                 assembled(sheared, 1, 0, FlowKind::MeanCurvature));
+}
+
+TEST(Conformalized, SphereShrinksAsItsSemiImplicitRadiusSays) {
+    // On a sphere of radius r that began with R, D is (r/R)² that of the start and S its 2/R² times
+    // that, on the coordinates. So ((r/R)² + 2δ/R²) r(t+δ) = (r/R)² r, whence r(t+δ) = r³ / (r² +
+    // 2δ): the same as of mean-curvature flow, for S does not change when a surface is scaled.
+    const TriangleMesh sphere = shapes::geodesic_sphere(40);
+    FlowParameters p = conformalized(5, 1e-2, 20);
+    p.absolute = true;
+    double radius = 1;
+    for (int step = 0; step < p.iterations; ++step) {
+        radius = radius * radius * radius / (radius * radius + 2 * p.step_size);
+    }
+    for (const Eigen::Vector3d& position : evolved(sphere, p).positions) {
+        EXPECT_NEAR(position.norm(), radius, 2e-3 * radius);
+    }
+    EXPECT_LT(radius, 0.8);
+}
+
+TEST(Conformalized, BeginsAsMeanCurvatureFlowDoes) {
+    const TriangleMesh mesh = shapes::bumpy_sphere(15);
+    EXPECT_LT(
+        distance(evolved(mesh, conformalized(5, 1e-3, 1)), evolved(mesh, parameters(5, 1e-3, 1))),
+        1e-5);
+    EXPECT_GT(
+        distance(evolved(mesh, conformalized(5, 1e-3, 9)), evolved(mesh, parameters(5, 1e-3, 9))),
+        1e-3);
+}
+
+TEST(Conformalized, DumbbellBecomesASphereWhereMeanCurvatureFlowPinches) {
+    TriangleMesh dumbbell = shapes::geodesic_sphere(40);
+    for (auto& p : dumbbell.positions) {
+        const double waist = 0.3 + 0.7 * p[0] * p[0];
+        p = Eigen::Vector3d(2 * p[0], waist * p[1], waist * p[2]);
+    }
+    FlowParameters p = conformalized(6, 5e-2, 50);
+    p.rescale = Rescaling::KeepArea;
+    TriangleMesh round = dumbbell;
+    for (const StepReport& step : evolve(round, p).steps) {
+        EXPECT_EQ(step.collapsed_samples, 0);
+        EXPECT_TRUE(step.reached_tolerance);
+    }
+    EXPECT_LT(roundness(round), 0.01);
+    EXPECT_GT(roundness(dumbbell), 0.3);
+
+    TriangleMesh pinched = dumbbell;
+    EXPECT_GT(evolve(pinched, parameters(6, 1e-3, 60)).steps.back().collapsed_samples, 0);
+}
+
+}  // namespace
+}  // namespace tracked_mcf

@@ -1,0 +1,115 @@
+#include "filter_tracked_mcf/core/domain.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "filter_tracked_mcf/core/errors.h"
+#include "tests/support/shapes.h"
+#include "tests/unit/flows.h"
+
+namespace tracked_mcf {
+namespace {
+
+constexpr auto kLocked = BoundaryCondition::Locked;
+constexpr auto kCells = BoundaryCondition::LockedCells;
+constexpr auto kFree = BoundaryCondition::Free;
+
+int count_held_edges(const Domain& domain) {
+    int count = 0;
+    for (const std::uint8_t mask : domain.held_edges()) {
+        count += (mask & 1) + ((mask >> 1) & 1) + ((mask >> 2) & 1);
+    }
+    return count;
+}
+
+std::int64_t count_held_vertices(const Domain& domain) {
+    const auto& held = domain.held_vertices();
+    return std::count_if(held.begin(), held.end(), [](auto flag) { return flag != 0; });
+}
+
+/// Two triangles that share the edge from vertex 0 to vertex 1, and a third as a fin on it.
+TriangleMesh fin() {
+    return {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}},
+            {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}};
+}
+
+TEST(Domain, HoldsTheBoundaryUnlessItIsFree) {
+    const TriangleMesh square = shapes::square(4);
+    for (const auto boundary : {kLocked, kCells}) {
+        const Domain domain(square, boundary);
+        EXPECT_EQ(count_held_edges(domain), 16);
+        EXPECT_EQ(count_held_vertices(domain), 16);
+        EXPECT_TRUE(domain.holds_anything());
+    }
+    const Domain free(square, kFree);
+    EXPECT_EQ(count_held_edges(free), 0);
+    EXPECT_FALSE(free.holds_anything());
+    EXPECT_EQ(free.boundary_edge_count(), 16);
+}
+
+TEST(Domain, SeamsOfCoincidentVerticesAreNoBoundary) {
+    EXPECT_FALSE(Domain(shapes::soup(shapes::geodesic_sphere(4)), kLocked).holds_anything());
+    const TriangleMesh soup = shapes::soup(shapes::square(4));
+    const Domain domain(soup, kLocked);
+    EXPECT_EQ(count_held_edges(domain), 16);
+    for (std::size_t vertex = 0; vertex < soup.positions.size(); ++vertex) {
+        const Eigen::Vector3d& p = soup.positions[vertex];
+        const bool on_rim = p[0] == 0 || p[0] == 1 || p[1] == 0 || p[1] == 1;
+        EXPECT_EQ(domain.held_vertices()[vertex], on_rim ? 1 : 0);
+    }
+}
+
+TEST(Domain, SelectionIsHeldAtItsSeamWhateverTheBoundary) {
+    // The left half of a square of 4 by 4 quads: a seam of 4 edges, and 12 edges of the boundary.
+    const TriangleMesh square = shapes::square(4);
+    Selection left;
+    for (const Triangle& t : square.triangles) {
+        double x = 0;
+        for (const std::int32_t vertex : t) x += square.positions[vertex][0] / 3;
+        left.push_back(x < 0.5 ? 1 : 0);
+    }
+    const Domain free(square, left, kFree);
+    EXPECT_EQ(free.surface().triangles.size(), 16U);
+    EXPECT_EQ(free.surface().positions.size(), square.positions.size());
+    EXPECT_EQ(free.topology().triangles.size(), 16U);
+    EXPECT_EQ(count_held_edges(free), 4);
+    EXPECT_EQ(free.boundary_edge_count(), 8);
+    EXPECT_EQ(count_held_vertices(free), 15);  // the seam's and those beyond it
+    EXPECT_EQ(count_held_edges(Domain(square, left, kLocked)), 12);
+}
+
+TEST(Domain, EverythingSelectedIsNoSelection) {
+    const TriangleMesh square = shapes::square(3);
+    const Domain domain(square, Selection(square.triangles.size(), 1), kLocked);
+    EXPECT_EQ(domain.held_edges(), Domain(square, kLocked).held_edges());
+    EXPECT_EQ(domain.held_vertices(), Domain(square, kLocked).held_vertices());
+}
+
+TEST(Domain, EdgesThatAnUnselectedTriangleHasAreHeldThoughTwoSelectedOnesHaveThem) {
+    const TriangleMesh mesh = fin();
+    const Domain domain(mesh, {1, 1, 0}, kFree);
+    EXPECT_EQ(domain.held_edges(), (std::vector<std::uint8_t>{1, 1}));
+    EXPECT_EQ(domain.held_vertices(), (std::vector<std::uint8_t>{1, 1, 0, 0, 1}));
+}
+
+TEST(Domain, VerticesThatOnlyTouchUnselectedTrianglesAreHeld) {
+    // Two triangles with one vertex in common.
+    const TriangleMesh bow_tie{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}},
+                               {{0, 1, 2}, {0, 3, 4}}};
+    const Domain domain(bow_tie, {1, 0}, kFree);
+    EXPECT_EQ(count_held_edges(domain), 0);
+    EXPECT_EQ(domain.held_vertices(), (std::vector<std::uint8_t>{1, 0, 0, 1, 1}));
+}
+
+TEST(Domain, SelectionsThatSelectNothingOrDoNotFitAreErrors) {
+    const TriangleMesh square = shapes::square(2);
+    EXPECT_THROW(Domain(square, Selection(8, 0), kLocked), InvalidMesh);
+    EXPECT_THROW(Domain(square, Selection(7, 1), kLocked), InvalidParameter);
+    TriangleMesh mesh = square;
+    EXPECT_THROW(evolve(mesh, Selection(8, 0), {}), InvalidMesh);
+    EXPECT_TRUE(same_bits(mesh, square));
+}
+
+}  // namespace
+}  // namespace tracked_mcf

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <random>
+
+#include "filter_tracked_mcf/core/evolve.h"
+#include "tests/support/shapes.h"
+
+namespace tracked_mcf {
+
+inline FlowParameters parameters(int depth, double step_size, int iterations) {
+    FlowParameters p;
+    p.depth = depth;
+    p.step_size = step_size;
+    p.iterations = iterations;
+    return p;
+}
+
+inline TriangleMesh evolved(TriangleMesh mesh, const FlowParameters& p) {
+    evolve(mesh, p);
+    return mesh;
+}
+
+/// Largest distance between vertices of the same index.
+inline double distance(const TriangleMesh& a, const TriangleMesh& b) {
+    double largest = 0;
+    for (std::size_t i = 0; i < a.positions.size(); ++i) {
+        largest = std::max(largest, (a.positions[i] - b.positions[i]).norm());
+    }
+    return largest;
+}
+
+/// Stricter than ==: tells -0 from 0, and NaN is itself.
+inline bool same_bits(const TriangleMesh& a, const TriangleMesh& b) {
+    const std::size_t bytes = a.positions.size() * sizeof(Eigen::Vector3d);
+    return a.positions.size() == b.positions.size() &&
+           std::memcmp(a.positions.data(), b.positions.data(), bytes) == 0;
+}
+
+inline TriangleMesh turned(const TriangleMesh& mesh, double angle, const Eigen::Vector3d& axis) {
+    return shapes::transformed(mesh, Eigen::Affine3d(Eigen::AngleAxisd(angle, axis.normalized())));
+}
+
+inline const double kQuarterTurn = 0.5 * std::acos(-1.0);
+
+/// Adds numbers between -size and size to all coordinates.
+inline TriangleMesh noisy(TriangleMesh mesh, double size) {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> noise(-size, size);
+    for (auto& position : mesh.positions) {
+        position += Eigen::Vector3d(noise(random), noise(random), noise(random));
+    }
+    return mesh;
+}
+
+/// The triangles whose first corner is higher than `height`.
+inline Selection above(const TriangleMesh& mesh, double height) {
+    Selection selection;
+    for (const Triangle& t : mesh.triangles) {
+        selection.push_back(mesh.positions[t[0]][2] > height ? 1 : 0);
+    }
+    return selection;
+}
+
+/// All vertices of a mesh, and its selected triangles.
+inline TriangleMesh part_of(const TriangleMesh& mesh, const Selection& selection) {
+    TriangleMesh part{mesh.positions, {}};
+    for (std::size_t i = 0; i < selection.size(); ++i) {
+        if (selection[i] != 0) part.triangles.push_back(mesh.triangles[i]);
+    }
+    return part;
+}
+
+/// An open mesh with a rim that has corners, and no symmetry.
+inline TriangleMesh bumpy_cap(int frequency, double height = 0.1) {
+    const TriangleMesh sphere = shapes::bumpy_sphere(frequency);
+    return part_of(sphere, above(sphere, height));
+}
+
+}  // namespace tracked_mcf
