@@ -64,4 +64,21 @@ void assemble_elements(const TrackedElements& elements, const Coefficients& disp
     }
 }
 
+void subtract_guess(const TrackedElements& elements, const Coefficients& guess,
+                    ElementSystems& systems) {
+    parallel_for_rows(elements.finest().element_count(), [&](std::int32_t element) {
+        const auto& unknowns = elements.finest().unknowns[element];
+        const ElementMatrix& matrix = systems.matrices[element];
+        for (int row = 0; row < 8; ++row) {
+            Eigen::RowVector3d product = Eigen::RowVector3d::Zero();
+            for (int corner = 0; corner < 8; ++corner) {
+                product += matrix.entry[row][corner] * guess.row(unknowns[corner]);
+            }
+            for (int axis = 0; axis < 3; ++axis) {
+                systems.right_sides[element].entry[axis][row] -= static_cast<float>(product[axis]);
+            }
+        }
+    });
+}
+
 }  // namespace tracked_mcf

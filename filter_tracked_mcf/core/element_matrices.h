@@ -61,4 +61,9 @@ struct ElementSystems {
 void assemble_elements(const TrackedElements& elements, const Coefficients& displacement,
                        const SystemWeights& weights, ElementSystems& systems);
 
+/// Turns systems for d into systems for what d is besides `guess`: takes guess, multiplied by the
+/// matrices, from the right sides.
+void subtract_guess(const TrackedElements& elements, const Coefficients& guess,
+                    ElementSystems& systems);
+
 }  // namespace tracked_mcf

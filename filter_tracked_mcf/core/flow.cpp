@@ -127,12 +127,14 @@ void Flow::scale(const Eigen::Vector3d& centre, double factor) {
     const Eigen::RowVector3d fixed = elements_.grid.to_grid(centre).transpose();
     const Coefficients from_centre = identity_coefficients(elements_).rowwise() - fixed;
     displacement_ = factor * displacement_ + (factor - 1) * from_centre;
+    guess_ = (1 / factor - 1) * (from_centre + displacement_);
 }
 
 void Flow::assemble(StepReport& report) {
     const Stopwatch stopwatch;
     assemble_elements(elements_, displacement_,
                       {1.0F, static_cast<float>(grid_step_size_), parameters_.flow}, systems_);
+    if (guess_.size() > 0) subtract_guess(elements_, guess_, systems_);
     if (holds_curve()) held_curve_.add(displacement_, grid_step_size_, systems_);
     stabilization_.add(stabilization_of(parameters_), grid_step_size_, systems_.matrices);
     if (parameters_.anchor_pinches) {
@@ -166,6 +168,7 @@ void Flow::solve(StepReport& report) {
     }
     previous_ = displacement_;
     displacement_ += solution_;
+    if (guess_.size() > 0) displacement_ += guess_;
     if (holds_curve()) held_curve_.take_up(displacement_);
     report.solve_seconds = stopwatch.seconds();
 }

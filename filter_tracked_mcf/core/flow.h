@@ -48,7 +48,10 @@ public:
     /// Takes the last step back because the surface has vanished in it; once after a step.
     void take_back();
 
-    /// Scales the embedding about `centre` (mesh units) by `factor`.
+    /// Scales the embedding about `centre` (mesh units) by `factor`, to undo what steps do to its
+    /// size. The next step is expected to need the same again: solved for is then what it does
+    /// besides. Else the stabilisation, which holds the thickness of the space around the surface,
+    /// and the functions that hardly meet the surface, would grow with every scaling.
     void scale(const Eigen::Vector3d& centre, double factor);
 
     /// Moves the vertices of the mesh that the flow was made from, positions as they were then, to
@@ -85,6 +88,7 @@ private:
     HeldCurve held_curve_;
     Coefficients displacement_;
     Coefficients previous_;  ///< displacement before the last step
+    Coefficients guess_;     ///< what the next step is expected to do; empty for nothing
 
     // Refilled by every step.
     ElementSystems systems_;
