@@ -1,5 +1,7 @@
 #include "tests/experiments/configuration.h"
 
+#include <functional>
+#include <map>
 #include <sstream>
 #include <stdexcept>
 
@@ -26,19 +28,34 @@ void set_value(const std::string& name, double value, FlowParameters& parameters
     }
 }
 
-void apply(const std::string& word, FlowParameters& parameters) {
+/// Words that stand alone.
+const std::map<std::string, std::function<void(FlowParameters&)>>& words_alone() {
+    static const std::map<std::string, std::function<void(FlowParameters&)>> words = {
+        {"converged", [](FlowParameters&) {}},
+        {"paper", set_paper},
+        {"separate", [](FlowParameters& p) { p.separate_sheets = true; }},
+        {"glued", [](FlowParameters& p) { p.separate_sheets = false; }},
+        {"unanchored", [](FlowParameters& p) { p.anchor_pinches = false; }},
+        {"conformalized", [](FlowParameters& p) { p.flow = FlowKind::Conformalized; }},
+        {"locked", [](FlowParameters& p) { p.boundary = BoundaryCondition::Locked; }},
+        {"locked-cells", [](FlowParameters& p) { p.boundary = BoundaryCondition::LockedCells; }},
+        {"free", [](FlowParameters& p) { p.boundary = BoundaryCondition::Free; }},
+        {"keep-area", [](FlowParameters& p) { p.rescale = Rescaling::KeepArea; }},
+    };
+    return words;
+}
+
+void apply_word(const std::string& word, FlowParameters& parameters) {
     const std::size_t equals = word.find('=');
     if (equals != std::string::npos) {
         set_value(word.substr(0, equals), std::stod(word.substr(equals + 1)), parameters);
-    } else if (word == "paper") {
-        set_paper(parameters);
-    } else if (word == "separate" || word == "glued") {
-        parameters.separate_sheets = word == "separate";
-    } else if (word == "unanchored") {
-        parameters.anchor_pinches = false;
-    } else if (word != "converged") {
+        return;
+    }
+    const auto known = words_alone().find(word);
+    if (known == words_alone().end()) {
         throw std::invalid_argument("there is no '" + word + "' in a configuration");
     }
+    known->second(parameters);
 }
 
 }  // namespace
@@ -46,7 +63,7 @@ void apply(const std::string& word, FlowParameters& parameters) {
 FlowParameters parse_configuration(const std::string& words) {
     FlowParameters parameters;
     std::istringstream stream(words);
-    for (std::string word; std::getline(stream, word, ',');) apply(word, parameters);
+    for (std::string word; std::getline(stream, word, ',');) apply_word(word, parameters);
     return parameters;
 }
 

@@ -6,7 +6,7 @@
 
 namespace tracked_mcf::experiments {
 
-/// Which solver and which functions a run uses, as the command line spells it: words joined by
+/// Which flow, solver and functions a run uses, as the command line spells it: words joined by
 /// commas, each of which changes what the words before it have set.
 ///
 ///   converged      the defaults
@@ -17,6 +17,9 @@ namespace tracked_mcf::experiments {
 ///   separate       sheets separated
 ///   glued          sheets not separated
 ///   unanchored     what has pinched is not held
+///   conformalized  the conformalized flow
+///   locked, locked-cells, free    the boundary; where an experiment does not choose it
+///   keep-area      rescaled after every step; where an experiment says so
 ///
 /// Throws std::invalid_argument for anything else.
 FlowParameters parse_configuration(const std::string& words);

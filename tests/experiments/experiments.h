@@ -23,6 +23,9 @@ void add_pinches(CLI::App& app);
 /// Disjoint pieces closer than a cell, together and alone.
 void add_pieces(CLI::App& app);
 
+/// How near closed surfaces come to a sphere.
+void add_roundness(CLI::App& app);
+
 /// Size and time of the set-up.
 void add_setup(CLI::App& app);
 

@@ -15,6 +15,7 @@ int main(int argc, char** argv) {
     add_iterations(app);
     add_pieces(app);
     add_pinches(app);
+    add_roundness(app);
     add_setup(app);
     add_sphere(app);
     add_tolerance(app);

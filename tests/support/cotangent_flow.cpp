@@ -97,7 +97,7 @@ CotangentFlow::CotangentFlow(const TriangleMesh& mesh, double step_size, Boundar
       degenerated_(mesh.triangles.size()) {
     const double side = longest_side(mesh);
     step_size_ = step_size * side * side;
-    if (boundary == BoundaryCondition::LockedCells) held_ = boundary_vertices(mesh);
+    if (boundary != BoundaryCondition::Free) held_ = boundary_vertices(mesh);
     for (const Triangle& t : mesh.triangles) initial_areas_.push_back(area(mesh, t));
     initial_masses_ = masses();
     look_for_degenerated();

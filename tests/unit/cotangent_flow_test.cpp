@@ -13,7 +13,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr auto kFree = BoundaryCondition::Free;
-constexpr auto kLocked = BoundaryCondition::LockedCells;
+constexpr auto kLocked = BoundaryCondition::Locked;
 
 TriangleMesh flowed(const TriangleMesh& mesh, double step_size, int steps,
                     BoundaryCondition boundary) {
