@@ -117,19 +117,28 @@ TEST(Flow, FreeBoundaryMoves) {
     for (const auto& position : after.positions) EXPECT_NEAR(position[2], 0, 1e-6);
 }
 
+void expect_same_bits_at_any_number_of_threads(const TriangleMesh& mesh, FlowParameters p) {
+    p.threads = 1;
+    const TriangleMesh one = evolved(mesh, p);
+    for (const int threads : {2, 3, 5}) {
+        p.threads = threads;
+        EXPECT_TRUE(same_bits(evolved(mesh, p), one)) << threads;
+    }
+}
+
 TEST(Flow, ResultIsTheSameBitsWhateverTheNumberOfThreads) {
     // Large enough for many blocks and several slabs.
     const TriangleMesh mesh = shapes::bumpy_sphere(60);
     FlowParameters p = parameters(7, 1e-4, 2);
     for (const Solver solver : {Solver::Converged, Solver::OneWCycle}) {
         p.solver = solver;
-        p.threads = 1;
-        const TriangleMesh one = evolved(mesh, p);
-        for (const int threads : {2, 3, 5}) {
-            p.threads = threads;
-            EXPECT_TRUE(same_bits(evolved(mesh, p), one)) << threads;
-        }
+        expect_same_bits_at_any_number_of_threads(mesh, p);
     }
+    p.solver = Solver::Converged;
+    expect_same_bits_at_any_number_of_threads(bumpy_cap(60), p);
+    p.flow = FlowKind::Conformalized;
+    p.rescale = Rescaling::KeepVolume;
+    expect_same_bits_at_any_number_of_threads(mesh, p);
 }
 
 TEST(Flow, ThrowsWhenItsNumbersAreNotFinite) {

@@ -3,31 +3,92 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <vector>
+
 #include "filter_tracked_mcf/core/evolve.h"
+#include "filter_tracked_mcf/core/grid.h"
 #include "tests/support/shapes.h"
 #include "tests/unit/flows.h"
 
 namespace tracked_mcf {
 namespace {
 
+/// A flow of each kind, with a mesh for it.
+struct Case {
+    const char* name;
+    TriangleMesh mesh;
+    FlowParameters parameters;
+};
+
+std::vector<Case> cases() {
+    const TriangleMesh closed = shapes::bumpy_sphere(20), open = bumpy_cap(20);
+    std::vector<Case> result;
+    for (const Rescaling rescale : {Rescaling::None, Rescaling::KeepArea, Rescaling::KeepVolume}) {
+        for (const FlowKind flow : {FlowKind::MeanCurvature, FlowKind::Conformalized}) {
+            Case of{"closed", closed, parameters(5, 1e-4, 5)};
+            of.parameters.rescale = rescale;
+            of.parameters.flow = flow;
+            result.push_back(of);
+        }
+    }
+    for (const auto boundary :
+         {BoundaryCondition::Locked, BoundaryCondition::LockedCells, BoundaryCondition::Free}) {
+        Case of{"open", open, parameters(5, 1e-4, 5)};
+        of.parameters.boundary = boundary;
+        result.push_back(of);
+    }
+    return result;
+}
+
 TEST(Symmetry, CommutesWithTranslation) {
-    const TriangleMesh mesh = shapes::bumpy_sphere(20);
     const Eigen::Affine3d shift(Eigen::Translation3d(3.7, -11.3, 5.1));
-    const FlowParameters p = parameters(5, 1e-4, 5);
-    EXPECT_LT(distance(evolved(shapes::transformed(mesh, shift), p),
-                       shapes::transformed(evolved(mesh, p), shift)),
-              1e-6);
+    for (const Case& of : cases()) {
+        EXPECT_LT(distance(evolved(shapes::transformed(of.mesh, shift), of.parameters),
+                           shapes::transformed(evolved(of.mesh, of.parameters), shift)),
+                  1e-6)
+            << of.name;
+    }
 }
 
 TEST(Symmetry, CommutesWithScaling) {
-    const TriangleMesh mesh = shapes::bumpy_sphere(20);
-    const FlowParameters p = parameters(5, 1e-4, 5);
-    for (const double scale : {1e-9, 0.3, 7.0, 1e12}) {
-        const Eigen::Affine3d scaling(Eigen::Scaling(scale));
-        EXPECT_LT(distance(evolved(shapes::transformed(mesh, scaling), p),
-                           shapes::transformed(evolved(mesh, p), scaling)),
-                  1e-6 * scale);
+    for (const Case& of : cases()) {
+        for (const double scale : {1e-9, 0.3, 7.0, 1e12}) {
+            const Eigen::Affine3d scaling(Eigen::Scaling(scale));
+            const TriangleMesh expected =
+                shapes::transformed(evolved(of.mesh, of.parameters), scaling);
+            EXPECT_LT(
+                distance(evolved(shapes::transformed(of.mesh, scaling), of.parameters), expected),
+                1e-6 * scale)
+                << of.name;
+            // And so in the mesh's own units: the model's longest side is in both step sizes.
+            FlowParameters absolute = of.parameters;
+            absolute.absolute = true;
+            absolute.step_size *= std::pow(scale * longest_side(of.mesh), 2);
+            EXPECT_LT(distance(evolved(shapes::transformed(of.mesh, scaling), absolute), expected),
+                      1e-6 * scale)
+                << of.name;
+        }
     }
+}
+
+TEST(Symmetry, FarFromTheOriginTheFlowIsThatOfTheSameShapeAtTheOrigin) {
+    // As a georeferenced scan in single precision: its steps are 1/16 of a unit, here 1/200 of an
+    // edge, and exactly those of the mesh that is brought to the origin in double.
+    const Eigen::Vector3d far(500000, 4500000, 1000);
+    TriangleMesh there =
+        shapes::transformed(shapes::bumpy_sphere(20), Eigen::Affine3d(Eigen::Scaling(100.0)));
+    TriangleMesh here = there;
+    for (std::size_t i = 0; i < there.positions.size(); ++i) {
+        there.positions[i] = (there.positions[i] + far).cast<float>().cast<double>();
+        here.positions[i] = there.positions[i] - far;
+    }
+    const FlowParameters p = parameters(5, 1e-4, 5);
+    const TriangleMesh after = evolved(there, p);
+    TriangleMesh expected = evolved(here, p);
+    for (auto& position : expected.positions) position += far;
+    EXPECT_LT(distance(after, expected), 1e-4);
+    EXPECT_GT(distance(after, there), 1);
 }
 
 // The equations of a mesh turned by 90 degrees are the same to rounding, but smoothers go through
