@@ -71,7 +71,7 @@ Flow::Flow(const TriangleMesh& mesh, const Domain& domain, const FlowParameters&
                  cycle_parameters(parameters.solver)),
       stabilization_(elements_),
       supports_(measure_supports(elements_)),
-      held_curve_(elements_),
+      held_curve_(elements_, parameters.boundary_spring),
       displacement_(Coefficients::Zero(elements_.finest().unknown_count(), 3)) {
     fill_report(domain);
     // With the stabilisation, functions that hardly meet the surface follow those that do.
@@ -169,7 +169,7 @@ void Flow::solve(StepReport& report) {
     previous_ = displacement_;
     displacement_ += solution_;
     if (guess_.size() > 0) displacement_ += guess_;
-    if (holds_curve()) held_curve_.take_up(displacement_);
+    if (holds_curve() && parameters_.take_up_boundary) held_curve_.take_up(displacement_);
     report.solve_seconds = stopwatch.seconds();
 }
 

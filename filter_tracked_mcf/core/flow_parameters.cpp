@@ -53,6 +53,12 @@ void check_stabilization(double weight) {
                shortest(kDefaultStabilization));
 }
 
+void check_spring(double spring) {
+    if (spring > 0 && spring <= kMaximumSpring) return;
+    refuse("boundary_spring", spring,
+           "greater than 0 and at most " + shortest(kMaximumSpring) + ", such as 10");
+}
+
 }  // namespace
 
 double stabilization_of(const FlowParameters& parameters) {
@@ -67,6 +73,7 @@ void validate(const FlowParameters& parameters) {
     check_range("threads", parameters.threads, 0, kMaximumThreads,
                 ", where 0 takes all that OpenMP offers");
     check_step_size(parameters.step_size, parameters.absolute);
+    check_spring(parameters.boundary_spring);
     check_tolerance(parameters.tolerance);
     check_stabilization(stabilization_of(parameters));
 }

@@ -43,6 +43,7 @@ inline constexpr int kMaximumIterations = 1000000;
 inline constexpr int kMaximumCycles = 1000;
 inline constexpr double kMaximumStabilization = 1e3;
 inline constexpr double kDefaultStabilization = 0.01;
+inline constexpr double kMaximumSpring = 1e6;
 inline constexpr int kMaximumThreads = 1024;
 
 /// The knobs of the flow, with the defaults that suit a scan.
@@ -65,6 +66,12 @@ struct FlowParameters {
 
     FlowKind flow = FlowKind::MeanCurvature;
     BoundaryCondition boundary = BoundaryCondition::Locked;
+
+    /// Stiffness η of the spring that holds a Locked boundary (held_curve.h), greater than 0, at
+    /// most kMaximumSpring; and whether what it holds is taken up after each step. If not, or with
+    /// another stiffness: for comparison only.
+    double boundary_spring = 10;
+    bool take_up_boundary = true;
 
     /// KeepVolume wants a closed surface with consistently oriented triangles; neither goes with
     /// anything held.

@@ -7,9 +7,6 @@ namespace tracked_mcf {
 
 namespace {
 
-/// η, in grid units. On scans 3 gives way visibly and 100 locks the cells of the rim.
-constexpr double kSpring = 10;
-
 /// Adds weight * B_I B_J at a point to the matrix, and force * B_I to the right side.
 void add_at(const CornerValues& values, double weight, const Eigen::Vector3d& force,
             ElementMatrix& matrix, ElementVector& right_side) {
@@ -25,7 +22,8 @@ void add_at(const CornerValues& values, double weight, const Eigen::Vector3d& fo
 
 }  // namespace
 
-HeldCurve::HeldCurve(const TrackedElements& elements) : elements_(elements) {
+HeldCurve::HeldCurve(const TrackedElements& elements, double spring)
+    : elements_(elements), spring_(spring) {
     const std::vector<HeldSample>& samples = elements.held_samples;
     for (std::size_t begin = 0, end = 0; begin < samples.size(); begin = end) {
         while (end < samples.size() && samples[end].element == samples[begin].element) ++end;
@@ -42,9 +40,9 @@ void HeldCurve::add(const Coefficients& displacement, double step_size,
                 for (std::size_t k = support.begin; k < support.end; ++k) {
                     const HeldSample& sample = elements_.held_samples[k];
                     const Eigen::Vector3d pull = sample.conormal.cast<double>() + support.taken_up -
-                                                 kSpring * displacement_at(sample, displacement);
+                                                 spring_ * displacement_at(sample, displacement);
                     add_at(bspline_values(sample.local.cast<double>()),
-                           sample.weight * step_size * kSpring, sample.weight * step_size * pull,
+                           sample.weight * step_size * spring_, sample.weight * step_size * pull,
                            systems.matrices[support.element], systems.right_sides[support.element]);
                 }
             }
@@ -60,7 +58,7 @@ void HeldCurve::take_up(const Coefficients& displacement) {
             sum += sample.weight * displacement_at(sample, displacement);
             length += sample.weight;
         }
-        support.taken_up -= kSpring * sum / length;
+        support.taken_up -= spring_ * sum / length;
     }
 }
 

@@ -22,8 +22,8 @@ namespace tracked_mcf {
 /// second order in the cell size.
 class HeldCurve {
 public:
-    /// `elements` must outlive this.
-    explicit HeldCurve(const TrackedElements& elements);
+    /// `elements` must outlive this. `spring` is η.
+    HeldCurve(const TrackedElements& elements, double spring);
 
     /// Adds the supports to the finest level's system for a step of δ' (grid units) from the
     /// embedding with this displacement.
@@ -44,6 +44,7 @@ private:
                                     const Coefficients& displacement) const;
 
     const TrackedElements& elements_;
+    double spring_;
     std::vector<Support> supports_;
 };
 

@@ -287,6 +287,17 @@ TEST(Evolve, RejectsParametersOutOfRangeAndNamesThem) {
         expect_rejected<InvalidParameter>(mesh, parameters(3, step, 1), "step_size");
     }
     FlowParameters p = parameters(3, 1e-3, 1);
+    p.absolute = true;
+    for (const double step : {0.0, -1e-5, kNaN, kInfinity, -kInfinity}) {
+        p.step_size = step;
+        expect_rejected<InvalidParameter>(mesh, p, "step_size");
+    }
+    p.step_size = 1;
+    for (const double spring : {0.0, -1.0, 1e7, kNaN, kInfinity}) {
+        p.boundary_spring = spring;
+        expect_rejected<InvalidParameter>(mesh, p, "boundary_spring");
+    }
+    p.boundary_spring = 10;
     p.cycles = 0;
     expect_rejected<InvalidParameter>(mesh, p, "cycles");
     p.cycles = 1;
@@ -332,6 +343,19 @@ TEST(Evolve, SaysOfANumberOutOfRangeWhatToGive) {
         p.stabilization = weight;
         EXPECT_EQ(complaint(p), "none");
     }
+}
+
+TEST(Evolve, AnyAbsoluteStepSizeIsAllRight) {
+    // From next to nothing to all that a double holds: the one moves nothing, the other acts like
+    // any step that is large beside the mesh.
+    const TriangleMesh cap = bumpy_cap(10);
+    FlowParameters p = parameters(4, 1e-320, 2);
+    p.absolute = true;
+    EXPECT_LT(distance(evolved(cap, p), cap), 1e-12);
+    p.step_size = 1e308;
+    const TriangleMesh far = evolved(cap, p);
+    p.step_size = 1e9;
+    EXPECT_TRUE(same_bits(far, evolved(cap, p)));
 }
 
 TEST(Evolve, StabilizesByDefaultWhatIsToConverge) {

@@ -68,7 +68,7 @@ TEST(HeldCurve, BalancesTheSurfaceAtTheStart) {
         return force.cwiseAbs().maxCoeff();
     };
     EXPECT_GT(largest_force(), 0.1);
-    HeldCurve(elements).add(rest, 1, systems);
+    HeldCurve(elements, 10).add(rest, 1, systems);
     EXPECT_LT(largest_force(), 1e-5);
 }
 
@@ -88,7 +88,7 @@ TEST(HeldCurve, TakesUpWhatTheSpringHolds) {
         }
         return sum;
     };
-    HeldCurve curve(elements);
+    HeldCurve curve(elements, 10);
     const double of_spring = pull(curve);
     EXPECT_LT(of_spring, 0);
     curve.take_up(moved);
