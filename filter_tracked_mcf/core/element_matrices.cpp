@@ -44,20 +44,18 @@ void assemble_elements(const TrackedElements& elements, const Coefficients& disp
     const std::int64_t count = elements.finest().element_count();
     systems.matrices.resize(static_cast<std::size_t>(count));
     systems.right_sides.resize(static_cast<std::size_t>(count));
-    std::vector<double> areas(static_cast<std::size_t>(block_count(count)));
+    systems.areas.resize(static_cast<std::size_t>(count));
     systems.collapses = parallel_collect<Collapse>(
         count, [&](std::int64_t begin, std::int64_t end, std::vector<Collapse>& collapses) {
-            double area = 0;
             for (std::int64_t element = begin; element < end; ++element) {
                 const ElementTotals totals =
                     integrate_element(gather(elements, displacement, element), weights,
                                       systems.matrices[element], systems.right_sides[element]);
-                area += totals.area;
+                systems.areas[element] = totals.area;
                 if (totals.collapsed_samples > 0) collapses.push_back(collapse_of(element, totals));
             }
-            areas[begin / kBlockSize] = area;
         });
-    systems.area = std::accumulate(areas.begin(), areas.end(), 0.0);
+    systems.area = std::accumulate(systems.areas.begin(), systems.areas.end(), 0.0);
     systems.collapsed_samples = 0;
     for (const Collapse& collapse : systems.collapses) {
         systems.collapsed_samples += collapse.samples;

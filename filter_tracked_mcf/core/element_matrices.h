@@ -43,7 +43,8 @@ struct Collapse {
 struct ElementSystems {
     std::vector<ElementMatrix> matrices;
     std::vector<ElementVector> right_sides;
-    double area = 0;  ///< of the embedded surface, grid units²
+    std::vector<float> areas;  ///< of the embedded surface in each element, grid units²
+    double area = 0;           ///< their sum
     std::int64_t collapsed_samples = 0;
     std::vector<Collapse> collapses;  ///< of the elements that have any, in order
 };

@@ -71,6 +71,7 @@ Flow::Flow(const TriangleMesh& mesh, const Domain& domain, const FlowParameters&
                  cycle_parameters(parameters.solver)),
       stabilization_(elements_),
       supports_(measure_supports(elements_)),
+      vanished_parts_(elements_),
       held_curve_(elements_, parameters.boundary_spring),
       displacement_(Coefficients::Zero(elements_.finest().unknown_count(), 3)) {
     fill_report(domain);
@@ -137,15 +138,21 @@ void Flow::assemble(StepReport& report) {
     if (guess_.size() > 0) subtract_guess(elements_, guess_, systems_);
     if (holds_curve()) held_curve_.add(displacement_, grid_step_size_, systems_);
     stabilization_.add(stabilization_of(parameters_), grid_step_size_, systems_.matrices);
-    if (parameters_.anchor_pinches) {
-        freeze_pinched(elements_, supports_, systems_, pinched_share(parameters_.solver),
-                       multigrid_.frozen());
-    }
+    if (parameters_.anchor_pinches) anchor_what_has_pinched();
     multigrid_.refresh(systems_.matrices);
     multigrid_.finest().assemble(systems_.right_sides, right_side_);
     report.area = systems_.area * elements_.grid.cell_size * elements_.grid.cell_size;
     report.collapsed_samples = systems_.collapsed_samples;
     report.assemble_seconds = stopwatch.seconds();
+}
+
+void Flow::anchor_what_has_pinched() {
+    if (parameters_.flow == FlowKind::Conformalized) {
+        vanished_parts_.freeze(systems_, kVanishedArea, multigrid_.frozen());
+    } else {
+        freeze_pinched(elements_, supports_, systems_, pinched_share(parameters_.solver),
+                       multigrid_.frozen());
+    }
 }
 
 void Flow::solve(StepReport& report) {

@@ -11,6 +11,7 @@
 #include "filter_tracked_mcf/core/supports.h"
 #include "filter_tracked_mcf/core/tracked_elements.h"
 #include "filter_tracked_mcf/core/triangle_mesh.h"
+#include "filter_tracked_mcf/core/vanished_parts.h"
 
 namespace tracked_mcf {
 
@@ -73,6 +74,7 @@ private:
     bool can_move() const;
     bool holds_curve() const { return parameters_.boundary != BoundaryCondition::LockedCells; }
     void assemble(StepReport& report);
+    void anchor_what_has_pinched();
     void solve(StepReport& report);
     void solve_by_conjugate_gradients(StepReport& report);
     void solve_by_cycles(StepReport& report);
@@ -85,6 +87,7 @@ private:
     Multigrid multigrid_;
     Stabilization stabilization_;
     Supports supports_;
+    VanishedParts vanished_parts_;
     HeldCurve held_curve_;
     Coefficients displacement_;
     Coefficients previous_;  ///< displacement before the last step

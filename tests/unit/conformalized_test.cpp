@@ -108,5 +108,25 @@ TEST(Conformalized, DumbbellBecomesASphereWhereMeanCurvatureFlowPinches) {
     EXPECT_GT(evolve(pinched, parameters(6, 1e-3, 60)).steps.back().collapsed_samples, 0);
 }
 
+TEST(Conformalized, PartsThatVanishStayWhereTheyWereWhileTheOthersGoOn) {
+    // A sphere, and thin little boxes here and there.
+    const TriangleMesh sphere = shapes::bumpy_sphere(20);
+    TriangleMesh mesh = sphere;
+    for (int i = 0; i < 20; ++i) {
+        const Eigen::Vector3d at(2 + 0.37 * (i % 3), 0.61 * (i % 5), 0.73 * (i % 4));
+        const Eigen::Affine3d place =
+            Eigen::Affine3d(Eigen::Translation3d(at)) * Eigen::Scaling(0.01 + 0.004 * i);
+        mesh = shapes::merged(mesh, shapes::transformed(shapes::box(3, {1, 1, 0.1}), place));
+    }
+    TriangleMesh after = mesh;
+    const FlowReport report = evolve(after, conformalized(0, 1e-4, 20));
+    EXPECT_EQ(report.steps.size(), 20U);
+    for (const StepReport& step : report.steps) EXPECT_TRUE(step.reached_tolerance);
+    for (std::size_t i = sphere.positions.size(); i < mesh.positions.size(); ++i) {
+        EXPECT_LT((after.positions[i] - mesh.positions[i]).norm(), 0.1);
+    }
+    EXPECT_LT(after.positions[0].norm(), 0.999 * mesh.positions[0].norm());
+}
+
 }  // namespace
 }  // namespace tracked_mcf

@@ -1,0 +1,55 @@
+#include "filter_tracked_mcf/core/vanished_parts.h"
+
+#include <utility>
+
+namespace tracked_mcf {
+
+namespace {
+
+/// Of every finest element, the element of the coarsest level that contains it: there, each
+/// connected part of the surface has one.
+std::vector<std::int32_t> parts(const TrackedElements& elements) {
+    const Level& coarsest = elements.levels.front();
+    std::vector<std::int32_t> part_of(coarsest.cells.size());
+    for (std::size_t element = 0; element < part_of.size(); ++element) {
+        part_of[element] = static_cast<std::int32_t>(element);
+    }
+    for (std::size_t level = 1; level < elements.levels.size(); ++level) {
+        std::vector<std::int32_t> finer;
+        finer.reserve(elements.levels[level].parents.size());
+        for (const std::int32_t parent : elements.levels[level].parents) {
+            finer.push_back(part_of[parent]);
+        }
+        part_of = std::move(finer);
+    }
+    return part_of;
+}
+
+}  // namespace
+
+VanishedParts::VanishedParts(const TrackedElements& elements)
+    : elements_(elements),
+      part_of_(parts(elements)),
+      initial_areas_(elements.levels.front().cells.size(), 0) {
+    for (std::size_t element = 0; element < part_of_.size(); ++element) {
+        for (std::int64_t i = elements.sample_begin[element];
+             i < elements.sample_begin[element + 1]; ++i) {
+            initial_areas_[part_of_[element]] += elements.samples[i].weight;
+        }
+    }
+}
+
+void VanishedParts::freeze(const ElementSystems& systems, double share,
+                           std::vector<std::uint8_t>& frozen) const {
+    std::vector<double> areas(initial_areas_.size(), 0);
+    for (std::size_t element = 0; element < part_of_.size(); ++element) {
+        areas[part_of_[element]] += systems.areas[element];
+    }
+    for (std::size_t element = 0; element < part_of_.size(); ++element) {
+        const std::int32_t part = part_of_[element];
+        if (areas[part] > share * initial_areas_[part]) continue;
+        for (const std::int32_t unknown : elements_.finest().unknowns[element]) frozen[unknown] = 1;
+    }
+}
+
+}  // namespace tracked_mcf
