@@ -59,7 +59,7 @@ std::string summary(const FlowParameters& parameters, const FlowReport& report) 
     text.precision(3);
     text << "Smoothed " << report.vertices << " vertices";
     if (report.held_vertices > 0) text << ", of which " << report.held_vertices << " are held,";
-    text << " by " << report.steps.size() << " steps of "
+    text << " by " << report.steps.size() << (report.steps.size() == 1 ? " step of " : " steps of ")
          << (parameters.flow == FlowKind::Conformalized ? "conformalized " : "")
          << "mean-curvature flow: depth " << report.depth << ", " << report.unknowns << " unknowns";
     if (report.locked_unknowns > 0) text << " (" << report.locked_unknowns << " locked)";

@@ -124,7 +124,8 @@ std::string summary(const CommandLine& line, const FlowReport& report) {
     if (!report.steps.empty())
         text << "\nsolved by " << effort(line.parameters, report.steps) << " in each step";
     text << "\n"
-         << report.steps.size() << " steps of " << line.parameters.step_size
+         << report.steps.size() << (report.steps.size() == 1 ? " step of " : " steps of ")
+         << line.parameters.step_size
          << (line.parameters.absolute ? " squared units of the mesh in " : " in ") << std::fixed
          << std::setprecision(1) << total_seconds(report) << " s: " << line.output.string() << "\n";
     return text.str();
