@@ -1,0 +1,50 @@
+#!/usr/bin/env bash
+# Smooths an open mesh with its boundary locked, then only the faces that look up, in stock
+# meshlabserver and with the command-line tool: what is held must keep its bits, everything but
+# positions must stay, and both must agree: meshlabserver_keeps.sh PREFIX TOOL MESH WORK_DIR
+set -euo pipefail
+
+here=$(dirname "$(realpath "$0")")
+prefix=$1 tool=$2 mesh=$3 work=$4
+rm -rf "$work"
+mkdir -p "$work"
+
+meshlab() { # IN SCRIPT OUT WHAT: names without .ply and .mlx; what to save besides positions
+    local in=$work/$1.ply script=()
+    [ "$1" != mesh ] || in=$mesh
+    [ -z "$2" ] || script=(-s "$work/$2.mlx")
+    # shellcheck disable=SC2086 # WHAT is several words
+    "$prefix/bin/meshlabserver" -i "$in" "${script[@]}" -o "$work/$3.ply" -m $4 \
+        > "$work/log.txt" 2>&1 || {
+        cat "$work/log.txt"
+        exit 1
+    } >&2
+    grep -o "Smoothed .*" "$work/log.txt" | tail -n 1 || true
+}
+check() { # BEFORE PLUGIN TOOL
+    "$here/check_kept.py" "$work/$1.ply" "$work/$2.ply"
+    "$here/check_kept.py" "$work/$1.ply" "$work/$3.ply"
+    "$here/compare_positions.py" "$work/$2.ply" "$work/$3.ply" "$work/$1.ply" 0.5
+}
+settings=(step_size=1e-4 iterations=5) options=(--step-size 1e-4 --iterations 5 --quiet)
+looks="vc vq fc fq wt" looks_and_flags="vc vq vf fc ff fq wt"
+
+echo "== Boundary locked"
+"$here/flow_script.sh" "${settings[@]}" > "$work/locked.mlx"
+meshlab mesh "" in "$looks"
+meshlab in locked plugin-locked "$looks"
+"$tool" "$work/in.ply" "$work/tool-locked.ply" "${options[@]}"
+check in plugin-locked tool-locked
+
+echo "== Faces that look up"
+"$here/flow_script.sh" --select "fnz > 0" "${settings[@]}" > "$work/up.mlx"
+sed '/<filter name="Mean/,/<\/filter>/d' "$work/up.mlx" > "$work/select.mlx"
+meshlab in select in-up "$looks_and_flags"
+meshlab in up plugin-up "$looks_and_flags"
+"$tool" "$work/in-up.ply" "$work/tool-up.ply" "${options[@]}" --selected flags
+check in-up plugin-up tool-up
+
+echo "== The same, from a file that holds the selection"
+"$here/flow_script.sh" "${settings[@]}" selected=true > "$work/selected.mlx"
+meshlab in-up selected plugin-file "$looks_and_flags"
+cmp "$work/plugin-file.ply" "$work/plugin-up.ply"
