@@ -9,9 +9,18 @@ prefix=$1 tool=$2 readme=$3 meshes=$4 work=$5
 rm -rf "$work"
 mkdir -p "$work"
 
-# What the README's names stand for: a closed scan, and one with a rim.
+# What the README's names stand for: a closed scan, one with a rim, and one with a selection.
 "$prefix/bin/meshlabserver" -i "$meshes/hand.off" -o "$work/scan.ply"
 "$prefix/bin/meshlabserver" -i "$meshes/mannequin-devil.off" -o "$work/open.ply"
+cat > "$work/select.mlx" << XML
+<!DOCTYPE FilterScript>
+<FilterScript>
+ <filter name="Conditional Face Selection">
+  <Param type="RichString" name="condSelect" value="fnz &gt; 0"/>
+ </filter>
+</FilterScript>
+XML
+"$prefix/bin/meshlabserver" -i "$meshes/hand.off" -s "$work/select.mlx" -o "$work/selected.ply" -m ff
 cd "$work"
 
 sed -n '/^```xml$/,/^```$/p' "$readme" | grep -v '^```' > smooth.mlx
