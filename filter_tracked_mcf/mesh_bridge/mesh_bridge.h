@@ -6,6 +6,7 @@
 #include <functional>
 #include <vector>
 
+#include "filter_tracked_mcf/core/domain.h"
 #include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/triangle_mesh.h"
 
@@ -69,6 +70,25 @@ TriangleMesh to_triangle_mesh(const VcgMesh& mesh) {
                                     index_of(face.cV(2), mesh, indices)});
     }
     return result;
+}
+
+/// Of each of those faces, whether it is selected. The flags are looked at themselves, since
+/// counters of selected faces are often out of date.
+template <class VcgMesh>
+Selection selected_faces(const VcgMesh& mesh) {
+    Selection result;
+    result.reserve(mesh.face.size());
+    for (const auto& face : mesh.face) {
+        if (!face.IsD()) result.push_back(face.IsS() ? 1 : 0);
+    }
+    return result;
+}
+
+/// Whether any face is selected.
+template <class VcgMesh>
+bool has_selected_faces(const VcgMesh& mesh) {
+    return std::any_of(mesh.face.begin(), mesh.face.end(),
+                       [](const auto& face) { return !face.IsD() && face.IsS(); });
 }
 
 /// Gives the vertices of `mesh` the positions of `moved`, which to_triangle_mesh made of it;

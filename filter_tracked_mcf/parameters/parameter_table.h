@@ -18,15 +18,18 @@ struct ParameterDescription {
     struct Boolean {
         bool default_value;
     };
+    /// A Boolean whose default is to be on when some faces of the mesh are selected.
+    struct SelectionSwitch {};
     struct Choice {
-        int default_value;                ///< index into labels
-        std::vector<std::string> labels;  ///< as a dialog shows them, such as "Locked cells"
+        int default_value;  ///< index into labels
+        std::vector<std::string>
+            labels;  ///< as a dialog shows them, such as "Locked cells (paper)"
     };
 
     std::string name;     ///< in scripts: lower case and underscores, never changes
     std::string label;    ///< in a dialog
-    std::string tooltip;  ///< what it means, its units, and what happens when it grows
-    std::variant<Integer, Real, Boolean, Choice> type;
+    std::string tooltip;  ///< what it means, its units, and what to give it
+    std::variant<Integer, Real, Boolean, SelectionSwitch, Choice> type;
 };
 
 /// The filter's name in menus and scripts.

@@ -49,11 +49,18 @@ FlowParameters flow_parameters(const ParameterValues& values) {
     FlowParameters parameters;
     parameters.depth = read<int>(values, "depth");
     parameters.step_size = read<double>(values, "step_size");
+    parameters.absolute = read<bool>(values, "absolute");
     parameters.iterations = read<int>(values, "iterations");
+    parameters.flow = static_cast<FlowKind>(read<int>(values, "flow"));
     parameters.boundary = static_cast<BoundaryCondition>(read<int>(values, "boundary"));
+    parameters.rescale = static_cast<Rescaling>(read<int>(values, "rescale"));
     parameters.separate_sheets = read<bool>(values, "separate_sheets");
     parameters.solver = static_cast<Solver>(read<int>(values, "solver"));
     return parameters;
+}
+
+bool selected_only(const ParameterValues& values) {
+    return read<bool>(values, "selected");
 }
 
 double shortest_decimal(float value) {

@@ -8,7 +8,8 @@
 
 namespace tracked_mcf {
 
-/// The value of an Integer, a Real or a Boolean, or the index of a Choice's label.
+/// The value of an Integer, a Real, a Boolean or a SelectionSwitch, or the index of a Choice's
+/// label.
 using ParameterValue = std::variant<int, double, bool>;
 
 /// What a host gives for the parameters of the table, by name.
@@ -18,6 +19,9 @@ using ParameterValues = std::map<std::string, ParameterValue>;
 /// where a Choice's index has no label: hosts pass on what a script holds. The other ranges are the
 /// core's to check.
 FlowParameters flow_parameters(const ParameterValues& values);
+
+/// Whether only selected faces are to flow. Throws InvalidParameter where that is not said.
+bool selected_only(const ParameterValues& values);
 
 /// The double that the shortest decimal notation of `value` denotes: 1e-5 for 1e-5f, which is
 /// 9.99999974737875e-06. MeshLab keeps real parameters as floats, but what was typed is a decimal;

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <sstream>
 
+#include "filter_tracked_mcf/parameters/early_stop.h"
 #include "filter_tracked_mcf/parameters/shortfall.h"
 
 namespace tracked_mcf {
@@ -31,6 +32,19 @@ double seconds_of(const std::vector<StepReport>& steps) {
     });
 }
 
+/// What is amiss with a run that has succeeded, with a blank before; empty if nothing.
+std::string warnings(const FlowParameters& parameters, const FlowReport& report) {
+    std::string text;
+    const std::string stop = early_stop(report, parameters.iterations);
+    if (!stop.empty()) text += " Warning: " + stop;
+    const std::string short_steps = shortfall(report, parameters.tolerance);
+    if (!short_steps.empty()) {
+        text += " Warning: " + short_steps +
+                " Look at the result; a smaller step size or depth may help.";
+    }
+    return text;
+}
+
 }  // namespace
 
 Progress as_progress(HostCallback* callback) {
@@ -43,20 +57,18 @@ Progress as_progress(HostCallback* callback) {
 std::string summary(const FlowParameters& parameters, const FlowReport& report) {
     std::ostringstream text;
     text.precision(3);
-    text << "Smoothed " << report.vertices << " vertices by " << report.steps.size()
-         << " steps of mean-curvature flow: depth " << report.depth << ", " << report.unknowns
-         << " unknowns";
+    text << "Smoothed " << report.vertices << " vertices";
+    if (report.held_vertices > 0) text << ", of which " << report.held_vertices << " are held,";
+    text << " by " << report.steps.size() << (report.steps.size() == 1 ? " step of " : " steps of ")
+         << (parameters.flow == FlowKind::Conformalized ? "conformalized " : "")
+         << "mean-curvature flow: depth " << report.depth << ", " << report.unknowns << " unknowns";
     if (report.locked_unknowns > 0) text << " (" << report.locked_unknowns << " locked)";
     text << ", " << report.setup_seconds << " s for the set-up and " << seconds_of(report.steps)
          << " s for the steps.";
     if (report.degenerate_triangles > 0) {
         text << " " << report.degenerate_triangles << " faces have no area and had no say.";
     }
-    const std::string warning = shortfall(report, parameters.tolerance);
-    if (!warning.empty()) {
-        text << " Warning: " << warning
-             << " Look at the result; a smaller step size or depth may help.";
-    }
+    text << warnings(parameters, report);
     return text.str();
 }
 

@@ -40,8 +40,9 @@ template <class VcgMesh>
 std::string run_filter(VcgMesh& mesh, const ParameterValues& values, HostCallback* callback) {
     using namespace run_filter_detail;
     const FlowParameters parameters = flow_parameters(values);
+    const Selection selection = selected_only(values) ? selected_faces(mesh) : Selection();
     TriangleMesh moved = to_triangle_mesh(mesh);
-    const FlowReport report = evolve(moved, parameters, as_progress(callback));
+    const FlowReport report = evolve(moved, selection, parameters, as_progress(callback));
     write_positions(moved, mesh);
     return summary(parameters, report);
 }

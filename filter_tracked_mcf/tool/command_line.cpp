@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "filter_tracked_mcf/parameters/parameter_table.h"
+#include "filter_tracked_mcf/tool/documents/mesh_document.h"
 #include "filter_tracked_mcf/tool/mesh_file.h"
 
 namespace tracked_mcf {
@@ -14,9 +15,16 @@ namespace fs = std::filesystem;
 
 namespace {
 
+const std::map<std::string, FlowKind> kFlows = {{"mean-curvature", FlowKind::MeanCurvature},
+                                                {"conformalized", FlowKind::Conformalized}};
+
 const std::map<std::string, BoundaryCondition> kBoundaries = {
     {"locked", BoundaryCondition::Locked},
-    {"locked-cells", BoundaryCondition::LockedCells}, {"free", BoundaryCondition::Free}};
+    {"locked-cells", BoundaryCondition::LockedCells},
+    {"free", BoundaryCondition::Free}};
+
+const std::map<std::string, Rescaling> kRescalings = {
+    {"none", Rescaling::None}, {"area", Rescaling::KeepArea}, {"volume", Rescaling::KeepVolume}};
 
 const std::map<std::string, Cubature> kCubatures = {
     {"1", Cubature::OnePoint}, {"3", Cubature::ThreePoints}, {"11", Cubature::Degree6}};
@@ -41,6 +49,10 @@ const char* const kExamples =
     "      gently: only the finest noise goes\n"
     "  tracked_mcf face.obj face_smooth.obj --depth 8 --boundary free\n"
     "      resolve finer detail, and let the rim move\n"
+    "  tracked_mcf scan.ply smooth.ply --rescale volume\n"
+    "      a closed scan, without shrinking it\n"
+    "  tracked_mcf scan.ply smooth.ply --selected flags\n"
+    "      only the faces that were selected in MeshLab, saved with their flags\n"
     "  tracked_mcf scan.ply smooth.stl --quiet --report smooth.json\n"
     "      in a script: convert, say nothing, keep sizes, times and residuals\n"
     "\n"
@@ -49,8 +61,9 @@ const char* const kExamples =
     "OUTPUT may be the same file: it is replaced only when all has gone well.\n"
     "\n"
     "Exit codes: 0 done; 1 the mesh cannot be read or smoothed; 2 wrong use of options; 3 a\n"
-    "result cannot be written. Errors are one line on the error output. So is the warning that a\n"
-    "step's solver stopped short of the tolerance, even with --quiet; it leaves the exit code 0.\n"
+    "result cannot be written. Errors are one line on the error output. So are\n"
+    "warnings, even with --quiet: that the flow stopped before its last step, or a step's solver\n"
+    "short of the tolerance. They leave the exit code 0.\n"
     "\n"
     "The method is that of M. Chuang and M. Kazhdan, Fast Mean-Curvature Flow via\n"
     "Finite-Elements Tracking, 2011.\n";
@@ -93,7 +106,8 @@ CLI::Validator one_of(const Map& names) {
 
 /// Option names and texts as they come from the parser, before they have a meaning.
 struct Texts {
-    std::string input, output, report, boundary, cubature, separate_sheets, solver;
+    std::string input, output, report;
+    std::string flow, boundary, rescale, cubature, separate_sheets, solver;
 };
 
 void add_files(CLI::App& app, Texts& texts) {
@@ -105,28 +119,42 @@ void add_files(CLI::App& app, Texts& texts) {
         ->type_name("");
 }
 
-void add_parameters(CLI::App& app, FlowParameters& parameters, Texts& texts) {
+void add_steps(CLI::App& app, FlowParameters& parameters) {
     app.add_option("--depth", parameters.depth, shared_help("depth"))
         ->type_name("N")
         ->capture_default_str();
     app.add_option("--step-size", parameters.step_size, shared_help("step_size"))
         ->type_name("X")
         ->default_str("1e-5");
+    app.add_flag("--absolute", parameters.absolute, shared_help("absolute"));
     app.add_option("--iterations", parameters.iterations, shared_help("iterations"))
         ->type_name("N")
         ->capture_default_str();
-    app.add_option("--boundary", texts.boundary, shared_help("boundary"))
-        ->type_name("locked-cells|free")
-        ->check(one_of(kBoundaries))
-        ->capture_default_str();
-    app.add_option("--separate-sheets", texts.separate_sheets, shared_help("separate_sheets"))
-        ->type_name("on|off")
-        ->check(one_of(kSwitches))
-        ->capture_default_str();
-    app.add_option("--solver", texts.solver, shared_help("solver"))
-        ->type_name("converged|w-cycle")
-        ->check(one_of(kSolvers))
-        ->capture_default_str();
+}
+
+void add_choices(CLI::App& app, Texts& texts, std::string& selected) {
+    const auto add = [&app](const char* option, std::string& text, const char* name,
+                            const char* values, const auto& names) {
+        app.add_option(option, text, shared_help(name))
+            ->type_name(values)
+            ->check(one_of(names))
+            ->capture_default_str();
+    };
+    add("--flow", texts.flow, "flow", "mean-curvature|conformalized", kFlows);
+    add("--boundary", texts.boundary, "boundary", "locked|locked-cells|free", kBoundaries);
+    app.add_option("--selected", selected,
+                   help_of("Only selected faces move; all vertices that others have keep their "
+                           "place. The name of a number that the faces, or else the vertices, of "
+                           "a PLY file have: a face is selected if it is not 0, of the face or "
+                           "of all its vertices. 'flags' is what MeshLab saves: of it only the "
+                           "bit for selected (32) counts."))
+        ->type_name("PROPERTY")
+        ->check(CLI::Validator(
+            [](const std::string& name) { return std::string(name.empty() ? "no name" : ""); },
+            ""));
+    add("--rescale", texts.rescale, "rescale", "none|area|volume", kRescalings);
+    add("--separate-sheets", texts.separate_sheets, "separate_sheets", "on|off", kSwitches);
+    add("--solver", texts.solver, "solver", "converged|w-cycle", kSolvers);
 }
 
 void add_solver_numerics(CLI::App& app, FlowParameters& parameters) {
@@ -185,6 +213,11 @@ void check_paths(const CommandLine& line) {
                              ": the extension tells the format; give .ply, .obj, .off or .stl.");
         }
     }
+    if (!line.selected.empty() && lower_case_extension(line.input) != ".ply") {
+        throw UsageError(
+            "--selected needs a PLY file as INPUT: only PLY has properties to select "
+            "by.");
+    }
     if (line.report.empty()) return;
     for (const fs::path& path : {line.input, line.output}) {
         if (resolved(line.report) == resolved(path)) {
@@ -199,7 +232,9 @@ void check_paths(const CommandLine& line) {
 CommandLine parse_command_line(int argc, const char* const* argv) {
     CommandLine line;
     Texts texts;
+    texts.flow = flow_name(line.parameters.flow);
     texts.boundary = boundary_name(line.parameters.boundary);
+    texts.rescale = rescaling_name(line.parameters.rescale);
     texts.cubature = std::to_string(cubature_name(line.parameters.cubature));
     texts.separate_sheets = line.parameters.separate_sheets ? "on" : "off";
     texts.solver = solver_name(line.parameters.solver);
@@ -209,7 +244,8 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     app.footer(kExamples);
     app.set_version_flag("--version", std::string("tracked_mcf ") + program_version());
     add_files(app, texts);
-    add_parameters(app, line.parameters, texts);
+    add_steps(app, line.parameters);
+    add_choices(app, texts, line.selected);
     add_solver_numerics(app, line.parameters);
     add_numerics(app, line.parameters, texts);
     add_output(app, texts, line.quiet);
@@ -227,7 +263,9 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     line.input = texts.input;
     line.output = texts.output;
     line.report = texts.report;
+    line.parameters.flow = kFlows.at(texts.flow);
     line.parameters.boundary = kBoundaries.at(texts.boundary);
+    line.parameters.rescale = kRescalings.at(texts.rescale);
     line.parameters.cubature = kCubatures.at(texts.cubature);
     line.parameters.separate_sheets = kSwitches.at(texts.separate_sheets);
     line.parameters.solver = kSolvers.at(texts.solver);
@@ -235,8 +273,18 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     return line;
 }
 
+const char* flow_name(FlowKind flow) {
+    return flow == FlowKind::Conformalized ? "conformalized" : "mean-curvature";
+}
+
 const char* boundary_name(BoundaryCondition boundary) {
-    return boundary == BoundaryCondition::Free ? "free" : "locked-cells";
+    if (boundary == BoundaryCondition::Free) return "free";
+    return boundary == BoundaryCondition::LockedCells ? "locked-cells" : "locked";
+}
+
+const char* rescaling_name(Rescaling rescaling) {
+    if (rescaling == Rescaling::None) return "none";
+    return rescaling == Rescaling::KeepArea ? "area" : "volume";
 }
 
 int cubature_name(Cubature cubature) {

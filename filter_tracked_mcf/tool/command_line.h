@@ -13,6 +13,7 @@ struct CommandLine {
     std::filesystem::path input, output;
     std::filesystem::path report;  ///< empty for none
     FlowParameters parameters;
+    std::string selected;  ///< property of INPUT that selects what flows; empty for all of it
     bool quiet = false;
 
     /// What --help or --version print; when there is any, nothing else is to be done.
@@ -29,8 +30,14 @@ public:
 /// that cannot be written. Parameters out of range are left to validate().
 CommandLine parse_command_line(int argc, const char* const* argv);
 
-/// How the option --boundary spells it.
+/// How the option --flow spells it.
+const char* flow_name(FlowKind flow);
+
+/// How --boundary spells it.
 const char* boundary_name(BoundaryCondition boundary);
+
+/// How --rescale spells it.
+const char* rescaling_name(Rescaling rescaling);
 
 /// How --solver spells it.
 const char* solver_name(Solver solver);

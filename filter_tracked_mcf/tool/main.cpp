@@ -23,13 +23,15 @@ using namespace tracked_mcf;
 
 enum ExitCode { Done = 0, BadMesh = 1, BadUsage = 2, Unwritable = 3 };
 
-FlowReport evolve_with_progress(TriangleMesh& mesh, const CommandLine& line) {
-    if (line.quiet || !isatty(STDERR_FILENO)) return evolve(mesh, line.parameters);
+FlowReport evolve_with_progress(TriangleMesh& mesh, const Selection& selection,
+                                const CommandLine& line) {
+    if (line.quiet || !isatty(STDERR_FILENO)) return evolve(mesh, selection, line.parameters);
     ProgressBar bar(std::cerr);
-    return evolve(mesh, line.parameters, [&bar](double fraction, std::string_view phase) {
-        bar.show(fraction, phase);
-        return true;
-    });
+    return evolve(mesh, selection, line.parameters,
+                  [&bar](double fraction, std::string_view phase) {
+                      bar.show(fraction, phase);
+                      return true;
+                  });
 }
 
 void complain(const std::string& message) {
@@ -45,15 +47,18 @@ void run(const CommandLine& line) {
 
     MeshFile file(line.input);
     TriangleMesh mesh = file.triangle_mesh();
-    const FlowReport report = evolve_with_progress(mesh, line);
+    Selection selection;
+    if (!line.selected.empty()) selection = file.selection_by(line.selected);
+    const FlowReport report = evolve_with_progress(mesh, selection, line);
 
     file.write(mesh, output.stage(), output.folder());
     if (report_file) report_file->stage_text(report_json(line, report));
     output.commit();
     if (report_file) report_file->commit();
     if (!line.quiet) std::cout << summary(line, report) << std::flush;
-    const std::string shortcoming = warning(line, report);
-    if (!shortcoming.empty()) complain("warning: " + shortcoming);
+    for (const std::string& shortcoming : warnings(line, report)) {
+        complain("warning: " + shortcoming);
+    }
 }
 
 int fail(ExitCode code, std::string message) {

@@ -5,6 +5,7 @@
 
 #include "filter_tracked_mcf/mesh_bridge/mesh_bridge.h"
 #include "filter_tracked_mcf/tool/documents/mesh_document.h"
+#include "filter_tracked_mcf/tool/face_selection.h"
 #include "filter_tracked_mcf/tool/file_error.h"
 #include "filter_tracked_mcf/tool/vcglib_reading.h"
 #include "filter_tracked_mcf/tool/vcglib_writing.h"
@@ -39,12 +40,21 @@ std::unique_ptr<MeshDocument> document_of(const fs::path& path) {
 class MeshFile::Content {
 public:
     explicit Content(const fs::path& path)
-        : folder_(fs::absolute(path).parent_path()),
+        : path_(path),
+          folder_(fs::absolute(path).parent_path()),
           extension_(lower_case_extension(path)),
           document_(document_of(path)),
           mask_(read_with_vcglib(path, document_.get(), mesh_)) {}
 
     TriangleMesh triangle_mesh() const { return to_triangle_mesh(mesh_); }
+
+    Selection selection_by(const std::string& name) const {
+        if (const auto* const ply = dynamic_cast<const PlyDocument*>(document_.get())) {
+            return selected_triangles(*ply, name, path_.string());
+        }
+        throw InvalidParameter("--selected needs a PLY file, and " + path_.string() +
+                               " is none; only PLY has properties to select by.");
+    }
 
     void write(const TriangleMesh& moved, const fs::path& file, const fs::path& final_folder) {
         const FolderChange change{folder_, final_folder};
@@ -76,7 +86,7 @@ private:
         }
     }
 
-    fs::path folder_;
+    fs::path path_, folder_;
     std::string extension_;
     std::unique_ptr<MeshDocument> document_;  ///< null for STL
     VcglibMesh mesh_;
@@ -89,6 +99,10 @@ MeshFile::~MeshFile() = default;
 
 TriangleMesh MeshFile::triangle_mesh() const {
     return content_->triangle_mesh();
+}
+
+Selection MeshFile::selection_by(const std::string& name) const {
+    return content_->selection_by(name);
 }
 
 void MeshFile::write(const TriangleMesh& moved, const fs::path& file,

@@ -2,7 +2,9 @@
 
 #include <filesystem>
 #include <memory>
+#include <string>
 
+#include "filter_tracked_mcf/core/domain.h"
 #include "filter_tracked_mcf/core/triangle_mesh.h"
 
 namespace tracked_mcf {
@@ -27,6 +29,10 @@ public:
 
     /// The vertices in the order of the file, and its faces.
     TriangleMesh triangle_mesh() const;
+
+    /// Which of its triangles the property `name` of a PLY file selects (face_selection.h). Throws
+    /// InvalidParameter, for files of other formats too, or InvalidMesh.
+    Selection selection_by(const std::string& name) const;
 
     /// Writes the mesh with the positions of `moved`, which triangle_mesh() made, in the format of
     /// `file`'s extension; PLY and STL are binary. Files that it needs (the material library of an

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "filter_tracked_mcf/parameters/early_stop.h"
 #include "filter_tracked_mcf/parameters/shortfall.h"
 
 namespace tracked_mcf {
@@ -13,11 +14,16 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json parameters_json(const FlowParameters& parameters) {
+Json parameters_json(const CommandLine& line) {
+    const FlowParameters& parameters = line.parameters;
     return {{"depth", parameters.depth},
             {"step_size", parameters.step_size},
+            {"absolute", parameters.absolute},
             {"iterations", parameters.iterations},
+            {"flow", flow_name(parameters.flow)},
             {"boundary", boundary_name(parameters.boundary)},
+            {"selected", line.selected.empty() ? Json() : Json(line.selected)},
+            {"rescale", rescaling_name(parameters.rescale)},
             {"separate_sheets", parameters.separate_sheets},
             {"cubature", cubature_name(parameters.cubature)},
             {"solver", solver_name(parameters.solver)},
@@ -25,6 +31,11 @@ Json parameters_json(const FlowParameters& parameters) {
             {"stabilization", stabilization_of(parameters)},
             {"cycles", parameters.cycles},
             {"threads", parameters.threads}};
+}
+
+const char* stop_name(Stop stop) {
+    if (stop == Stop::Vanished) return "vanished";
+    return stop == Stop::NothingMoves ? "nothing moves" : "none";
 }
 
 Json step_json(const StepReport& step, Solver solver) {
@@ -42,7 +53,6 @@ Json step_json(const StepReport& step, Solver solver) {
 
 /// How the steps were solved, such as "4 to 6 iterations of conjugate gradients".
 std::string effort(const FlowParameters& parameters, const std::vector<StepReport>& steps) {
-    if (steps.empty()) return "nothing";
     const auto [least, most] = std::minmax_element(
         steps.begin(), steps.end(),
         [](const auto& a, const auto& b) { return a.solver_iterations < b.solver_iterations; });
@@ -74,11 +84,12 @@ std::string report_json(const CommandLine& line, const FlowReport& report) {
                        {"version", program_version()},
                        {"input", line.input.string()},
                        {"output", line.output.string()},
-                       {"parameters", parameters_json(line.parameters)},
+                       {"parameters", parameters_json(line)},
                        {"vertices", report.vertices},
                        {"triangles", report.triangles},
                        {"degenerate_triangles", report.degenerate_triangles},
                        {"boundary_edges", report.boundary_edges},
+                       {"held_vertices", report.held_vertices},
                        {"depth", report.depth},
                        {"cell_size", report.cell_size},
                        {"cells", report.cells},
@@ -88,8 +99,11 @@ std::string report_json(const CommandLine& line, const FlowReport& report) {
                        {"fragments", report.fragments},
                        {"split_triangles", report.split_triangles},
                        {"samples", report.samples},
+                       {"area_before", report.area_before},
+                       {"area_after", report.area_after},
                        {"setup_seconds", report.setup_seconds},
                        {"steps", steps},
+                       {"stop", stop_name(report.stop)},
                        {"peak_memory_bytes", report.peak_memory_bytes}};
     // File names need not be UTF-8, JSON must be.
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
@@ -106,19 +120,29 @@ std::string summary(const CommandLine& line, const FlowReport& report) {
          << " unknowns";
     if (report.locked_unknowns > 0)
         text << ", of which " << report.locked_unknowns << " are locked";
-    text << "\nsolved by " << effort(line.parameters, report.steps) << " in each step\n"
-         << report.steps.size() << " steps of " << line.parameters.step_size << " in " << std::fixed
+    if (report.held_vertices > 0) text << "\n" << report.held_vertices << " vertices are held";
+    if (!report.steps.empty())
+        text << "\nsolved by " << effort(line.parameters, report.steps) << " in each step";
+    text << "\n"
+         << report.steps.size() << (report.steps.size() == 1 ? " step of " : " steps of ")
+         << line.parameters.step_size
+         << (line.parameters.absolute ? " squared units of the mesh in " : " in ") << std::fixed
          << std::setprecision(1) << total_seconds(report) << " s: " << line.output.string() << "\n";
     return text.str();
 }
 
-std::string warning(const CommandLine& line, const FlowReport& report) {
-    std::string text = shortfall(report, line.parameters.tolerance);
-    if (text.empty()) return text;
-    const char* const advice = stabilization_of(line.parameters) < kDefaultStabilization
-                                   ? " Give a larger --stabilization or --tolerance."
-                                   : " Give a larger --tolerance or a smaller --step-size.";
-    return text + advice;
+std::vector<std::string> warnings(const CommandLine& line, const FlowReport& report) {
+    std::vector<std::string> result;
+    const std::string stop = early_stop(report, line.parameters.iterations);
+    if (!stop.empty()) result.push_back(stop);
+    const std::string short_steps = shortfall(report, line.parameters.tolerance);
+    if (!short_steps.empty()) {
+        const char* const advice = stabilization_of(line.parameters) < kDefaultStabilization
+                                       ? " Give a larger --stabilization or --tolerance."
+                                       : " Give a larger --tolerance or a smaller --step-size.";
+        result.push_back(short_steps + advice);
+    }
+    return result;
 }
 
 }  // namespace tracked_mcf

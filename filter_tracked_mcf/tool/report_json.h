@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "filter_tracked_mcf/core/flow_report.h"
 #include "filter_tracked_mcf/tool/command_line.h"
@@ -13,10 +14,10 @@ namespace tracked_mcf {
 /// say of it is then null.
 std::string report_json(const CommandLine& line, const FlowReport& report);
 
-/// The same for a person, in four lines.
+/// The same for a person, in a few lines.
 std::string summary(const CommandLine& line, const FlowReport& report);
 
-/// What the person must know even if no summary is wanted, in a line; empty if nothing.
-std::string warning(const CommandLine& line, const FlowReport& report);
+/// What the person must know even if no summary is wanted: a line each.
+std::vector<std::string> warnings(const CommandLine& line, const FlowReport& report);
 
 }  // namespace tracked_mcf

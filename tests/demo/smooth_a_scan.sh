@@ -11,7 +11,6 @@ build=$root/build
 demo=$build/demo
 hosts=$root/tests/hosts/legacy
 mesh=$build/cgal-meshes/bunny00.off
-depth=0 step_size=1e-5 iterations=10 boundary=0 # the filter's defaults; boundary 0: locked cells
 
 say() { printf '\n== %s\n' "$*"; }
 
@@ -28,7 +27,7 @@ mkdir -p "$demo"
 plugin=$build/filter_tracked_mcf/plugin/legacy/libfilter_tracked_mcf.so
 plugin_dir=$(sed -n 's/^MESHLAB_PLUGIN_DIR:PATH=//p' "$build/CMakeCache.txt")
 "$hosts/private_prefix.sh" "$demo/meshlab" "$plugin_dir" "$plugin"
-"$hosts/flow_script.sh" $depth $step_size $iterations $boundary > "$demo/smooth.mlx"
+"$hosts/flow_script.sh" > "$demo/smooth.mlx" # the filter's defaults
 rm -f "$demo/smooth.ply"
 if ! xvfb-run -a "$demo/meshlab/bin/meshlabserver" -i "$mesh" -s "$demo/smooth.mlx" \
     -o "$demo/smooth.ply" > "$demo/meshlabserver.log" 2>&1 || [ ! -e "$demo/smooth.ply" ] ||

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "filter_tracked_mcf/core/errors.h"
+#include "filter_tracked_mcf/parameters/early_stop.h"
 #include "filter_tracked_mcf/parameters/parameter_table.h"
 #include "filter_tracked_mcf/plugin/parameter_values.h"
 #include "filter_tracked_mcf/plugin/run_filter.h"
@@ -15,15 +16,20 @@ namespace tracked_mcf {
 namespace {
 
 ParameterValues values_other_than_default() {
-    return {{"depth", 7},    {"step_size", 2e-4},        {"iterations", 3},
-            {"boundary", 1}, {"separate_sheets", false}, {"solver", 1}};
+    return {{"depth", 7},  {"step_size", 2e-4},       {"absolute", true}, {"iterations", 3},
+            {"flow", 1},   {"boundary", 2},           {"selected", true}, {"rescale", 1},
+            {"solver", 1}, {"separate_sheets", false}};
 }
 
 TEST(ParameterValues, EveryParameterOfTheTableIsRead) {
     for (const ParameterDescription& parameter : parameter_table()) {
         ParameterValues values = values_other_than_default();
         values.erase(parameter.name);
-        EXPECT_THROW(flow_parameters(values), InvalidParameter) << parameter.name;
+        const auto read = [&] {
+            flow_parameters(values);
+            selected_only(values);
+        };
+        EXPECT_THROW(read(), InvalidParameter) << parameter.name;
     }
 }
 
@@ -31,10 +37,37 @@ TEST(ParameterValues, ReachTheCoreUnchanged) {
     const FlowParameters parameters = flow_parameters(values_other_than_default());
     EXPECT_EQ(parameters.depth, 7);
     EXPECT_EQ(parameters.step_size, 2e-4);
+    EXPECT_TRUE(parameters.absolute);
     EXPECT_EQ(parameters.iterations, 3);
+    EXPECT_EQ(parameters.flow, FlowKind::Conformalized);
     EXPECT_EQ(parameters.boundary, BoundaryCondition::Free);
+    EXPECT_EQ(parameters.rescale, Rescaling::KeepArea);
     EXPECT_FALSE(parameters.separate_sheets);
     EXPECT_EQ(parameters.solver, Solver::OneWCycle);
+}
+
+TEST(ParameterValues, LabelsAreThoseOfTheCoresValues) {
+    const std::map<std::string, std::pair<int, std::string>> labels = {
+        {"flow", {static_cast<int>(FlowKind::Conformalized), "Conformalized"}},
+        {"boundary", {static_cast<int>(BoundaryCondition::LockedCells), "Locked cells (paper)"}},
+        {"rescale", {static_cast<int>(Rescaling::KeepVolume), "Keep volume"}},
+        {"solver", {static_cast<int>(Solver::OneWCycle), "One W-cycle (paper)"}}};
+    for (const ParameterDescription& parameter : parameter_table()) {
+        const auto* const choice = std::get_if<ParameterDescription::Choice>(&parameter.type);
+        if (choice == nullptr) continue;
+        const auto& [index, label] = labels.at(parameter.name);
+        EXPECT_EQ(choice->labels.at(static_cast<std::size_t>(index)), label);
+        EXPECT_EQ(choice->default_value, 0) << parameter.name;
+    }
+}
+
+TEST(ParameterValues, WhetherOnlyTheSelectionFlowsIsRead) {
+    ParameterValues values = values_other_than_default();
+    EXPECT_TRUE(selected_only(values));
+    values["selected"] = false;
+    EXPECT_FALSE(selected_only(values));
+    values["selected"] = 1;
+    EXPECT_THROW(selected_only(values), InvalidParameter);
 }
 
 TEST(ParameterValues, OneWCycleIsThePapersSystem) {
@@ -46,7 +79,7 @@ TEST(ParameterValues, OneWCycleIsThePapersSystem) {
 }
 
 TEST(ParameterValues, AChoiceWithoutALabelIsRefusedWithTheLabels) {
-    for (const int index : {-1, 2, std::numeric_limits<int>::max()}) {
+    for (const int index : {-1, 3, std::numeric_limits<int>::max()}) {
         ParameterValues values = values_other_than_default();
         values["boundary"] = index;
         try {
@@ -54,14 +87,15 @@ TEST(ParameterValues, AChoiceWithoutALabelIsRefusedWithTheLabels) {
             ADD_FAILURE() << index << " was accepted";
         } catch (const InvalidParameter& error) {
             EXPECT_EQ(error.what(), "boundary is " + std::to_string(index) +
-                                        "; give 0 (Locked cells), 1 (Free).");
+                                        "; give 0 (Locked), 1 (Locked cells (paper)), 2 (Free).");
         }
     }
 }
 
 TEST(ParameterValues, AValueOfTheWrongTypeIsRefused) {
     const std::map<std::string, ParameterValue> wrong = {
-        {"step_size", 1}, {"separate_sheets", 1}, {"solver", true}, {"depth", 3.0}};
+        {"step_size", 1}, {"absolute", 0},  {"separate_sheets", 1}, {"solver", true},
+        {"flow", false},  {"rescale", 0.0}, {"depth", 3.0}};
     for (const auto& [name, value] : wrong) {
         ParameterValues values = values_other_than_default();
         values[name] = value;
@@ -92,6 +126,50 @@ TEST(Summary, SaysWhichStepStoppedShortOfTheToleranceAndWhatToDo) {
                         "steps: step 4, at 0.02 after 100 iterations. Look at the result; "),
               std::string::npos)
         << text;
+}
+
+TEST(Summary, TellsTheFlowAndWhatIsHeld) {
+    using run_filter_detail::summary;
+    FlowParameters parameters;
+    FlowReport report;
+    report.vertices = 100;
+    report.steps.resize(10);
+    EXPECT_EQ(summary(parameters, report).find("Smoothed 100 vertices by 10 steps of mean-curv"),
+              0u);
+    parameters.flow = FlowKind::Conformalized;
+    report.held_vertices = 12;
+    EXPECT_EQ(summary(parameters, report)
+                  .find("Smoothed 100 vertices, of which 12 are held, by 10 steps of conformalized "
+                        "mean-curvature flow: "),
+              0u);
+}
+
+TEST(Summary, SaysWhereTheFlowStoppedAndWhy) {
+    FlowReport report;
+    report.steps.resize(3);
+    report.stop = Stop::Vanished;
+    const std::string text = run_filter_detail::summary({}, report);
+    EXPECT_NE(text.find("by 3 steps"), std::string::npos) << text;
+    EXPECT_NE(text.find(" Warning: The flow stopped after step 3 of 10: step 4 would have left no "
+                        "surface."),
+              std::string::npos)
+        << text;
+}
+
+TEST(EarlyStop, SaysWhenWhyAndWhatToDo) {
+    FlowReport report;
+    EXPECT_EQ(early_stop(report, 10), "");
+    report.stop = Stop::Vanished;
+    EXPECT_EQ(early_stop(report, 10),
+              "Nothing has moved: the first step would have left no surface. Take a smaller step "
+              "size.");
+    report.stop = Stop::NothingMoves;
+    EXPECT_EQ(early_stop(report, 10),
+              "Nothing has moved: everything is in grid cells that are locked. Take a greater "
+              "depth, or another boundary.");
+    report.steps.resize(1);
+    EXPECT_EQ(early_stop(report, 10),
+              "The flow stopped after step 1 of 10: everything that could move has pinched.");
 }
 
 TEST(Guard, TurnsEveryExceptionIntoAMessage) {

@@ -75,6 +75,19 @@ TYPED_TEST(MeshBridge, MarksEveryKindOfDamagedReference) {
     EXPECT_THROW(validate(result), InvalidMesh);
 }
 
+TYPED_TEST(MeshBridge, FindsSelectedFacesWhateverTheCountersSay) {
+    EXPECT_FALSE(has_selected_faces(this->mesh));
+    EXPECT_EQ(selected_faces(this->mesh), (Selection{0, 0, 0}));
+    this->mesh.face[1].SetS();
+    EXPECT_TRUE(has_selected_faces(this->mesh));
+    EXPECT_EQ(selected_faces(this->mesh), (Selection{0, 1, 0}));
+    this->mesh.face[2].SetS();
+    TestFixture::Allocator::DeleteFace(this->mesh, this->mesh.face[1]);
+    EXPECT_EQ(selected_faces(this->mesh), (Selection{0, 1}));
+    TestFixture::Allocator::DeleteFace(this->mesh, this->mesh.face[2]);
+    EXPECT_FALSE(has_selected_faces(this->mesh));
+}
+
 TYPED_TEST(MeshBridge, WritesPositionsPastDeletedVertices) {
     TestFixture::Allocator::DeleteVertex(this->mesh, this->mesh.vert[1]);
     const auto deleted = this->mesh.vert[1].cP();

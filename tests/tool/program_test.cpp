@@ -120,6 +120,82 @@ TEST_F(Program, SheetsHaveFunctionsOfTheirOwnUnlessSwitchedOff) {
     EXPECT_EQ(unknowns(""), unknowns("--separate-sheets on"));
 }
 
+TEST_F(Program, AbsoluteStepsAreInSquaredUnitsOfTheMesh) {
+    std::string wide = kTetrahedron;
+    for (const char* from : {"1 0 0", "0 1 0", "0 0 1"}) {
+        std::string to = from;
+        to[to.find('1')] = '4';
+        wide.replace(wide.find(std::string("\n") + from) + 1, 5, to);
+    }
+    write_file(folder_ / "wide.off", wide);
+    const auto positions = [&](const std::string& options) {
+        const ProgramRun result = run(options + " --depth 4");
+        EXPECT_EQ(result.exit_code, 0) << result.errors;
+        return read_file(folder_ / "b.off");
+    };
+    const std::string relative = positions("wide.off b.off --step-size 0.0009765625");
+    EXPECT_EQ(positions("wide.off b.off --step-size 0.015625 --absolute"), relative);
+    EXPECT_NE(positions("wide.off b.off --step-size 0.015625"), relative);
+}
+
+TEST_F(Program, RescalingKeepsAreaOrVolume) {
+    const auto kept = [&](const char* name, auto measure) {
+        const ProgramRun result =
+            run("a.off b.off --depth 5 --step-size 1e-2 --iterations 50 "
+                "--rescale " +
+                std::string(name));
+        EXPECT_EQ(result.exit_code, 0) << result.errors;
+        const double before = measure(MeshFile(folder_ / "a.off").triangle_mesh());
+        EXPECT_NEAR(measure(MeshFile(folder_ / "b.off").triangle_mesh()), before, 1e-6 * before);
+    };
+    kept("area", [](const TriangleMesh& mesh) { return surface_area(mesh); });
+    kept("volume", [](const TriangleMesh& mesh) { return enclosed_volume(mesh); });
+}
+
+TEST_F(Program, AnOpenSurfaceHasNoVolumeToKeepNorGoesHoldingWithRescaling) {
+    write_file(folder_ / "grid.off", grid(5));
+    ProgramRun result = run("grid.off b.ply --boundary free --rescale volume");
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_THAT(result.errors, HasSubstr("The volume cannot be kept, for the surface is open"));
+    result = run("grid.off b.ply --rescale area");
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_THAT(result.errors, HasSubstr("rescale would move what is held"));
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "b.ply"));
+}
+
+TEST_F(Program, AFlowThatVanishesStopsWithAWarningAndItsLastGoodPositions) {
+    const ProgramRun result =
+        run("a.off b.ply --depth 4 --step-size 0.1 --iterations 100 --report r.json --quiet");
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_THAT(result.output, IsEmpty());
+    EXPECT_THAT(result.errors, StartsWith("tracked_mcf: warning: The flow stopped after step "));
+    EXPECT_EQ(result.errors.find('\n'), result.errors.size() - 1) << "one line";
+    EXPECT_THAT(read_file(folder_ / "r.json"), HasSubstr("\"stop\": \"vanished\""));
+    EXPECT_GT(area("b.ply"), 0);
+}
+
+TEST_F(Program, ALockThatHoldsEverythingIsAWarning) {
+    write_file(folder_ / "grid.off", grid(5));
+    const ProgramRun result = run("grid.off b.off --depth 1 --boundary locked-cells");
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_EQ(result.errors,
+              "tracked_mcf: warning: Nothing has moved: everything is in grid cells that are "
+              "locked. Take a greater depth, or another boundary.\n");
+    EXPECT_THAT(result.output, HasSubstr("\n16 vertices are held\n0 steps of 1e-05 in "));
+}
+
+TEST_F(Program, FlowsDiffer) {
+    const auto smoothed = [&](const std::string& options) {
+        const ProgramRun result = run("a.off b.off --depth 4 --step-size 1e-3 " + options);
+        EXPECT_EQ(result.exit_code, 0) << result.errors;
+        return read_file(folder_ / "b.off");
+    };
+    const std::string by_default = smoothed("");
+    EXPECT_EQ(smoothed("--flow mean-curvature"), by_default);
+    EXPECT_NE(smoothed("--flow conformalized"), by_default);
+    EXPECT_EQ(smoothed("--flow conformalized --iterations 1"), smoothed("--iterations 1"));
+}
+
 TEST_F(Program, ReplacesItsInputWhenAsked) {
     const double before = area("a.off");
     EXPECT_EQ(run("a.off a.off --depth 4 --step-size 1e-3").exit_code, 0);
@@ -154,6 +230,11 @@ TEST_F(Program, WrongUseExitsWith2) {
                                   "a.off b.ply --cycles 0",
                                   "a.off b.ply --threads -1",
                                   "a.off b.ply --boundary x",
+                                  "a.off b.ply --flow x",
+                                  "a.off b.ply --rescale x",
+                                  "a.off b.ply --selected flags",
+                                  "a.off b.ply --absolute --step-size inf",
+                                  "a.off b.ply --absolute --step-size 0",
                                   "a.off b.ply --solver cg",
                                   "a.off b.ply --separate-sheets maybe",
                                   "a.off b.ply --tolerance 0",

@@ -18,8 +18,12 @@ TEST(Report, HoldsEveryMemberUnderItsName) {
     line.output = "out.obj";
     line.parameters.depth = 7;
     line.parameters.step_size = 2e-4;
+    line.parameters.absolute = true;
     line.parameters.iterations = 3;
+    line.parameters.flow = FlowKind::Conformalized;
     line.parameters.boundary = BoundaryCondition::Free;
+    line.selected = "q";
+    line.parameters.rescale = Rescaling::KeepArea;
     line.parameters.separate_sheets = false;
     line.parameters.cubature = Cubature::Degree6;
     line.parameters.tolerance = 0.5;
@@ -31,6 +35,7 @@ TEST(Report, HoldsEveryMemberUnderItsName) {
     report.triangles = 2;
     report.degenerate_triangles = 3;
     report.boundary_edges = 4;
+    report.held_vertices = 15;
     report.depth = 5;
     report.cell_size = 6.5;
     report.cells = 7;
@@ -40,17 +45,22 @@ TEST(Report, HoldsEveryMemberUnderItsName) {
     report.fragments = 10;
     report.split_triangles = 11;
     report.samples = 12;
+    report.area_before = 20.5;
+    report.area_after = 19.5;
     report.setup_seconds = 13.5;
     report.steps = {{0.5, 0.25, 1e-3, 1e-6, 6, 0.125, true, 12.5, 1},
                     {0.75, 0.125, 1e-4, 1e-7, 100, 0.75, false, 11.5, 2}};
+    report.stop = Stop::Vanished;
     report.peak_memory_bytes = std::int64_t{1} << 40;
     const Json expected = Json::parse(R"({
         "program": "tracked_mcf", "version": ")" TRACKED_MCF_VERSION R"(",
         "input": "in.ply", "output": "out.obj",
-        "parameters": {"depth": 7, "step_size": 2e-4, "iterations": 3, "boundary": "free",
-                       "separate_sheets": false, "cubature": 11, "solver": "converged",
+        "parameters": {"depth": 7, "step_size": 2e-4, "absolute": true, "iterations": 3,
+                       "flow": "conformalized", "boundary": "free", "selected": "q",
+                       "rescale": "area", "separate_sheets": false, "cubature": 11, "solver": "converged",
                        "tolerance": 0.5, "stabilization": 0.25, "cycles": 2, "threads": 1},
         "vertices": 1, "triangles": 2, "degenerate_triangles": 3, "boundary_edges": 4,
+        "held_vertices": 15, "area_before": 20.5, "area_after": 19.5, "stop": "vanished",
         "depth": 5, "cell_size": 6.5, "cells": 7, "elements": 14, "unknowns": 8, "locked_unknowns": 9,
         "fragments": 10, "split_triangles": 11, "samples": 12, "setup_seconds": 13.5,
         "steps": [{"assemble_seconds": 0.5, "solve_seconds": 0.25, "residual_before": 1e-3,
@@ -109,23 +119,66 @@ TEST(Summary, TellsTheSolversIterations) {
     EXPECT_EQ(line_on_solving(Solver::OneWCycle, {3, 3}), "solved by 3 W-cycles in each step");
 }
 
-TEST(Warning, NamesTheWorstStepThatStoppedShort) {
+TEST(Summary, TellsWhatIsHeldAndInWhichUnitsStepsAre) {
+    CommandLine line;
+    line.parameters.step_size = 0.25;
+    FlowReport report;
+    EXPECT_EQ(summary(line, report).find("held"), std::string::npos);
+    EXPECT_NE(summary(line, report).find("0 steps of 0.25 in "), std::string::npos);
+    report.held_vertices = 7;
+    line.parameters.absolute = true;
+    EXPECT_NE(summary(line, report).find("\n7 vertices are held\n0 steps of 0.25 squared units"),
+              std::string::npos)
+        << summary(line, report);
+}
+
+TEST(Report, NamesEveryWayToStop) {
+    FlowReport report;
+    const auto stop = [&] { return Json::parse(report_json({}, report))["stop"]; };
+    EXPECT_EQ(stop(), "none");
+    report.stop = Stop::Vanished;
+    EXPECT_EQ(stop(), "vanished");
+    report.stop = Stop::NothingMoves;
+    EXPECT_EQ(stop(), "nothing moves");
+}
+
+TEST(Report, SelectedIsNullUnlessGiven) {
+    EXPECT_TRUE(Json::parse(report_json({}, {}))["parameters"]["selected"].is_null());
+}
+
+TEST(Warnings, NameTheWorstStepThatStoppedShort) {
     CommandLine line;
     FlowReport report;
     report.steps.resize(4);
-    EXPECT_EQ(warning(line, report), "");
+    EXPECT_TRUE(warnings(line, report).empty());
     report.steps[2].relative_residual = 0.0321;
     report.steps[2].solver_iterations = 100;
     report.steps[2].reached_tolerance = false;
-    EXPECT_EQ(warning(line, report),
-              "The solver stopped short of the tolerance 0.001 in 1 of 4 steps: step 3, at 0.032 "
-              "after 100 iterations. Give a larger --tolerance or a smaller --step-size.");
+    EXPECT_EQ(warnings(line, report),
+              std::vector<std::string>{
+                  "The solver stopped short of the tolerance 0.001 in 1 of 4 steps: step 3, at "
+                  "0.032 after 100 iterations. Give a larger --tolerance or a smaller "
+                  "--step-size."});
     report.steps[1] = report.steps[2];
     report.steps[1].relative_residual = 0.5;
     line.parameters.stabilization = 0;
-    EXPECT_EQ(warning(line, report),
-              "The solver stopped short of the tolerance 0.001 in 2 of 4 steps: the worst is step "
-              "2, at 0.5 after 100 iterations. Give a larger --stabilization or --tolerance.");
+    EXPECT_EQ(warnings(line, report),
+              std::vector<std::string>{
+                  "The solver stopped short of the tolerance 0.001 in 2 of 4 steps: the worst is "
+                  "step 2, at 0.5 after 100 iterations. Give a larger --stabilization or "
+                  "--tolerance."});
+}
+
+TEST(Warnings, SayThatTheFlowStopped) {
+    CommandLine line;
+    FlowReport report;
+    report.steps.resize(4);
+    report.stop = Stop::NothingMoves;
+    report.steps[0].reached_tolerance = false;
+    const std::vector<std::string> lines = warnings(line, report);
+    ASSERT_EQ(lines.size(), 2u);
+    EXPECT_EQ(lines[0],
+              "The flow stopped after step 4 of 10: everything that could move has pinched.");
 }
 
 TEST(Report, IsJsonWhateverTheFileNames) {

@@ -14,6 +14,7 @@ constexpr int kMeanCurvatureFlow = 0;
 using Integer = ParameterDescription::Integer;
 using Real = ParameterDescription::Real;
 using Boolean = ParameterDescription::Boolean;
+using SelectionSwitch = ParameterDescription::SelectionSwitch;
 using Choice = ParameterDescription::Choice;
 
 QString text(const std::string& string) {
@@ -29,6 +30,7 @@ QStringList texts(const std::vector<std::string>& strings) {
 /// Adds a description of the table to what a dialog shows.
 struct AddParameter {
     RichParameterList& list;
+    bool has_selection;
     const ParameterDescription& description;
 
     void operator()(const Integer& type) const { add<RichInt>(type.default_value); }
@@ -36,6 +38,7 @@ struct AddParameter {
         add<RichFloat>(static_cast<float>(type.default_value));
     }
     void operator()(const Boolean& type) const { add<RichBool>(type.default_value); }
+    void operator()(const SelectionSwitch&) const { add<RichBool>(has_selection); }
     void operator()(const Choice& type) const {
         add<RichEnum>(type.default_value, texts(type.labels));
     }
@@ -62,6 +65,7 @@ struct ReadValue {
     Result operator()(const Boolean&) const {
         return value.isBool() ? Result(value.getBool()) : std::nullopt;
     }
+    Result operator()(const SelectionSwitch&) const { return operator()(Boolean()); }
     Result operator()(const Choice&) const {
         return value.isEnum() ? Result(value.getEnum()) : std::nullopt;
     }
@@ -116,11 +120,13 @@ int TrackedMcfPlugin::postCondition(QAction*) const {
     return MeshModel::MM_VERTCOORD | MeshModel::MM_VERTNORMAL | MeshModel::MM_FACENORMAL;
 }
 
-// Of the two overloads this is the one that hosts call; it must not look at the current layer, for
-// meshlabserver calls it without one too.
-void TrackedMcfPlugin::initParameterSet(QAction*, MeshDocument&, RichParameterList& parameters) {
+// Of the two overloads this is the one that hosts call; meshlabserver does so without a layer.
+void TrackedMcfPlugin::initParameterSet(QAction*, MeshDocument& document,
+                                        RichParameterList& parameters) {
+    const MeshModel* const layer = document.mm();
+    const bool has_selection = layer != nullptr && has_selected_faces(layer->cm);
     for (const ParameterDescription& parameter : parameter_table()) {
-        std::visit(AddParameter{parameters, parameter}, parameter.type);
+        std::visit(AddParameter{parameters, has_selection, parameter}, parameter.type);
     }
 }
 

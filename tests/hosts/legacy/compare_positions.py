@@ -7,43 +7,14 @@ by a hundred times that.
 """
 
 import math
-import struct
 import sys
 
-CODES = {"char": "b", "uchar": "B", "short": "h", "ushort": "H", "int": "i", "uint": "I",
-         "float": "f", "double": "d", "float32": "f", "float64": "d", "uint8": "B", "int32": "i"}
-BYTE_ORDER = {"binary_little_endian": "<", "binary_big_endian": ">"}
-
-
-def read_header(file):
-    """The encoding, the number of vertices and the {name: type code} of their properties."""
-    encoding, count, properties, element = "", 0, {}, ""
-    for line in iter(file.readline, b"end_header\n"):
-        words = line.decode().split()
-        if words[0] == "format":
-            encoding = words[1]
-        elif words[0] == "element":
-            element = words[1]
-            count = int(words[2]) if element == "vertex" else count
-        elif words[0] == "property" and element == "vertex":
-            properties[words[2]] = CODES[words[1]]
-    return encoding, count, properties
-
-
-def read_rows(file, encoding, count, codes):
-    if encoding == "ascii":
-        return [[float(word) for word in file.readline().split()] for _ in range(count)]
-    row = struct.Struct(BYTE_ORDER[encoding] + "".join(codes))
-    return [row.unpack(file.read(row.size)) for _ in range(count)]
+from ply_file import positions, read_ply
 
 
 def read_coordinates(path):
     """x, y, z of the first vertex, then of the second, and so on."""
-    with open(path, "rb") as file:
-        encoding, count, properties = read_header(file)
-        columns = [list(properties).index(axis) for axis in "xyz"]
-        rows = read_rows(file, encoding, count, properties.values())
-    return [row[column] for row in rows for column in columns]
+    return [coordinate for point in positions(read_ply(path)) for coordinate in point]
 
 
 def float_ulp(number):

@@ -63,7 +63,7 @@ xdotool key shift+Tab shift+Tab space
 picture dialog_with_help
 xdotool key space sleep 0.5 key Tab Tab Tab Tab space
 wait_for "the preview shows the result" unlike before
-wait_for "the filter logs what it did" grep -q "steps of mean-curvature flow" "$out/log.txt"
+wait_for "the filter logs what it did" grep -q "mean-curvature flow" "$out/log.txt"
 picture preview
 surface previewed
 xdotool key space

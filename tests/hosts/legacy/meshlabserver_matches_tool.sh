@@ -1,28 +1,67 @@
 #!/usr/bin/env bash
-# Runs the filter with every value of every choice in stock meshlabserver and with the command-line tool on the
-# same mesh, and compares vertex by vertex:
+# Runs the filter with every value of every choice in stock meshlabserver and with the command-line
+# tool on the same mesh, and compares vertex by vertex; where the tool refuses, as it must refuse to
+# keep the volume of an open mesh, meshlabserver must do so in the same words:
 # meshlabserver_matches_tool.sh PREFIX TOOL MESH WORK_DIR
 set -euo pipefail
 
 here=$(dirname "$(realpath "$0")")
 prefix=$1 tool=$2 mesh=$3 work=$4
-depth=6 step_size=3e-5 iterations=5
+rm -rf "$work"
 mkdir -p "$work"
 
 # Through MeshLab once, so that both start from the same floats whatever the format.
 "$prefix/bin/meshlabserver" -i "$mesh" -o "$work/in.ply"
 
-compare() { # NAME BOUNDARY SEPARATE_SHEETS SOLVER TOOL_OPTIONS...
-    "$here/flow_script.sh" $depth $step_size $iterations "${@:2:3}" > "$work/$1.mlx"
-    "$prefix/bin/meshlabserver" -i "$work/in.ply" -s "$work/$1.mlx" -o "$work/plugin-$1.ply" |
-        tee "$work/log.txt"
-    grep -q "steps of mean-curvature flow" "$work/log.txt"
-    "$tool" "$work/in.ply" "$work/tool-$1.ply" --depth $depth --step-size $step_size \
-        --iterations $iterations "${@:5}" --quiet
+run() { # NAME PARAMETERS TOOL_OPTIONS: those as flow_script.sh takes them, these as the tool does
+    local parameters options plugin=0 ours=0
+    read -ra parameters <<< "depth=6 step_size=$step_size iterations=5 $2"
+    read -ra options <<< "--depth 6 --step-size $step_size --iterations 5 $3"
+    "$here/flow_script.sh" "${parameters[@]}" > "$work/$1.mlx"
+    "$prefix/bin/meshlabserver" -i "$work/in.ply" -s "$work/$1.mlx" -o "$work/plugin-$1.ply" \
+        > "$work/log.txt" 2>&1 || plugin=$?
+    "$tool" "$work/in.ply" "$work/tool-$1.ply" "${options[@]}" --quiet --report "$work/$1.json" \
+        2> "$work/errors.txt" || ours=$?
+    [ "$plugin $ours" = "0 0" ] || [[ "$plugin $ours" = "255 "[12] ]] || {
+        cat "$work/log.txt" "$work/errors.txt"
+        echo "$1: meshlabserver ends with $plugin, the tool with $ours"
+        exit 1
+    } >&2
+    return "$ours"
+}
+compare() { # NAME PARAMETERS TOOL_OPTIONS
+    run "$@"
+    grep -o "Smoothed .*" "$work/log.txt" | tail -n 1
     # Half a unit in the last place: the plugin's floats are the tool's doubles, rounded.
     "$here/compare_positions.py" "$work/plugin-$1.ply" "$work/tool-$1.ply" "$work/in.ply" 0.5
 }
-compare default 0 true 0
-compare free 1 true 0 --boundary free
-compare glued 0 false 0 --separate-sheets off
-compare paper 0 false 1 --separate-sheets off --solver w-cycle
+both_refuse() { # NAME PARAMETERS TOOL_OPTIONS
+    if run "$@"; then
+        echo "$1 was not refused" >&2
+        exit 1
+    fi
+    local message
+    message=$(sed 's/^tracked_mcf: //' "$work/errors.txt")
+    echo "both refuse: $message"
+    grep -qF "$message" "$work/log.txt"
+}
+step_size=3e-5
+compare default "" ""
+compare locked_cells boundary=1 "--boundary locked-cells"
+compare free boundary=2 "--boundary free"
+compare conformalized flow=1 "--flow conformalized"
+compare glued separate_sheets=false "--separate-sheets off"
+compare paper "boundary=1 separate_sheets=false solver=1" \
+    "--boundary locked-cells --separate-sheets off --solver w-cycle"
+compare area "boundary=2 rescale=1" "--boundary free --rescale area"
+if grep -q '"boundary_edges": 0,' "$work/default.json"; then
+    compare volume rescale=2 "--rescale volume"
+    compare sphere "flow=1 rescale=1" "--flow conformalized --rescale area"
+else
+    both_refuse volume_of_an_open_mesh "boundary=2 rescale=2" "--boundary free --rescale volume"
+    both_refuse rescaling_of_what_is_held rescale=1 "--rescale area"
+fi
+
+# A tenth of a squared cell, in units of the mesh.
+step_size=$(sed -n 's/^  "cell_size": \(.*\),$/\1/p' "$work/default.json" | awk '{printf "%.4g", $1 * $1 / 10}')
+compare absolute absolute=true --absolute

@@ -19,7 +19,7 @@ off infinite 4 2 "${square[@]:0:3}" "1 inf 0" "3 0 1 2" "3 1 3 2"
 off degenerate 4 2 "0 0 0" "1 0 0" "2 0 0" "3 0 0" "3 0 1 2" "3 1 3 2"
 
 failures=0
-refuses() { # MESSAGE MESH DEPTH STEP_SIZE ITERATIONS BOUNDARY [SEPARATE_SHEETS SOLVER]
+refuses() { # MESSAGE MESH [NAME=VALUE]...
     rm -f "$work/out.ply"
     "$here/flow_script.sh" "${@:3}" > "$work/script.mlx"
     local code=0
@@ -33,19 +33,24 @@ refuses() { # MESSAGE MESH DEPTH STEP_SIZE ITERATIONS BOUNDARY [SEPARATE_SHEETS 
         tail -n 5 "$work/log.txt"
     fi
 }
-refuses "mesh is empty" empty 0 1e-5 10 0
-refuses "no faces" no_faces 0 1e-5 10 0
-refuses "not a finite number" nan 0 1e-5 10 0
-refuses "not a finite number" infinite 0 1e-5 10 0
-refuses "faces are degenerate" degenerate 0 1e-5 10 0
-refuses "depth is -1" good -1 1e-5 10 0
-refuses "depth is 13" good 13 1e-5 10 0
-refuses "iterations is 0" good 0 1e-5 0 0
-refuses "step_size is 0" good 0 0 10 0
-refuses "step_size is -" good 0 -1e-5 10 0
-refuses "step_size is nan" good 0 nan 10 0
-refuses "boundary is 2" good 0 1e-5 10 2
-refuses "boundary is -1" good 0 1e-5 10 -1
-refuses "solver is 2" good 0 1e-5 10 0 true 2
-refuses "solver is -1" good 0 1e-5 10 0 true -1
+refuses "mesh is empty" empty
+refuses "no faces" no_faces
+refuses "not a finite number" nan
+refuses "not a finite number" infinite
+refuses "faces are degenerate" degenerate
+refuses "depth is -1" good depth=-1
+refuses "depth is 13" good depth=13
+refuses "iterations is 0" good iterations=0
+refuses "step_size is 0" good step_size=0
+refuses "step_size is -" good step_size=-1e-5
+refuses "step_size is nan" good step_size=nan
+refuses "step_size is nan" good step_size=nan absolute=true
+refuses "step_size is inf" good step_size=inf absolute=true
+for choice in flow=2 boundary=3 rescale=3 solver=2 flow=-1 boundary=-1 rescale=-1 solver=-1; do
+    refuses "${choice/=/ is }" good $choice
+done
+refuses "No face is selected; select" good selected=true
+refuses "No face is selected; select" good --select "x0 > 5"
+refuses "surface is open" good boundary=2 rescale=2
+refuses "rescale would move what is held" good rescale=1
 exit "$((failures > 0))"

@@ -34,6 +34,8 @@ protected:
         plugin().initParameterSet(action(), document, parameters);
         parameters.setValue("iterations", IntValue(2));
         parameters.setValue("depth", IntValue(4));
+        // Some faces of the layer are selected.
+        parameters.setValue("selected", BoolValue(false));
         plugin().setLog(&log);
     }
 
@@ -85,6 +87,9 @@ struct ExpectParameter {
     void operator()(const ParameterDescription::Boolean& expected) const {
         EXPECT_EQ(actual.stringType(), "RichBool");
         EXPECT_EQ(actual.value().getBool(), expected.default_value);
+    }
+    void operator()(const ParameterDescription::SelectionSwitch&) const {
+        EXPECT_EQ(actual.stringType(), "RichBool");
     }
     void operator()(const ParameterDescription::Choice& expected) const {
         ASSERT_EQ(actual.stringType(), "RichEnum");
@@ -147,9 +152,86 @@ TEST_F(Plugin, EveryParameterHasAnEffect) {
     };
     EXPECT_NE(with("depth", IntValue(3)), by_default);
     EXPECT_NE(with("step_size", FloatValue(1e-4f)), by_default);
+    EXPECT_NE(with("absolute", BoolValue(true)), by_default);
     EXPECT_NE(with("iterations", IntValue(1)), by_default);
+    EXPECT_NE(with("flow", EnumValue(1)), by_default);
+    EXPECT_NE(with("selected", BoolValue(true)), by_default);
+    EXPECT_NE(with("rescale", EnumValue(1)), by_default);
+    EXPECT_NE(with("rescale", EnumValue(2)), by_default);
+    EXPECT_NE(with("rescale", EnumValue(2)), with("rescale", EnumValue(1)));
     EXPECT_NE(with("separate_sheets", BoolValue(false)), by_default);
     EXPECT_NE(with("solver", EnumValue(1)), by_default);
+}
+
+TEST_F(Plugin, EveryBoundaryHasAnEffectOnAnOpenMesh) {
+    delete_first_vertex(layer);
+    const auto original = layer.cm.vert;
+    const auto with_boundary = [&](int boundary) {
+        for (std::size_t i = 0; i < original.size(); ++i) layer.cm.vert[i].P() = original[i].cP();
+        parameters.setValue("boundary", EnumValue(boundary));
+        EXPECT_TRUE(apply()) << log_text().toStdString();
+        return position_bits(layer);
+    };
+    const auto locked = with_boundary(0), cells = with_boundary(1), free = with_boundary(2);
+    EXPECT_NE(locked, cells);
+    EXPECT_NE(locked, free);
+    EXPECT_NE(cells, free);
+}
+
+TEST_F(Plugin, SelectedIsOnAtFirstIfFacesAreSelected) {
+    const auto is_on_at_first = [&] {
+        RichParameterList defaults;
+        plugin().initParameterSet(action(), document, defaults);
+        return defaults.getBool("selected");
+    };
+    layer.cm.sfn = 0;
+    EXPECT_TRUE(is_on_at_first()) << "whatever the counter says";
+    for (CFaceO& face : layer.cm.face) face.ClearS();
+    layer.cm.sfn = 17;
+    EXPECT_FALSE(is_on_at_first());
+    layer.cm.face[3].SetS();
+    vcg::tri::Allocator<CMeshO>::DeleteFace(layer.cm, layer.cm.face[3]);
+    EXPECT_FALSE(is_on_at_first()) << "by a deleted face";
+}
+
+TEST_F(Plugin, OnlySelectedFacesMove) {
+    // Half of the torus.
+    std::vector<bool> stays(layer.cm.vert.size(), false);
+    for (CFaceO& face : layer.cm.face) {
+        const bool selected = face.cV(0)->cP()[0] > 0;
+        selected ? face.SetS() : face.ClearS();
+        for (int corner = 0; !selected && corner < 3; ++corner) {
+            stays[vcg::tri::Index(layer.cm, face.cV(corner))] = true;
+        }
+    }
+    parameters.setValue("selected", BoolValue(true));
+    const Belongings belongings(layer);
+    const auto before = position_bits(layer);
+    ASSERT_TRUE(apply()) << log_text().toStdString();
+    const auto after = position_bits(layer);
+    for (std::size_t i = 0; i < before.size(); ++i) EXPECT_EQ(before[i] == after[i], stays[i]) << i;
+    EXPECT_TRUE(Belongings(layer) == belongings);
+    EXPECT_TRUE(log_text().contains("are held")) << log_text().toStdString();
+}
+
+TEST_F(Plugin, ABoundaryKeepsItsBits) {
+    delete_first_vertex(layer);
+    const Belongings belongings(layer);
+    const auto before = position_bits(layer);
+    ASSERT_TRUE(apply()) << log_text().toStdString();
+    const auto after = position_bits(layer);
+    std::size_t kept = 0;
+    for (std::size_t i = 1; i < before.size(); ++i) kept += before[i] == after[i] ? 1 : 0;
+    EXPECT_EQ(kept, 6u) << "the neighbours of the vertex that is missing";
+    EXPECT_TRUE(Belongings(layer) == belongings);
+}
+
+TEST_F(Plugin, AFlowThatVanishesSucceedsAndSaysSo) {
+    parameters.setValue("step_size", FloatValue(1e3f));
+    parameters.setValue("iterations", IntValue(100));
+    const auto before = position_bits(layer);
+    ASSERT_TRUE(apply()) << log_text().toStdString();
+    EXPECT_TRUE(log_text().contains("Warning: ")) << log_text().toStdString();
 }
 
 TEST_F(Plugin, UpdatesBoxAndNormals) {
@@ -281,6 +363,30 @@ auto replace(const char* name, Number value) {
     };
 }
 
+void select_nothing(MeshModel& layer, RichParameterList& list) {
+    for (CFaceO& face : layer.cm.face) face.ClearS();
+    layer.cm.sfn = 17;  // out of date, as hosts leave it
+    list.setValue("selected", BoolValue(true));
+}
+
+void rescale_the_selection(MeshModel&, RichParameterList& list) {
+    list.setValue("selected", BoolValue(true));
+    list.setValue("rescale", EnumValue(1));
+}
+
+void keep_the_volume_of_an_open_mesh(MeshModel& layer, RichParameterList& list) {
+    vcg::tri::Allocator<CMeshO>::DeleteFace(layer.cm, layer.cm.face[7]);
+    list.setValue("boundary", EnumValue(2));
+    list.setValue("rescale", EnumValue(2));
+}
+
+auto set_absolute_step_size(float value) {
+    return [=](MeshModel&, RichParameterList& list) {
+        list.setValue("absolute", BoolValue(true));
+        list.setValue("step_size", FloatValue(value));
+    };
+}
+
 INSTANTIATE_TEST_SUITE_P(
     BadInputs, PluginRefuses,
     testing::Values(
@@ -298,8 +404,19 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"StepSizeNegative", set<FloatValue>("step_size", -1e-5f), "step_size"},
         BadInput{"StepSizeNaN", set<FloatValue>("step_size", kNaN), "step_size"},
         BadInput{"StepSizeInfinite", set<FloatValue>("step_size", kInfinity), "step_size"},
-        BadInput{"BoundaryTooLarge", set<EnumValue>("boundary", 2), "boundary"},
+        BadInput{"BoundaryTooLarge", set<EnumValue>("boundary", 3), "boundary"},
         BadInput{"BoundaryNegative", set<EnumValue>("boundary", -1), "boundary"},
+        BadInput{"FlowTooLarge", set<EnumValue>("flow", 2), "flow"},
+        BadInput{"FlowNegative", set<EnumValue>("flow", -1), "flow"},
+        BadInput{"RescaleTooLarge", set<EnumValue>("rescale", 3), "rescale"},
+        BadInput{"RescaleNegative", set<EnumValue>("rescale", -1), "rescale"},
+        BadInput{"NothingSelected", select_nothing, "No face is selected"},
+        BadInput{"RescaledPartOfTheMesh", rescale_the_selection, "rescale"},
+        BadInput{"VolumeOfAnOpenMesh", keep_the_volume_of_an_open_mesh, "open"},
+        BadInput{"SelectedOfTheWrongType", replace<RichInt>("selected", 1), "selected"},
+        BadInput{"AbsoluteOfTheWrongType", replace<RichInt>("absolute", 1), "absolute"},
+        BadInput{"AbsoluteStepSizeNaN", set_absolute_step_size(kNaN), "step_size"},
+        BadInput{"AbsoluteStepSizeInfinite", set_absolute_step_size(kInfinity), "step_size"},
         BadInput{"SolverTooLarge", set<EnumValue>("solver", 2), "solver"},
         BadInput{"SolverNegative", set<EnumValue>("solver", -1), "solver"},
         BadInput{"SheetsOfTheWrongType", replace<RichInt>("separate_sheets", 1), "separate_sheets"},

@@ -1,0 +1,75 @@
+#!/usr/bin/env bash
+# Gives an open mesh colours, qualities and texture coordinates, and smooths it with its boundary
+# locked, then only its faces that look up, in stock meshlabserver and with the command-line tool:
+# what is held must keep its bits, everything but positions must stay, and both must agree:
+# meshlabserver_keeps.sh PREFIX TOOL MESH WORK_DIR
+set -euo pipefail
+
+here=$(dirname "$(realpath "$0")")
+prefix=$1 tool=$2 mesh=$3 work=$4
+rm -rf "$work"
+mkdir -p "$work"
+
+meshlab() { # IN SCRIPT OUT WHAT: names without .ply and .mlx; what to save besides positions
+    local in=$work/$1.ply
+    [ "$1" != mesh ] || in=$mesh
+    # shellcheck disable=SC2086 # WHAT is several words
+    "$prefix/bin/meshlabserver" -i "$in" -s "$work/$2.mlx" -o "$work/$3.ply" -m $4 \
+        > "$work/log.txt" 2>&1 || {
+        cat "$work/log.txt"
+        exit 1
+    } >&2
+    grep -o "Smoothed .*" "$work/log.txt" | tail -n 1 || true
+}
+check() { # BEFORE PLUGIN TOOL
+    "$here/check_kept.py" "$work/$1.ply" "$work/$2.ply"
+    "$here/check_kept.py" "$work/$1.ply" "$work/$3.ply"
+    "$here/compare_positions.py" "$work/$2.ply" "$work/$3.ply" "$work/$1.ply" 0.5
+}
+function_filter() { # NAME PARAMETER=VALUE...: one of MeshLab's filters that take functions
+    local type parameter
+    echo " <filter name=\"$1\">"
+    for parameter in "${@:2}"; do
+        type=RichString
+        [ "${parameter#*=}" != false ] || type=RichBool
+        echo "  <Param type=\"$type\" name=\"${parameter%%=*}\" value=\"${parameter#*=}\"/>"
+    done
+    echo " </filter>"
+}
+dress_script() { # gives every vertex and face values of its own
+    local plain=(normalize=false map=false onselected=false)
+    echo "<!DOCTYPE FilterScript><FilterScript>"
+    function_filter "Per Vertex Color Function" x="200*abs(sin(vi))" y="200*abs(cos(vi))" \
+        z="100+y" a=255 onselected=false
+    function_filter "Per Vertex Quality Function" q="vi/7" "${plain[@]}"
+    function_filter "Per Face Quality Function" q="fi/7" "${plain[@]}"
+    function_filter "Per Face Color Function" r="200*abs(sin(fi))" g="200*abs(cos(fi))" b=7 a=255 \
+        onselected=false
+    function_filter "Per Vertex Texture Function" u=x v=y onselected=false
+    function_filter "Convert PerVertex UV into PerWedge UV"
+    echo "</FilterScript>"
+}
+dress_script > "$work/dress.mlx"
+
+settings=(step_size=1e-4 iterations=5) options=(--step-size 1e-4 --iterations 5 --quiet)
+looks="vc vq fc fq wt" looks_and_flags="vc vq vf fc ff fq wt"
+
+echo "== Boundary locked"
+"$here/flow_script.sh" "${settings[@]}" > "$work/locked.mlx"
+meshlab mesh dress in "$looks"
+meshlab in locked plugin-locked "$looks"
+"$tool" "$work/in.ply" "$work/tool-locked.ply" "${options[@]}"
+check in plugin-locked tool-locked
+
+echo "== Faces that look up"
+"$here/flow_script.sh" --select "fnz > 0" "${settings[@]}" > "$work/up.mlx"
+sed '/<filter name="Mean/,/<\/filter>/d' "$work/up.mlx" > "$work/select.mlx"
+meshlab in select in-up "$looks_and_flags"
+meshlab in up plugin-up "$looks_and_flags"
+"$tool" "$work/in-up.ply" "$work/tool-up.ply" "${options[@]}" --selected flags
+check in-up plugin-up tool-up
+
+echo "== The same, from a file that holds the selection"
+"$here/flow_script.sh" "${settings[@]}" selected=true > "$work/selected.mlx"
+meshlab in-up selected plugin-file "$looks_and_flags"
+cmp "$work/plugin-file.ply" "$work/plugin-up.ply"
