@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "filter_tracked_mcf/core/locked_cells.h"
 #include "filter_tracked_mcf/core/conjugate_gradients.h"
+#include "filter_tracked_mcf/core/locked_cells.h"
 #include "filter_tracked_mcf/core/stabilization.h"
 #include "tests/experiments/configuration.h"
 #include "tests/experiments/csv.h"
