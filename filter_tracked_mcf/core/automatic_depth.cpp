@@ -49,8 +49,7 @@ int automatic_depth(const TriangleMesh& mesh) {
     return automatic_depth(mesh, enclosing_grid(mesh, 0));
 }
 
-int automatic_depth(const TriangleMesh& mesh, const Grid& grid) {
-    const Grid cube = with_depth(grid, 0);
+int automatic_depth(const TriangleMesh& mesh, const Grid& cube) {
     if (!has_area(mesh, cube)) return 1;
     const std::int64_t vertices = count_distinct_vertices(mesh);
     constexpr std::int64_t not_counted = -1;
