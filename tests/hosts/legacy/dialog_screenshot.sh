@@ -38,6 +38,11 @@ open_dialog() {
     xdotool sleep 1.5 key Down sleep 0.5 key Return
     find_dialog
 }
+# Were it as high as MeshLab lets it grow, nearly two thirds of this screen, help would be cut off.
+fits_a_screen() {
+    eval "$(xdotool getwindowgeometry --shell "$dialog")"
+    [ "$WIDTH" -le 1280 ] && [ "$HEIGHT" -lt 830 ]
+}
 picture() { sleep 0.5; import -window root "$out/$1.png"; }
 # The mesh's part of the window: left of where the dialog is put, above the frame rate.
 surface() { import -window root -crop 740x740+5+75 +repage "$out/$1.png"; }
@@ -61,6 +66,7 @@ surface before
 # The focus starts at Apply; Tab goes on to Default and Preview, and backwards to Close and Help.
 xdotool key shift+Tab shift+Tab space
 picture dialog_with_help
+wait_for "the dialog fits a screen of 1280 by 960 with all of its help" fits_a_screen
 xdotool key space sleep 0.5 key Tab Tab Tab Tab space
 wait_for "the preview shows the result" unlike before
 wait_for "the filter logs what it did" grep -q "mean-curvature flow" "$out/log.txt"
