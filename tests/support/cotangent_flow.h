@@ -24,7 +24,8 @@ double triangle_quality(const TriangleMesh& mesh, const Triangle& triangle);
 class CotangentFlow {
 public:
     /// step_size: as FlowParameters::step_size, for the model scaled to longest side 1.
-    /// Unless the boundary is Free, its vertices are held, and nothing else: there are no cells here.
+    /// Unless the boundary is Free, its vertices are held, and nothing else: there are no cells
+    /// here.
     CotangentFlow(const TriangleMesh& mesh, double step_size, BoundaryCondition boundary);
 
     /// Throws NumericalFailure if the matrix cannot be factorised.
