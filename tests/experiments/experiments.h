@@ -14,8 +14,14 @@ void add_aligned(CLI::App& app);
 /// Distance to the cotangent flow after some numbers of steps.
 void add_accuracy(CLI::App& app);
 
+/// The surface beside a held boundary, against the cotangent flow.
+void add_boundary(CLI::App& app);
+
 /// Iterations of the solver in the first step.
 void add_iterations(CLI::App& app);
+
+/// Distance to a minimal surface that a held boundary spans.
+void add_minimal(CLI::App& app);
 
 /// Long flows: what becomes of parts that pinch.
 void add_pinches(CLI::App& app);

@@ -12,7 +12,9 @@ int main(int argc, char** argv) {
     app.require_subcommand(1);
     add_accuracy(app);
     add_aligned(app);
+    add_boundary(app);
     add_iterations(app);
+    add_minimal(app);
     add_pieces(app);
     add_pinches(app);
     add_roundness(app);

@@ -126,8 +126,7 @@ private:
         print_row(report.depth, options_.step_size, configuration, step,
                   static_cast<int>(report.steps.size()), all_finite(moved) ? 1 : 0, round.by_area,
                   round.by_vertex, round.worst, surface_area(moved) / surface_area(mesh_),
-                  static_cast<double>(last.collapsed_samples) /
-                      static_cast<double>(report.samples),
+                  static_cast<double>(last.collapsed_samples) / static_cast<double>(report.samples),
                   last.solver_iterations, last.reached_tolerance ? 1 : 0);
     }
 
