@@ -39,7 +39,7 @@ def add_options(parser):
 
 def measure(experiment, scan, step_size, configurations):
     folder = experiment.output / f"conformalized_{label(scan)}_{step_size:g}"
-    return experiment.run("roundness", scan, "--depth", experiment.options.depth, "--step-size",
+    return experiment.run("stages", scan, "--depth", experiment.options.depth, "--step-size",
                           step_size, "--steps", *STEPS, "--configurations", *configurations,
                           "--folder", folder, mesh=label(scan))
 

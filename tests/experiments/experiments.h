@@ -29,14 +29,14 @@ void add_pinches(CLI::App& app);
 /// Disjoint pieces closer than a cell, together and alone.
 void add_pieces(CLI::App& app);
 
-/// How near closed surfaces come to a sphere.
-void add_roundness(CLI::App& app);
-
 /// Size and time of the set-up.
 void add_setup(CLI::App& app);
 
 /// Radius of the unit sphere against the exact semi-implicit one.
 void add_sphere(CLI::App& app);
+
+/// Stages of a flow: area, and how near a sphere the surface is.
+void add_stages(CLI::App& app);
 
 /// What a tolerance costs in accuracy.
 void add_tolerance(CLI::App& app);

@@ -17,9 +17,9 @@ int main(int argc, char** argv) {
     add_minimal(app);
     add_pieces(app);
     add_pinches(app);
-    add_roundness(app);
     add_setup(app);
     add_sphere(app);
+    add_stages(app);
     add_tolerance(app);
     try {
         app.parse(argc, argv);
