@@ -23,7 +23,7 @@ DRAWN = {SHORT: [10, 20, 30, 40, 100], LONG: [1, 2, 3, 10]}
 NAMES = {SHORT: "short", LONG: "long"}
 LARGEST_CHANGE = 1e-3
 SMALLEST_COLLAPSED = 0.01
-VIEW, UP = (-1, 0.4, 0), (0, 0, 1)
+VIEW, UP = (-1, 0.4, -0.45), (0, 0, 1)
 
 
 def add_options(parser):
