@@ -117,8 +117,8 @@ def draw(experiment, scan):
         subprocess.run([sys.executable, str(pathlib.Path(__file__).parent / "render.py"),
                         str(scan), *map(str, stages), "--labels", "before",
                         *(f"{name}, {steps}" for steps in DRAWN[configuration]), "--view",
-                        *map(str, view), "--up", *map(str, up), "--height", "600", "--output",
-                        str(picture)], check=True)
+                        *map(str, view), "--up", *map(str, up), "--zoom", "0.7", "--height", "600",
+                        "--output", str(picture)], check=True)
         experiment.say(f"![{label(scan)}, {name} flow]({picture.name})")
 
 

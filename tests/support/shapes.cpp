@@ -49,15 +49,12 @@ void add_square(Welder& welder, const Vector3d& origin, const Vector3d& u, const
     }
 }
 
-/// Bends n by m quads of two triangles over [0, 2π] x [0, 1].
-void add_bent(Welder& welder, int n, int m, const std::function<Vector3d(double, double)>& point) {
-    const auto corner = [&](int i, int j) {
-        return point(2 * std::acos(-1.0) * i / n, static_cast<double>(j) / m);
-    };
+/// n by m quads of two triangles between the points of a grid.
+void add_quads(Welder& welder, int n, int m, const std::function<Vector3d(int, int)>& point) {
     for (int i = 0; i < n; ++i) {
         for (int j = 0; j < m; ++j) {
-            welder.triangle(corner(i, j), corner(i + 1, j), corner(i + 1, j + 1));
-            welder.triangle(corner(i, j), corner(i + 1, j + 1), corner(i, j + 1));
+            welder.triangle(point(i, j), point(i + 1, j), point(i + 1, j + 1));
+            welder.triangle(point(i, j), point(i + 1, j + 1), point(i, j + 1));
         }
     }
 }
@@ -118,9 +115,11 @@ TriangleMesh box(int n, const Vector3d& sizes) {
 }
 
 TriangleMesh torus(int n, int m, double radius, double tube_radius) {
+    const double turn = 2 * std::acos(-1.0);
     Welder welder;
-    add_bent(welder, n, m, [&](double u, double along) -> Vector3d {
-        const double v = 2 * std::acos(-1.0) * along;
+    add_quads(welder, n, m, [&](int i, int j) -> Vector3d {
+        const double u = turn * i / n;
+        const double v = turn * j / m;
         const double r = radius + tube_radius * std::cos(v);
         return {r * std::cos(u), r * std::sin(u), tube_radius * std::sin(v)};
     });
@@ -129,16 +128,18 @@ TriangleMesh torus(int n, int m, double radius, double tube_radius) {
 
 TriangleMesh tube(int n, int m, double height) {
     Welder welder;
-    add_bent(welder, n, m, [&](double u, double along) -> Vector3d {
-        return {std::cos(u), std::sin(u), height * (along - 0.5)};
+    add_quads(welder, n, m, [&](int i, int j) -> Vector3d {
+        const double u = 2 * std::acos(-1.0) * i / n;
+        return {std::cos(u), std::sin(u), height * (static_cast<double>(j) / m - 0.5)};
     });
     return std::move(welder).mesh();
 }
 
 TriangleMesh annulus(int n, int m, double inner_radius, double outer_radius) {
     Welder welder;
-    add_bent(welder, n, m, [&](double u, double along) -> Vector3d {
-        const double r = outer_radius + along * (inner_radius - outer_radius);
+    add_quads(welder, n, m, [&](int i, int j) -> Vector3d {
+        const double u = 2 * std::acos(-1.0) * i / n;
+        const double r = outer_radius + (inner_radius - outer_radius) * j / m;
         return {r * std::cos(u), r * std::sin(u), 0};
     });
     return std::move(welder).mesh();
@@ -146,8 +147,9 @@ TriangleMesh annulus(int n, int m, double inner_radius, double outer_radius) {
 
 TriangleMesh moebius_band(int n, int m) {
     Welder welder;
-    add_bent(welder, n, m, [&](double u, double along) -> Vector3d {
-        const double across = 0.8 * (along - 0.5);
+    add_quads(welder, n, m, [&](int i, int j) -> Vector3d {
+        const double u = 2 * std::acos(-1.0) * i / n;
+        const double across = 0.8 * (static_cast<double>(j) / m - 0.5);
         const double r = 1 + across * std::cos(0.5 * u);
         return {r * std::cos(u), r * std::sin(u), across * std::sin(0.5 * u)};
     });
