@@ -12,12 +12,14 @@ int main(int argc, char** argv) {
     app.require_subcommand(1);
     add_accuracy(app);
     add_aligned(app);
+    add_boundary(app);
     add_iterations(app);
+    add_minimal(app);
     add_pieces(app);
     add_pinches(app);
-    add_roundness(app);
     add_setup(app);
     add_sphere(app);
+    add_stages(app);
     add_tolerance(app);
     try {
         app.parse(argc, argv);

@@ -8,9 +8,9 @@
 namespace tracked_mcf::experiments {
 
 std::map<int, Reference> cotangent_flow(const TriangleMesh& mesh, double step_size,
-                                        const std::vector<int>& steps) {
+                                        const std::vector<int>& steps, BoundaryCondition boundary) {
     std::map<int, Reference> references;
-    CotangentFlow flow(mesh, step_size, BoundaryCondition::Free);
+    CotangentFlow flow(mesh, step_size, boundary);
     const int last = *std::max_element(steps.begin(), steps.end());
     for (int step = 1; step <= last; ++step) {
         flow.step();

@@ -4,6 +4,7 @@
 #include <map>
 #include <vector>
 
+#include "filter_tracked_mcf/core/flow_parameters.h"
 #include "filter_tracked_mcf/core/triangle_mesh.h"
 
 namespace tracked_mcf::experiments {
@@ -15,8 +16,9 @@ struct Reference {
     double smallest_quality = 0;         ///< of its triangles
 };
 
-/// After each of these numbers of steps, with free boundaries.
+/// After each of these numbers of steps.
 std::map<int, Reference> cotangent_flow(const TriangleMesh& mesh, double step_size,
-                                        const std::vector<int>& steps);
+                                        const std::vector<int>& steps,
+                                        BoundaryCondition boundary = BoundaryCondition::Free);
 
 }  // namespace tracked_mcf::experiments

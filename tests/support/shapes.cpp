@@ -49,6 +49,16 @@ void add_square(Welder& welder, const Vector3d& origin, const Vector3d& u, const
     }
 }
 
+/// n by m quads of two triangles between the points of a grid.
+void add_quads(Welder& welder, int n, int m, const std::function<Vector3d(int, int)>& point) {
+    for (int i = 0; i < n; ++i) {
+        for (int j = 0; j < m; ++j) {
+            welder.triangle(point(i, j), point(i + 1, j), point(i + 1, j + 1));
+            welder.triangle(point(i, j), point(i + 1, j + 1), point(i, j + 1));
+        }
+    }
+}
+
 /// Splits a face of an icosahedron into frequency² triangles on the sphere.
 void add_face(Welder& welder, const Vector3d& a, const Vector3d& b, const Vector3d& c,
               int frequency) {
@@ -106,36 +116,43 @@ TriangleMesh box(int n, const Vector3d& sizes) {
 
 TriangleMesh torus(int n, int m, double radius, double tube_radius) {
     const double turn = 2 * std::acos(-1.0);
-    const auto point = [&](int i, int j) -> Vector3d {
+    Welder welder;
+    add_quads(welder, n, m, [&](int i, int j) -> Vector3d {
         const double u = turn * i / n;
         const double v = turn * j / m;
         const double r = radius + tube_radius * std::cos(v);
         return {r * std::cos(u), r * std::sin(u), tube_radius * std::sin(v)};
-    };
+    });
+    return std::move(welder).mesh();
+}
+
+TriangleMesh tube(int n, int m, double height) {
     Welder welder;
-    for (int i = 0; i < n; ++i) {
-        for (int j = 0; j < m; ++j) {
-            welder.triangle(point(i, j), point(i + 1, j), point(i + 1, j + 1));
-            welder.triangle(point(i, j), point(i + 1, j + 1), point(i, j + 1));
-        }
-    }
+    add_quads(welder, n, m, [&](int i, int j) -> Vector3d {
+        const double u = 2 * std::acos(-1.0) * i / n;
+        return {std::cos(u), std::sin(u), height * (static_cast<double>(j) / m - 0.5)};
+    });
+    return std::move(welder).mesh();
+}
+
+TriangleMesh annulus(int n, int m, double inner_radius, double outer_radius) {
+    Welder welder;
+    add_quads(welder, n, m, [&](int i, int j) -> Vector3d {
+        const double u = 2 * std::acos(-1.0) * i / n;
+        const double r = outer_radius + (inner_radius - outer_radius) * j / m;
+        return {r * std::cos(u), r * std::sin(u), 0};
+    });
     return std::move(welder).mesh();
 }
 
 TriangleMesh moebius_band(int n, int m) {
-    const auto point = [&](int i, int j) -> Vector3d {
+    Welder welder;
+    add_quads(welder, n, m, [&](int i, int j) -> Vector3d {
         const double u = 2 * std::acos(-1.0) * i / n;
         const double across = 0.8 * (static_cast<double>(j) / m - 0.5);
         const double r = 1 + across * std::cos(0.5 * u);
         return {r * std::cos(u), r * std::sin(u), across * std::sin(0.5 * u)};
-    };
-    Welder welder;
-    for (int i = 0; i < n; ++i) {
-        for (int j = 0; j < m; ++j) {
-            welder.triangle(point(i, j), point(i + 1, j), point(i + 1, j + 1));
-            welder.triangle(point(i, j), point(i + 1, j + 1), point(i, j + 1));
-        }
-    }
+    });
     return std::move(welder).mesh();
 }
 

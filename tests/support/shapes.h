@@ -19,6 +19,13 @@ TriangleMesh box(int n, const Eigen::Vector3d& sizes);
 /// A torus around the z axis with these radii, n by m quads of two triangles.
 TriangleMesh torus(int n, int m, double radius, double tube_radius);
 
+/// The cylinder of radius 1 around the z axis between z = ± height / 2, without its ends, n by m
+/// quads of two triangles.
+TriangleMesh tube(int n, int m, double height);
+
+/// The ring between these radii in the plane z = 0, n by m quads of two triangles.
+TriangleMesh annulus(int n, int m, double inner_radius, double outer_radius);
+
 /// A Möbius band around the z axis, of radius 1 and width 0.8, n by m quads of two triangles each.
 TriangleMesh moebius_band(int n, int m);
 

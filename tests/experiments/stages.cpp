@@ -95,7 +95,6 @@ private:
         FlowParameters parameters = parse_configuration(options_.configurations[index]);
         parameters.depth = options_.depth;
         parameters.step_size = options_.step_size;
-        parameters.boundary = BoundaryCondition::Free;
         try {
             flow(parameters, index);
         } catch (const NumericalFailure& failure) {
@@ -144,13 +143,14 @@ private:
 
 }  // namespace
 
-void add_roundness(CLI::App& app) {
+void add_stages(CLI::App& app) {
     const auto options = std::make_shared<Options>();
     CLI::App* command = app.add_subcommand(
-        "roundness",
-        "How near a closed surface comes to a sphere: standard deviation of the radius about the "
-        "surface's centroid over its mean, by area and by vertex, and the worst vertex; 'area' is "
-        "relative to the start, 'collapsed' the share of samples.");
+        "stages",
+        "Stages of a flow: the area relative to the start, and how near the surface has come to a "
+        "sphere: standard deviation of the radius about the surface's centroid over its mean, by "
+        "area and by vertex, and the worst vertex; 'collapsed' is a share of the samples, "
+        "'steps_made' less than asked for where nothing was left to do.");
     command->add_option("mesh", options->mesh, "a file")->required();
     command->add_option("--depth", options->depth);
     command->add_option("--step-size", options->step_size);

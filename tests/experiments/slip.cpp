@@ -1,0 +1,25 @@
+#include "tests/experiments/slip.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tracked_mcf::experiments {
+
+Slip slip_at_held_edges(const Flow& flow) {
+    const TrackedElements& elements = flow.elements();
+    Slip slip;
+    double length = 0;
+    double squares = 0;
+    for (const HeldSample& sample : elements.held_samples) {
+        const VertexPlace place = {sample.element, sample.local.cast<double>()};
+        const double distance =
+            evaluate_vertex(elements, flow.displacement(), place).norm() * elements.grid.cell_size;
+        length += sample.weight;
+        squares += sample.weight * distance * distance;
+        slip.worst = std::max(slip.worst, distance);
+    }
+    if (length > 0) slip.rms = std::sqrt(squares / length);
+    return slip;
+}
+
+}  // namespace tracked_mcf::experiments
