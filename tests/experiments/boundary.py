@@ -16,6 +16,8 @@ CGAL_OPEN_SCANS = ["mannequin-devil.off", "lion-head.off", "bear.off"]
 EXACT = f"{CONVERGED},locked"
 PAPERS = f"{CONVERGED},locked-cells"
 NAMES = {EXACT: "boundary", PAPERS: "cells"}
+OTHERS = {f"{EXACT},spring-alone": "spring alone", f"{EXACT},spring=100": "spring 100",
+          f"{EXACT},spring=100,spring-alone": "spring 100 alone"}
 UNIT = 1e-5
 STEPS = [1, 10]
 REST = 6
@@ -29,6 +31,8 @@ LARGEST_RATIO_OF_REST = 1.02
 def add_options(parser):
     parser.add_argument("--depth", type=int, default=0, help="0: automatic")
     parser.add_argument("--step-size", type=float, default=1e-5)
+    parser.add_argument("--others", action="store_true",
+                        help="compare with other springs, too, and with springs alone")
 
 
 def measure(experiment, scans):
@@ -103,6 +107,8 @@ def plot(experiment, rows, meshes):
 
 def main():
     experiment = Experiment("boundary", __doc__, add_options)
+    if experiment.options.others:
+        NAMES.update(OTHERS)
     scans = experiment.scans(SHARED_OPEN_SCANS, CGAL_OPEN_SCANS)
     rows = measure(experiment, scans)
     meshes = [label(scan) for scan in scans]

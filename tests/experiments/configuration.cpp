@@ -23,6 +23,8 @@ void set_value(const std::string& name, double value, FlowParameters& parameters
         parameters.tolerance = value;
     } else if (name == "cycles") {
         parameters.cycles = static_cast<int>(value);
+    } else if (name == "spring") {
+        parameters.boundary_spring = value;
     } else {
         throw std::invalid_argument("there is no '" + name + "=' in a configuration");
     }
@@ -39,6 +41,7 @@ const std::map<std::string, std::function<void(FlowParameters&)>>& words_alone()
         {"conformalized", [](FlowParameters& p) { p.flow = FlowKind::Conformalized; }},
         {"locked", [](FlowParameters& p) { p.boundary = BoundaryCondition::Locked; }},
         {"locked-cells", [](FlowParameters& p) { p.boundary = BoundaryCondition::LockedCells; }},
+        {"spring-alone", [](FlowParameters& p) { p.take_up_boundary = false; }},
         {"free", [](FlowParameters& p) { p.boundary = BoundaryCondition::Free; }},
         {"keep-area", [](FlowParameters& p) { p.rescale = Rescaling::KeepArea; }},
     };

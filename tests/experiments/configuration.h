@@ -19,6 +19,8 @@ namespace tracked_mcf::experiments {
 ///   unanchored     what has pinched is not held
 ///   conformalized  the conformalized flow
 ///   locked, locked-cells, free    the boundary; where an experiment does not choose it
+///   spring=X       stiffness of what holds a locked boundary
+///   spring-alone   what the spring holds is not taken up
 ///   keep-area      rescaled after every step; where an experiment says so
 ///
 /// Throws std::invalid_argument for anything else.
