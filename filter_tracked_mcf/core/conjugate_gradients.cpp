@@ -16,9 +16,9 @@ constexpr double kSinglePrecision = 1e-5;
 /// Refinement that gains less than this gets no further.
 constexpr double kWorthRefining = 0.5;
 
-/// a / b where b is positive, else 0: a coordinate that is solved, or has nothing to solve.
-Eigen::Vector4f ratio(const Eigen::Vector4d& a, const Eigen::Vector4d& b) {
-    return (b.array() > 0).select(a.array() / b.array(), 0).cast<float>();
+/// Σ a / Σ b, over the coordinates, where that is positive, else 0: nothing is left to solve.
+float ratio(const Eigen::Vector4d& a, const Eigen::Vector4d& b) {
+    return b.sum() > 0 ? static_cast<float>(a.sum() / b.sum()) : 0;
 }
 
 }  // namespace
@@ -41,17 +41,17 @@ double ConjugateGradients::descend(Multigrid& multigrid, double target, int maxi
     p_ = z_;
     while (norm() > target && iterations < maximum_iterations) {
         multigrid.finest().multiply(p_, q_);
-        const Eigen::Vector4f step = ratio(rz_, dot(p_, q_));
+        const float step = ratio(rz_, dot(p_, q_));
         parallel_for_rows(r_.cols(), [&](std::int32_t row) {
-            x_.col(row) += step.cwiseProduct(p_.col(row));
-            r_.col(row) -= step.cwiseProduct(q_.col(row));
+            x_.col(row) += step * p_.col(row);
+            r_.col(row) -= step * q_.col(row);
         });
         const Eigen::Vector4d before = rz_;
         precondition(multigrid);
         ++iterations;
-        const Eigen::Vector4f turn = ratio(rz_, before);
+        const float turn = ratio(rz_, before);
         parallel_for_rows(r_.cols(), [&](std::int32_t row) {
-            p_.col(row) = z_.col(row) + turn.cwiseProduct(p_.col(row));
+            p_.col(row) = z_.col(row) + turn * p_.col(row);
         });
     }
     return norm();

@@ -23,8 +23,9 @@ struct Convergence {
     bool reached_tolerance = true;
 };
 
-/// Conjugate gradients preconditioned by a symmetric V-cycle, for three right sides at once. Each
-/// coordinate has its own step lengths; matrix and V-cycle are applied to all three together.
+/// Conjugate gradients preconditioned by a symmetric V-cycle, for three right sides at once, the
+/// coordinates. They share their step lengths, which makes the three one system: its solution turns
+/// as the right side does, and in a direction in which nothing pulls, nothing moves.
 ///
 /// Vectors are single precision. A tolerance that single precision does not reach in one go is
 /// reached by iterative refinement: the solution is summed and its residual computed in double.
