@@ -50,9 +50,8 @@ double ConjugateGradients::descend(Multigrid& multigrid, double target, int maxi
         precondition(multigrid);
         ++iterations;
         const float turn = ratio(rz_, before);
-        parallel_for_rows(r_.cols(), [&](std::int32_t row) {
-            p_.col(row) = z_.col(row) + turn * p_.col(row);
-        });
+        parallel_for_rows(
+            r_.cols(), [&](std::int32_t row) { p_.col(row) = z_.col(row) + turn * p_.col(row); });
     }
     return norm();
 }

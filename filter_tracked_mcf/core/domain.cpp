@@ -5,13 +5,14 @@
 #include <string>
 #include <utility>
 
+#include "filter_tracked_mcf/core/disjoint_sets.h"
 #include "filter_tracked_mcf/core/errors.h"
 
 namespace tracked_mcf {
 
 namespace {
 
-void check(const TriangleMesh& mesh, const Selection& selection) {
+void check_selection(const TriangleMesh& mesh, const Selection& selection) {
     if (selection.empty()) return;
     if (selection.size() != mesh.triangles.size()) {
         throw InvalidParameter("The selection is of " + std::to_string(selection.size()) +
@@ -34,6 +35,17 @@ std::vector<Item> selected_of(const std::vector<Item>& items, const Selection& s
     return selected;
 }
 
+/// Whether a triangle is so thin that its edges lie on each other, all but.
+bool is_sliver(const TriangleMesh& mesh, const Triangle& t) {
+    constexpr double thin = 1e-8;
+    double longest = 0;
+    for (int i = 0; i < 3; ++i) {
+        const Eigen::Vector3d edge = mesh.positions[t[(i + 1) % 3]] - mesh.positions[t[i]];
+        longest = std::max(longest, edge.squaredNorm());
+    }
+    return twice_vector_area(mesh, t).norm() <= thin * longest;
+}
+
 bool bit(std::uint8_t mask, int i) {
     return ((mask >> i) & 1) != 0;
 }
@@ -51,7 +63,7 @@ double surface_area(const TriangleMesh& mesh, const Selection& selection) {
 
 Domain::Domain(const TriangleMesh& mesh, const Selection& selection, BoundaryCondition boundary)
     : mesh_(mesh) {
-    check(mesh, selection);
+    check_selection(mesh, selection);
     topology_ = topology_of(mesh);
     std::vector<std::uint8_t> boundary_sides = boundary_edges(topology_);
     if (!selection.empty()) boundary_sides = selected_of(boundary_sides, selection);
@@ -66,13 +78,26 @@ Domain::Domain(const TriangleMesh& mesh, const Selection& selection, BoundaryCon
         take(selection);
         hold_seam(whole, selection);
     }
+    hold_across_slivers();
     hold_vertices(whole, selection);
+    leave_slivers_out();
 }
 
 void Domain::take(const Selection& selection) {
     part_ = TriangleMesh{mesh_.positions, selected_of(mesh_.triangles, selection)};
     topology_.triangles = selected_of(topology_.triangles, selection);
     topology_.edges = selected_of(topology_.edges, selection);
+}
+
+/// Calls visit(triangle, side, edge) for the surface's sides that are edges.
+template <class Visit>
+void Domain::for_each_side(const Visit& visit) const {
+    for (std::size_t triangle = 0; triangle < topology_.edges.size(); ++triangle) {
+        for (int side = 0; side < 3; ++side) {
+            const std::int32_t edge = topology_.edges[triangle][side];
+            if (edge != MeshTopology::kNoEdge) visit(triangle, side, edge);
+        }
+    }
 }
 
 void Domain::hold_seam(const MeshTopology& whole, const Selection& selection) {
@@ -83,12 +108,48 @@ void Domain::hold_seam(const MeshTopology& whole, const Selection& selection) {
             if (edge != MeshTopology::kNoEdge) on_seam[edge] = 1;
         }
     }
-    for (std::size_t triangle = 0; triangle < held_edges_.size(); ++triangle) {
-        for (int side = 0; side < 3; ++side) {
-            const std::int32_t edge = topology_.edges[triangle][side];
-            if (edge == MeshTopology::kNoEdge || on_seam[edge] == 0) continue;
-            held_edges_[triangle] |= static_cast<std::uint8_t>(1 << side);
+    for_each_side([&](std::size_t triangle, int side, std::int32_t edge) {
+        if (on_seam[edge] != 0) held_edges_[triangle] |= static_cast<std::uint8_t>(1 << side);
+    });
+}
+
+void Domain::hold_across_slivers() {
+    for (const Triangle& triangle : surface().triangles) {
+        slivers_.push_back(is_sliver(surface(), triangle) ? 1 : 0);
+    }
+    // Edges that slivers join: if one is held, all are.
+    DisjointSets joined(topology_.edge_count);
+    for (std::size_t triangle = 0; triangle < slivers_.size(); ++triangle) {
+        if (slivers_[triangle] == 0) continue;
+        std::int32_t first = MeshTopology::kNoEdge;
+        for (const std::int32_t edge : topology_.edges[triangle]) {
+            if (edge == MeshTopology::kNoEdge) continue;
+            if (first != MeshTopology::kNoEdge) joined.unite(first, edge);
+            first = edge;
         }
+    }
+    const std::vector<std::int32_t> set_of = std::move(joined).representatives();
+    std::vector<std::uint8_t> held(set_of.size(), 0);
+    for_each_side([&](std::size_t triangle, int side, std::int32_t edge) {
+        if (bit(held_edges_[triangle], side)) held[set_of[edge]] = 1;
+    });
+    for_each_side([&](std::size_t triangle, int side, std::int32_t edge) {
+        if (held[set_of[edge]] != 0) held_edges_[triangle] |= static_cast<std::uint8_t>(1 << side);
+    });
+}
+
+/// What slivers hold, their neighbours hold as well; and they know no conormal.
+void Domain::leave_slivers_out() {
+    std::vector<std::uint8_t> held_by_others(static_cast<std::size_t>(topology_.edge_count), 0);
+    for_each_side([&](std::size_t triangle, int side, std::int32_t edge) {
+        if (bit(held_edges_[triangle], side) && slivers_[triangle] == 0) held_by_others[edge] = 1;
+    });
+    for (std::size_t triangle = 0; triangle < held_edges_.size(); ++triangle) {
+        const auto& edges = topology_.edges[triangle];
+        const bool others_hold = std::any_of(edges.begin(), edges.end(), [&](std::int32_t edge) {
+            return edge != MeshTopology::kNoEdge && held_by_others[edge] != 0;
+        });
+        if (slivers_[triangle] != 0 && others_hold) held_edges_[triangle] = 0;
     }
 }
 

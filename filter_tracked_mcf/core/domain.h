@@ -34,10 +34,13 @@ public:
     /// The mesh's, for those triangles.
     const MeshTopology& topology() const { return topology_; }
 
-    /// Of every triangle of the surface, bit i: its edge from corner i to (i + 1) % 3 is held.
+    /// Of every triangle of the surface, bit i: its edge from corner i to (i + 1) % 3 is held. Where
+    /// that is an edge of a triangle without area, its neighbours' are held in its stead: there the
+    /// surface begins.
     const std::vector<std::uint8_t>& held_edges() const { return held_edges_; }
     /// Of every vertex of the mesh: it keeps its bits. Those of held edges, and those that stay
-    /// because an unselected triangle has them.
+    /// because an unselected triangle has them; where such a vertex is on no held edge, as where
+    /// two parts meet in a point, the surface leaves it behind.
     const std::vector<std::uint8_t>& held_vertices() const { return held_vertices_; }
 
     /// Sides of the surface's triangles that are on the boundary of the mesh.
@@ -45,13 +48,18 @@ public:
     bool holds_anything() const;
 
 private:
+    template <class Visit>
+    void for_each_side(const Visit& visit) const;
     void take(const Selection& selection);
     void hold_seam(const MeshTopology& whole, const Selection& selection);
+    void hold_across_slivers();
+    void leave_slivers_out();
     void hold_vertices(const MeshTopology& whole, const Selection& selection);
 
     const TriangleMesh& mesh_;
     std::optional<TriangleMesh> part_;
     MeshTopology topology_;
+    std::vector<std::uint8_t> slivers_;  ///< of every triangle of the surface
     std::vector<std::uint8_t> held_edges_;
     std::vector<std::uint8_t> held_vertices_;
     std::int64_t boundary_edge_count_ = 0;

@@ -56,7 +56,7 @@ void finish(Flow& flow, TriangleMesh& mesh, const Selection& selection) {
     const double area = surface_area(mesh, selection);
     flow.move_vertices(mesh);
     if (flow.report().stop == Stop::None && surface_area(mesh, selection) <= kVanishedArea * area) {
-        flow.take_back();
+        flow.take_back(Stop::Vanished);
         mesh.positions = start;
         flow.move_vertices(mesh);
     }

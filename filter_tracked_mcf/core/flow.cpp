@@ -100,7 +100,7 @@ bool Flow::step() {
     StepReport report;
     assemble(report);
     if (!report_.steps.empty() && report.area <= kVanishedArea * report_.steps.front().area) {
-        take_back();
+        take_back(Stop::Vanished);
         return false;
     }
     if (!can_move()) {
@@ -112,13 +112,15 @@ bool Flow::step() {
     return true;
 }
 
-void Flow::take_back() {
+void Flow::take_back(Stop reason) {
+    if (report_.steps.empty()) return;
     displacement_ = previous_;
     report_.steps.pop_back();
-    report_.stop = Stop::Vanished;
+    report_.stop = reason;
 }
 
 bool Flow::can_move() const {
+    if (report_.held_vertices == report_.vertices) return false;
     const std::vector<float>& inverse_diagonal = multigrid_.finest().inverse_diagonal();
     return std::any_of(inverse_diagonal.begin(), inverse_diagonal.end(),
                        [](float inverse) { return inverse != 0; });

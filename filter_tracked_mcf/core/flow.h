@@ -46,8 +46,9 @@ public:
     /// step left next to no area it is taken back.
     bool step();
 
-    /// Takes the last step back because the surface has vanished in it; once after a step.
-    void take_back();
+    /// Takes the last step back, and gives `reason` as report().stop; once after a step. Then the
+    /// flow is over.
+    void take_back(Stop reason);
 
     /// Scales the embedding about `centre` (mesh units) by `factor`, to undo what steps do to its
     /// size. The next step is expected to need the same again: solved for is then what it does

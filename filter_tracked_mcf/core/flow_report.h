@@ -25,7 +25,8 @@ struct StepReport {
 enum class Stop {
     None,          ///< it did not
     Vanished,      ///< the next step would have left no area; its positions are not taken
-    NothingMoves,  ///< every test function is locked or has pinched
+    Pinched,       ///< so much has pinched that rescaling blows up the rest; likewise
+    NothingMoves,  ///< every vertex is held, or every test function is locked or has pinched
 };
 
 /// What a whole flow did: sizes, seconds by phase, residuals.

@@ -12,9 +12,9 @@ namespace {
 /// Room around the model, so that nothing lies on the outermost faces.
 constexpr double kCubeToModel = 1.1;
 
-/// Sides whose squares, cells and reciprocals are all normal doubles.
-constexpr double kSmallestSide = 1e-140;
-constexpr double kLargestSide = 1e140;
+/// Sides of which volumes, squares of areas and reciprocals are all normal doubles.
+constexpr double kSmallestSide = 1e-60;
+constexpr double kLargestSide = 1e60;
 
 /// Distance from the origin, in sides, at which doubles have four digits left for the mesh.
 constexpr double kFarthest = 1e12;
@@ -35,7 +35,7 @@ double checked_longest_side(const Eigen::AlignedBox3d& box) {
     if (!(side >= kSmallestSide && side <= kLargestSide)) {
         throw InvalidMesh(
             "The mesh is too large or too small to compute with; scale it so that its "
-            "bounding box has sides between 1e-140 and 1e140.");
+            "bounding box has sides between 1e-60 and 1e60.");
     }
     if (box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).maxCoeff() > kFarthest * side) {
         throw InvalidMesh(

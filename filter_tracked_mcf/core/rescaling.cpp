@@ -4,6 +4,7 @@
 #include <string>
 
 #include "filter_tracked_mcf/core/errors.h"
+#include "filter_tracked_mcf/core/grid.h"
 #include "filter_tracked_mcf/core/mesh_topology.h"
 
 namespace tracked_mcf {
@@ -13,6 +14,9 @@ namespace {
 /// A volume below this share of the cube of the area's root is that of a flat surface. A sphere's
 /// is 0.09.
 constexpr double kFlat = 1e-9;
+
+/// Longest side of a rescaled surface's bounding box, relative to the initial one.
+constexpr double kLargestGrowth = 4;
 
 void check_nothing_is_held(const Domain& domain) {
     if (!domain.holds_anything()) return;
@@ -45,7 +49,12 @@ void check_not_flat(const TriangleMesh& mesh) {
 
 Rescaler::Rescaler(const TriangleMesh& mesh, const Selection& selection,
                    const FlowParameters& parameters)
-    : kind_(parameters.rescale), start_(mesh.positions), moved_(mesh), area_(surface_area(mesh)) {
+    : kind_(parameters.rescale),
+      flow_(parameters.flow),
+      start_(mesh.positions),
+      moved_(mesh),
+      initial_side_(longest_side(mesh)),
+      area_(surface_area(mesh)) {
     const Domain domain(mesh, selection, parameters.boundary);
     check_nothing_is_held(domain);
     if (kind_ == Rescaling::KeepVolume) {
@@ -63,16 +72,29 @@ bool Rescaler::restore(Flow& flow) {
     moved_.positions = start_;
     flow.move_vertices(moved_);
     const double ratio = initial_ / measure();
-    // Below 0 where the surface has turned inside out; not finite where nothing is left.
-    const bool vanished = surface_area(moved_) <= kVanishedArea * area_ || !(ratio > 0);
-    if (vanished || !std::isfinite(ratio)) {
-        flow.take_back();
+    const double area = surface_area(moved_);
+    // A ratio below 0 is that of a surface turned inside out, and none is finite where none is
+    // left.
+    if (area <= kVanishedArea * area_ || !(ratio > 0) || !std::isfinite(ratio)) {
+        flow.take_back(Stop::Vanished);
         return false;
     }
     const double factor = kind_ == Rescaling::KeepVolume ? std::cbrt(ratio) : std::sqrt(ratio);
+    if (blows_up(factor, flow.report())) {
+        flow.take_back(Stop::Pinched);
+        return false;
+    }
     flow.scale(surface_centroid(moved_), factor);
-    area_ = factor * factor * surface_area(moved_);
+    area_ = factor * factor * area;
     return true;
+}
+
+/// Mean-curvature flow never makes a surface longer. Scaled up, its solid parts stay within some
+/// bounds, too, but what has pinched does not shrink on with them and grows without any.
+bool Rescaler::blows_up(double factor, const FlowReport& report) const {
+    if (flow_ == FlowKind::Conformalized) return false;
+    if (factor * longest_side(moved_) <= kLargestGrowth * initial_side_) return false;
+    return kind_ == Rescaling::KeepVolume || report.steps.back().collapsed_samples > 0;
 }
 
 }  // namespace tracked_mcf

@@ -21,17 +21,20 @@ public:
              const FlowParameters& parameters);
 
     /// Scales after a step. Returns false, having taken the step back, where it has left next to
-    /// nothing to scale.
+    /// nothing to scale, or nothing but what has pinched.
     bool restore(Flow& flow);
 
 private:
     double measure() const;  ///< what is kept, of moved_
+    bool blows_up(double factor, const FlowReport& report) const;
 
     Rescaling kind_;
+    FlowKind flow_;
     std::vector<Eigen::Vector3d> start_;
     TriangleMesh moved_;
-    double initial_;  ///< what is kept, at the start
-    double area_;     ///< after the last step
+    double initial_side_;  ///< longest side of the bounding box
+    double initial_ = 0;   ///< what is kept, at the start
+    double area_;          ///< after the last step
 };
 
 }  // namespace tracked_mcf

@@ -160,7 +160,9 @@ TrackedElements build_tracked_elements(const Domain& domain, const Grid& grid, C
     elements.degenerate_triangle_count = count_degenerate(grid_mesh);
     if (elements.degenerate_triangle_count == static_cast<std::int64_t>(surface.triangles.size())) {
         throw InvalidMesh(
-            "All faces are degenerate: none has an area, so there is no surface to smooth.");
+            "All faces are degenerate that are to be smoothed: none has an area, or none that "
+            "shows "
+            "beside the size of the mesh.");
     }
     const std::vector<bool> referenced = referenced_vertices(surface);
     elements.referenced_vertex_count = std::count(referenced.begin(), referenced.end(), true);

@@ -47,7 +47,8 @@ void VanishedParts::freeze(const ElementSystems& systems, double share,
     }
     for (std::size_t element = 0; element < part_of_.size(); ++element) {
         const std::int32_t part = part_of_[element];
-        if (areas[part] > share * initial_areas_[part]) continue;
+        // What is not a number must not pass for a part that stays.
+        if (!(areas[part] <= share * initial_areas_[part])) continue;
         for (const std::int32_t unknown : elements_.finest().unknowns[element]) frozen[unknown] = 1;
     }
 }

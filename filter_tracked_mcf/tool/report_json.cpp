@@ -35,6 +35,7 @@ Json parameters_json(const CommandLine& line) {
 
 const char* stop_name(Stop stop) {
     if (stop == Stop::Vanished) return "vanished";
+    if (stop == Stop::Pinched) return "pinched";
     return stop == Stop::NothingMoves ? "nothing moves" : "none";
 }
 

@@ -102,7 +102,7 @@ def check(experiment, rows, step_rows, enneper_rows):
         if tilt == 0:
             experiment.check(f"over the chords, {orientation}, depth {DEPTH}",
                              at_depth["rms"] / at_depth["chords"], at_most=LARGEST_OVER_CHORDS)
-            experiment.say(f"- for comparison: {at_depth['rms']:.2g} {orientation}, where the issue"
+            experiment.say(f"- for comparison: {at_depth['rms']:.2g} {orientation}, where"
                            f" asks for {ISSUES_TARGET:g} and the chords are off by "
                            f"{at_depth['chords']:.2g}")
         else:

@@ -165,8 +165,14 @@ TEST(EarlyStop, SaysWhenWhyAndWhatToDo) {
               "size.");
     report.stop = Stop::NothingMoves;
     EXPECT_EQ(early_stop(report, 10),
-              "Nothing has moved: everything is in grid cells that are locked. Take a greater "
-              "depth, or another boundary.");
+              "Nothing has moved: all of the surface is held. Free the boundary, or select more; "
+              "where cells are locked, take a greater depth.");
+    report.stop = Stop::Pinched;
+    report.steps.resize(3);
+    EXPECT_EQ(early_stop(report, 10),
+              "The flow stopped after step 3 of 10: so much has pinched that rescaling would blow "
+              "up what is left.");
+    report.stop = Stop::NothingMoves;
     report.steps.resize(1);
     EXPECT_EQ(early_stop(report, 10),
               "The flow stopped after step 1 of 10: everything that could move has pinched.");

@@ -138,6 +138,8 @@ TEST(Report, NamesEveryWayToStop) {
     EXPECT_EQ(stop(), "none");
     report.stop = Stop::Vanished;
     EXPECT_EQ(stop(), "vanished");
+    report.stop = Stop::Pinched;
+    EXPECT_EQ(stop(), "pinched");
     report.stop = Stop::NothingMoves;
     EXPECT_EQ(stop(), "nothing moves");
 }

@@ -102,6 +102,36 @@ TEST(Domain, VerticesThatOnlyTouchUnselectedTrianglesAreHeld) {
     EXPECT_EQ(domain.held_vertices(), (std::vector<std::uint8_t>{1, 0, 0, 1, 1}));
 }
 
+/// Every boundary edge of `mesh` with a triangle of no area on it, which has its middle.
+TriangleMesh with_slivers_on_the_rim(TriangleMesh mesh) {
+    const std::vector<std::uint8_t> boundary = boundary_edges(topology_of(mesh));
+    for (std::size_t t = 0; t < boundary.size(); ++t) {
+        for (int side = 0; side < 3; ++side) {
+            if (((boundary[t] >> side) & 1) == 0) continue;
+            const std::int32_t a = mesh.triangles[t][side], b = mesh.triangles[t][(side + 1) % 3];
+            const auto middle = static_cast<std::int32_t>(mesh.positions.size());
+            mesh.positions.emplace_back(0.5 * (mesh.positions[a] + mesh.positions[b]));
+            mesh.triangles.push_back({b, a, middle});
+        }
+    }
+    return mesh;
+}
+
+TEST(Domain, TrianglesWithoutAreaOnTheRimDoNotFreeIt) {
+    const TriangleMesh cap = bumpy_cap(20);
+    const TriangleMesh ragged = with_slivers_on_the_rim(cap);
+    ASSERT_GT(ragged.triangles.size(), cap.triangles.size() + 40);
+    const FlowParameters p = parameters(5, 1e-3, 3);
+    const TriangleMesh expected = evolved(cap, p);
+    const TriangleMesh after = evolved(ragged, p);
+    for (std::size_t i = 0; i < cap.positions.size(); ++i) {
+        EXPECT_LT((after.positions[i] - expected.positions[i]).norm(), 1e-6);
+    }
+    for (std::size_t i = cap.positions.size(); i < ragged.positions.size(); ++i) {
+        EXPECT_EQ(after.positions[i], ragged.positions[i]);
+    }
+}
+
 TEST(Domain, SelectionsThatSelectNothingOrDoNotFitAreErrors) {
     const TriangleMesh square = shapes::square(2);
     EXPECT_THROW(Domain(square, Selection(8, 0), kLocked), InvalidMesh);

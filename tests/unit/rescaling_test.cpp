@@ -6,6 +6,7 @@
 #include <string>
 
 #include "filter_tracked_mcf/core/errors.h"
+#include "filter_tracked_mcf/core/grid.h"
 #include "tests/support/shapes.h"
 #include "tests/unit/flows.h"
 
@@ -80,6 +81,7 @@ TEST(Rescaling, TurningASurfaceInsideOutChangesNothing) {
     for (Triangle& t : inside_out.triangles) std::swap(t[1], t[2]);
     const FlowParameters p = keeping(Rescaling::KeepVolume);
     EXPECT_LT(distance(evolved(inside_out, p), evolved(mesh, p)), 1e-5);
+    EXPECT_GT(distance(evolved(mesh, p), mesh), 1e-3);
 }
 
 TEST(Rescaling, FreeOpenSurfacesKeepTheirArea) {
@@ -112,6 +114,34 @@ TEST(Rescaling, VolumesThatDoNotExistAreErrors) {
     const TriangleMesh flat = shapes::transformed(shapes::bumpy_sphere(10),
                                                   Eigen::Affine3d(Eigen::Scaling(1.0, 1.0, 0.0)));
     EXPECT_NE(complaint<InvalidMesh>(flat, p).find("encloses none"), std::string::npos);
+}
+
+TEST(Rescaling, EndsBeforeThreadsAreBlownUp) {
+    // Two balls on a bar, which pinches to a thread that stays while the balls shrink.
+    TriangleMesh dumbbell = shapes::geodesic_sphere(30);
+    for (auto& p : dumbbell.positions) {
+        const double waist = 0.1 + 0.9 * p[0] * p[0];
+        p = Eigen::Vector3d(2 * p[0], waist * p[1], waist * p[2]);
+    }
+    for (const Rescaling rescale : {Rescaling::KeepVolume, Rescaling::KeepArea}) {
+        TriangleMesh after = dumbbell;
+        const FlowReport report = evolve(after, keeping(rescale, 5e-3, 100));
+        EXPECT_EQ(report.stop, Stop::Pinched);
+        EXPECT_GT(report.steps.size(), 2U);
+        EXPECT_LE(longest_side(after), 4 * longest_side(dumbbell));
+    }
+}
+
+TEST(Rescaling, VolumesThatCancelDoNotBlowTheMeshUp) {
+    TriangleMesh inside_out = shapes::geodesic_sphere(10);
+    for (Triangle& t : inside_out.triangles) std::swap(t[0], t[1]);
+    const Eigen::Affine3d beside =
+        Eigen::Affine3d(Eigen::Translation3d(3, 0, 0)) * Eigen::Scaling(0.9);
+    const TriangleMesh both =
+        shapes::merged(shapes::geodesic_sphere(10), shapes::transformed(inside_out, beside));
+    TriangleMesh after = both;
+    EXPECT_NE(evolve(after, keeping(Rescaling::KeepVolume, 5e-3, 50)).stop, Stop::None);
+    EXPECT_LE(longest_side(after), 4 * longest_side(both));
 }
 
 TEST(Rescaling, BodiesThatTouchInAnEdgeHaveAVolume) {

@@ -63,6 +63,13 @@ TEST(Stop, NothingMovesWhereTheLockHoldsEverything) {
     EXPECT_TRUE(same_bits(mesh, square));
 }
 
+TEST(Stop, NothingMovesWhereEveryVertexIsHeld) {
+    const TriangleMesh triangle{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}};
+    TriangleMesh mesh = triangle;
+    EXPECT_EQ(evolve(mesh, parameters(4, 1e-2, 5)).stop, Stop::NothingMoves);
+    EXPECT_TRUE(same_bits(mesh, triangle));
+}
+
 TEST(Stop, FlowsThatHaveSomethingToDoMakeAllTheirSteps) {
     TriangleMesh mesh = bumpy_cap(15);
     const FlowReport report = evolve(mesh, parameters(5, 1, 30));
