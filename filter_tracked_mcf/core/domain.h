@@ -34,9 +34,9 @@ public:
     /// The mesh's, for those triangles.
     const MeshTopology& topology() const { return topology_; }
 
-    /// Of every triangle of the surface, bit i: its edge from corner i to (i + 1) % 3 is held. Where
-    /// that is an edge of a triangle without area, its neighbours' are held in its stead: there the
-    /// surface begins.
+    /// Of every triangle of the surface, bit i: its edge from corner i to (i + 1) % 3 is held.
+    /// Where that is an edge of a triangle without area, its neighbours' are held in its stead:
+    /// there the surface begins.
     const std::vector<std::uint8_t>& held_edges() const { return held_edges_; }
     /// Of every vertex of the mesh: it keeps its bits. Those of held edges, and those that stay
     /// because an unselected triangle has them; where such a vertex is on no held edge, as where
