@@ -121,7 +121,7 @@ private:
     void print(const std::string& configuration, int step, const FlowReport& report,
                const TriangleMesh& moved) const {
         const Roundness round = roundness(moved);
-        const StepReport& last = report.steps.back();
+        const StepReport last = report.steps.empty() ? StepReport() : report.steps.back();
         print_row(report.depth, options_.step_size, configuration, step,
                   static_cast<int>(report.steps.size()), all_finite(moved) ? 1 : 0, round.by_area,
                   round.by_vertex, round.worst, surface_area(moved) / surface_area(mesh_),
