@@ -179,8 +179,8 @@ TEST_F(Program, ALockThatHoldsEverythingIsAWarning) {
     const ProgramRun result = run("grid.off b.off --depth 1 --boundary locked-cells");
     EXPECT_EQ(result.exit_code, 0);
     EXPECT_EQ(result.errors,
-              "tracked_mcf: warning: Nothing has moved: everything is in grid cells that are "
-              "locked. Take a greater depth, or another boundary.\n");
+              "tracked_mcf: warning: Nothing has moved: all of the surface is held. Free the "
+              "boundary, or select more; where cells are locked, take a greater depth.\n");
     EXPECT_THAT(result.output, HasSubstr("\n16 vertices are held\n0 steps of 1e-05 in "));
 }
 
