@@ -39,6 +39,14 @@ inline bool same_bits(const TriangleMesh& a, const TriangleMesh& b) {
            std::memcmp(a.positions.data(), b.positions.data(), bytes) == 0;
 }
 
+/// The same for numbers, none of which is a NaN.
+inline bool same_bits(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+    for (int axis = 0; axis < 3; ++axis) {
+        if (a[axis] != b[axis] || std::signbit(a[axis]) != std::signbit(b[axis])) return false;
+    }
+    return true;
+}
+
 inline TriangleMesh turned(const TriangleMesh& mesh, double angle, const Eigen::Vector3d& axis) {
     return shapes::transformed(mesh, Eigen::Affine3d(Eigen::AngleAxisd(angle, axis.normalized())));
 }

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cstring>
-
 #include "filter_tracked_mcf/core/flow.h"
 #include "tests/support/shapes.h"
 #include "tests/unit/flows.h"
@@ -35,8 +33,7 @@ TEST(Selection, UnselectedVerticesKeepTheirBitsAndTheOthersMove) {
             const FlowReport report = evolve(after, top, p);
             int moved = 0;
             for (std::size_t i = 0; i < stays.size(); ++i) {
-                const bool same = std::memcmp(after.positions[i].data(), mesh.positions[i].data(),
-                                              sizeof(Eigen::Vector3d)) == 0;
+                const bool same = same_bits(after.positions[i], mesh.positions[i]);
                 EXPECT_TRUE(same || !stays[i]) << i;
                 moved += same ? 0 : 1;
             }
