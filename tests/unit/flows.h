@@ -34,9 +34,10 @@ inline double distance(const TriangleMesh& a, const TriangleMesh& b) {
 
 /// Stricter than ==: tells -0 from 0, and NaN is itself.
 inline bool same_bits(const TriangleMesh& a, const TriangleMesh& b) {
+    if (a.positions.size() != b.positions.size()) return false;
+    if (a.positions.empty()) return true;  // memcmp must not be given the null pointers they have
     const std::size_t bytes = a.positions.size() * sizeof(Eigen::Vector3d);
-    return a.positions.size() == b.positions.size() &&
-           std::memcmp(a.positions.data(), b.positions.data(), bytes) == 0;
+    return std::memcmp(a.positions.data(), b.positions.data(), bytes) == 0;
 }
 
 /// The same for numbers, none of which is a NaN.
