@@ -6,6 +6,8 @@ namespace tracked_mcf {
 
 const char* const kFilterName = "Mean Curvature Flow";
 
+const char* const kPythonFilterName = "apply_coord_mean_curvature_flow";
+
 const char* const kFilterHelp =
     "Smooths the surface by <b>mean-curvature flow</b>: every point moves along the normal with "
     "the speed of the mean curvature, so that noise and small detail vanish first. Stable at any "

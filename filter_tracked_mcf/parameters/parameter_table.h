@@ -35,6 +35,9 @@ struct ParameterDescription {
 /// The filter's name in menus and scripts.
 extern const char* const kFilterName;
 
+/// Its name in PyMeshLab, where what moves vertices is called apply_coord_…
+extern const char* const kPythonFilterName;
+
 /// What the filter does, when to use it and when not, for its help; HTML as MeshLab shows it.
 extern const char* const kFilterHelp;
 

@@ -2,6 +2,8 @@
 
 #include <array>
 #include <charconv>
+#include <cmath>
+#include <limits>
 
 #include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/parameters/parameter_table.h"
@@ -63,9 +65,12 @@ bool selected_only(const ParameterValues& values) {
     return read<bool>(values, "selected");
 }
 
-double shortest_decimal(float value) {
+double as_typed(double value) {
+    if (!std::isfinite(value) || std::abs(value) > std::numeric_limits<float>::max()) return value;
+    const auto as_float = static_cast<float>(value);
+    if (as_float != value) return value;
     std::array<char, 32> text;
-    const auto [end, error] = std::to_chars(text.data(), text.data() + text.size(), value);
+    const auto [end, error] = std::to_chars(text.data(), text.data() + text.size(), as_float);
     double result = value;
     if (error == std::errc()) std::from_chars(text.data(), end, result);
     return result;

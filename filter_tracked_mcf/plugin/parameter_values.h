@@ -23,9 +23,10 @@ FlowParameters flow_parameters(const ParameterValues& values);
 /// Whether only selected faces are to flow. Throws InvalidParameter where that is not said.
 bool selected_only(const ParameterValues& values);
 
-/// The double that the shortest decimal notation of `value` denotes: 1e-5 for 1e-5f, which is
-/// 9.99999974737875e-06. MeshLab keeps real parameters as floats, but what was typed is a decimal;
-/// this recovers it, up to six digits, so that the plugin flows exactly as the command-line tool.
-double shortest_decimal(float value);
+/// The number that was typed where a host passes `value`. Many keep real parameters as floats, but
+/// what is typed is a decimal: a value that is a float becomes the double that the float's shortest
+/// decimal notation denotes, 1e-5 for 9.99999974737875e-06, so that the plugin flows exactly as the
+/// command-line tool. Any other double was passed as it is.
+double as_typed(double value);
 
 }  // namespace tracked_mcf

@@ -10,15 +10,15 @@
 
 namespace tracked_mcf {
 
-FilterOutcome guard(const std::function<std::string()>& work) {
+FilterOutcome guard(const std::function<FilterOutcome()>& work) {
     try {
-        return {true, work()};
+        return work();
     } catch (const std::bad_alloc&) {
-        return {false, "There is not enough memory for this; choose a smaller depth."};
+        return {false, "There is not enough memory for this; choose a smaller depth.", {}};
     } catch (const std::exception& error) {
-        return {false, error.what()};
+        return {false, error.what(), {}};
     } catch (...) {
-        return {false, "An unknown error occurred."};
+        return {false, "An unknown error occurred.", {}};
     }
 }
 
@@ -30,6 +30,11 @@ double seconds_of(const std::vector<StepReport>& steps) {
     return std::accumulate(steps.begin(), steps.end(), 0.0, [](double sum, const StepReport& step) {
         return sum + step.assemble_seconds + step.solve_seconds;
     });
+}
+
+double final_residual(Solver solver, const StepReport& step) {
+    if (solver == Solver::Converged) return step.relative_residual;
+    return step.residual_before == 0 ? 0 : step.residual_after / step.residual_before;
 }
 
 /// What is amiss with a run that has succeeded, with a blank before; empty if nothing.
@@ -70,6 +75,17 @@ std::string summary(const FlowParameters& parameters, const FlowReport& report) 
     }
     text << warnings(parameters, report);
     return text.str();
+}
+
+Outputs outputs_of(const FlowParameters& parameters, const FlowReport& report) {
+    double residual = 0;
+    if (!report.steps.empty()) residual = final_residual(parameters.solver, report.steps.back());
+    return {{"unknowns", static_cast<int>(report.unknowns)},
+            {"depth", report.depth},
+            {"steps", static_cast<int>(report.steps.size())},
+            {"final_residual", residual},
+            {"area_before", report.area_before},
+            {"area_after", report.area_after}};
 }
 
 }  // namespace run_filter_detail

@@ -103,14 +103,46 @@ TEST(ParameterValues, AValueOfTheWrongTypeIsRefused) {
     }
 }
 
-TEST(ShortestDecimal, RecoversWhatWasTyped) {
-    EXPECT_EQ(shortest_decimal(1e-5f), 1e-5);
-    EXPECT_EQ(shortest_decimal(0.1f), 0.1);
-    EXPECT_EQ(shortest_decimal(-2.5e-7f), -2.5e-7);
-    EXPECT_EQ(shortest_decimal(0.0f), 0.0);
-    EXPECT_TRUE(std::isnan(shortest_decimal(std::numeric_limits<float>::quiet_NaN())));
-    EXPECT_EQ(shortest_decimal(-std::numeric_limits<float>::infinity()),
+TEST(AsTyped, RecoversTheDecimalOfAFloat) {
+    EXPECT_EQ(as_typed(1e-5f), 1e-5);
+    EXPECT_EQ(as_typed(0.1f), 0.1);
+    EXPECT_EQ(as_typed(-2.5e-7f), -2.5e-7);
+    EXPECT_EQ(as_typed(0.0f), 0.0);
+    EXPECT_TRUE(std::isnan(as_typed(std::numeric_limits<float>::quiet_NaN())));
+    EXPECT_EQ(as_typed(-std::numeric_limits<float>::infinity()),
               -std::numeric_limits<double>::infinity());
+}
+
+TEST(AsTyped, KeepsOtherDoubles) {
+    for (const double value : {1e-5, 0.1, 1.0 / 3, 1e300, -1e-300}) {
+        EXPECT_EQ(as_typed(value), value);
+    }
+    EXPECT_EQ(as_typed(0.25), 0.25);
+}
+
+TEST(Outputs, AreTheReportsNumbers) {
+    using run_filter_detail::outputs_of;
+    FlowReport report;
+    report.unknowns = 1234;
+    report.depth = 7;
+    report.area_before = 2.5;
+    report.area_after = 2.25;
+    report.steps.resize(3);
+    report.steps[1].relative_residual = 0.5;
+    report.steps[2].relative_residual = 0.125;
+    report.steps[2].residual_before = 8;
+    report.steps[2].residual_after = 2;
+    FlowParameters parameters;
+    EXPECT_EQ(outputs_of(parameters, report), (Outputs{{"unknowns", 1234},
+                                                       {"depth", 7},
+                                                       {"steps", 3},
+                                                       {"final_residual", 0.125},
+                                                       {"area_before", 2.5},
+                                                       {"area_after", 2.25}}));
+    parameters.solver = Solver::OneWCycle;
+    EXPECT_EQ(outputs_of(parameters, report).at("final_residual"), Outputs::mapped_type(0.25));
+    report.steps.clear();
+    EXPECT_EQ(outputs_of(parameters, report).at("final_residual"), Outputs::mapped_type(0.0));
 }
 
 TEST(Summary, SaysWhichStepStoppedShortOfTheToleranceAndWhatToDo) {
@@ -179,9 +211,12 @@ TEST(EarlyStop, SaysWhenWhyAndWhatToDo) {
 }
 
 TEST(Guard, TurnsEveryExceptionIntoAMessage) {
-    EXPECT_TRUE(guard([] { return std::string("done"); }).succeeded);
+    const FilterOutcome done = guard([] { return FilterOutcome{true, "done", {{"depth", 5}}}; });
+    EXPECT_TRUE(done.succeeded);
+    EXPECT_EQ(done.message, "done");
+    EXPECT_EQ(done.outputs.size(), 1u);
     const auto message_of = [](auto thrown) {
-        const FilterOutcome outcome = guard([&]() -> std::string { throw thrown; });
+        const FilterOutcome outcome = guard([&]() -> FilterOutcome { throw thrown; });
         EXPECT_FALSE(outcome.succeeded);
         return outcome.message;
     };

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <common/interfaces.h>
+#include "meshlab_api.h"
 
 namespace tracked_mcf {
 

@@ -1,75 +1,66 @@
-// The real plugin, loaded as MeshLab 2020.09 loads it, in a program without a display.
+// The real plugin, loaded as the hosts of its release load it, in a program without a display.
 
 #include <gtest/gtest.h>
 
 #include <QApplication>
-#include <QPluginLoader>
 #include <functional>
 #include <limits>
-#include <stdexcept>
 
 #include "filter_tracked_mcf/parameters/parameter_table.h"
-#include "tests/hosts/legacy/layer.h"
+#include "tests/hosts/host.h"
+#include "tests/hosts/layer.h"
 
 namespace tracked_mcf {
 
 namespace {
 
-MeshFilterInterface& plugin() {
-    static QPluginLoader loader(TRACKED_MCF_PLUGIN_FILE);
-    auto* const filter = qobject_cast<MeshFilterInterface*>(loader.instance());
-    if (filter == nullptr) throw std::runtime_error(loader.errorString().toStdString());
-    return *filter;
+const host::Filter& filter() {
+    static const host::Filter filter(TRACKED_MCF_PLUGIN_FILE);
+    return filter;
 }
 
-QAction* action() {
-    return plugin().actions().first();
-}
-
-/// A document with one layer, the plugin's parameters as a dialog starts with them, and its log.
+/// A document with one layer, and the plugin's parameters as a dialog starts with them.
 class Plugin : public testing::Test {
 protected:
-    Plugin() : layer(*document.addNewMesh("", "layer", true)) {
+    Plugin() : layer(host::add_layer(document, "layer")) {
         make_layer(layer);
-        plugin().initParameterSet(action(), document, parameters);
+        parameters = filter().parameters(document);
         parameters.setValue("iterations", IntValue(2));
         parameters.setValue("depth", IntValue(4));
         // Some faces of the layer are selected.
         parameters.setValue("selected", BoolValue(false));
-        plugin().setLog(&log);
     }
 
     bool apply(vcg::CallBackPos* callback = nullptr) {
-        return plugin().applyFilter(action(), document, parameters, callback);
-    }
-
-    QString log_text() const {
-        QStringList lines;
-        log.print(lines);
-        return lines.join("\n");
+        outcome = filter().apply(document, parameters, callback);
+        return outcome.succeeded;
     }
 
     MeshDocument document;
     MeshModel& layer;
     RichParameterList parameters;
-    GLLogStream log;
+    host::Outcome outcome{};
 };
 
+bool contains(const std::string& text, const std::string& word) {
+    return text.find(word) != std::string::npos;
+}
+
 TEST_F(Plugin, DeclaresItselfAsAPreviewableSmoother) {
-    EXPECT_EQ(plugin().actions().size(), 1);
-    EXPECT_EQ(action()->text(), kFilterName);
-    EXPECT_EQ(plugin().filterInfo(action()), kFilterHelp);
-    EXPECT_EQ(plugin().getClass(action()), MeshFilterInterface::Smoothing);
-    EXPECT_EQ(plugin().filterArity(action()), MeshFilterInterface::SINGLE_MESH);
-    EXPECT_EQ(plugin().getRequirements(action()), MeshModel::MM_NONE);
-    EXPECT_EQ(plugin().postCondition(action()),
+    const host::Declaration declaration = filter().declaration();
+    EXPECT_EQ(filter().filters_in_plugin(), 1);
+    EXPECT_EQ(declaration.name, kFilterName);
+    EXPECT_EQ(declaration.help, kFilterHelp);
+    EXPECT_TRUE(declaration.smooths);
+    EXPECT_TRUE(declaration.takes_one_layer);
+    EXPECT_EQ(declaration.requirements, MeshModel::MM_NONE);
+    EXPECT_EQ(declaration.post_condition,
               MeshModel::MM_VERTCOORD | MeshModel::MM_VERTNORMAL | MeshModel::MM_FACENORMAL);
 }
 
 TEST_F(Plugin, IsApplicableToFacesOnly) {
-    QStringList missing;
-    EXPECT_TRUE(plugin().isFilterApplicable(action(), layer, missing));
-    EXPECT_FALSE(plugin().isFilterApplicable(action(), *document.addNewMesh("", "empty"), missing));
+    EXPECT_TRUE(filter().is_applicable(layer));
+    EXPECT_FALSE(filter().is_applicable(host::add_layer(document, "empty")));
 }
 
 /// Expects of a parameter what the table says about it.
@@ -82,7 +73,7 @@ struct ExpectParameter {
     }
     void operator()(const ParameterDescription::Real& expected) const {
         EXPECT_EQ(actual.stringType(), "RichFloat");
-        EXPECT_EQ(actual.value().getFloat(), static_cast<float>(expected.default_value));
+        EXPECT_EQ(actual.value().getFloat(), static_cast<Scalarm>(expected.default_value));
     }
     void operator()(const ParameterDescription::Boolean& expected) const {
         EXPECT_EQ(actual.stringType(), "RichBool");
@@ -93,7 +84,7 @@ struct ExpectParameter {
     }
     void operator()(const ParameterDescription::Choice& expected) const {
         ASSERT_EQ(actual.stringType(), "RichEnum");
-        EXPECT_EQ(actual.value().getEnum(), expected.default_value);
+        EXPECT_EQ(choice_of(actual.value()), expected.default_value);
         const QStringList& labels = dynamic_cast<const RichEnum&>(actual).enumvalues;
         ASSERT_EQ(static_cast<std::size_t>(labels.size()), expected.labels.size());
         for (int i = 0; i < labels.size(); ++i) {
@@ -103,8 +94,7 @@ struct ExpectParameter {
 };
 
 TEST_F(Plugin, ParametersAreThoseOfTheTable) {
-    RichParameterList defaults;
-    plugin().initParameterSet(action(), document, defaults);
+    const RichParameterList defaults = filter().parameters(document);
     ASSERT_EQ(defaults.size(), parameter_table().size());
     for (unsigned int i = 0; i < defaults.size(); ++i) {
         const ParameterDescription& expected = parameter_table()[i];
@@ -117,28 +107,26 @@ TEST_F(Plugin, ParametersAreThoseOfTheTable) {
 
 TEST_F(Plugin, ParametersNeedNoLayer) {
     MeshDocument empty;
-    RichParameterList defaults;
-    plugin().initParameterSet(action(), empty, defaults);
-    EXPECT_EQ(defaults.size(), parameter_table().size());
+    EXPECT_EQ(filter().parameters(empty).size(), parameter_table().size());
 }
 
 TEST_F(Plugin, MovesPositionsAndNothingElse) {
     const Belongings belongings(layer);
     const auto before = position_bits(layer);
-    ASSERT_TRUE(apply()) << log_text().toStdString();
+    ASSERT_TRUE(apply()) << outcome.message;
     const auto after = position_bits(layer);
     for (std::size_t i = 0; i < before.size(); ++i) EXPECT_NE(before[i], after[i]) << i;
     EXPECT_TRUE(Belongings(layer) == belongings);
-    EXPECT_TRUE(log_text().contains("1800 vertices")) << log_text().toStdString();
+    EXPECT_TRUE(contains(outcome.log, "1800 vertices")) << outcome.log;
 }
 
 TEST_F(Plugin, EveryParameterHasAnEffect) {
     // So flat that its two sides share cells.
-    for (CVertexO& vertex : layer.cm.vert) vertex.P()[2] *= 0.05F;
+    for (CVertexO& vertex : layer.cm.vert) vertex.P()[2] *= Scalarm(0.05);
     const auto original = layer.cm.vert;
     const auto smoothed = [&] {
         for (std::size_t i = 0; i < original.size(); ++i) layer.cm.vert[i].P() = original[i].cP();
-        EXPECT_TRUE(apply()) << log_text().toStdString();
+        EXPECT_TRUE(apply()) << outcome.message;
         return position_bits(layer);
     };
     const auto by_default = smoothed();
@@ -154,13 +142,13 @@ TEST_F(Plugin, EveryParameterHasAnEffect) {
     EXPECT_NE(with("step_size", FloatValue(1e-4f)), by_default);
     EXPECT_NE(with("absolute", BoolValue(true)), by_default);
     EXPECT_NE(with("iterations", IntValue(1)), by_default);
-    EXPECT_NE(with("flow", EnumValue(1)), by_default);
+    EXPECT_NE(with("flow", *host::choice(1)), by_default);
     EXPECT_NE(with("selected", BoolValue(true)), by_default);
-    EXPECT_NE(with("rescale", EnumValue(1)), by_default);
-    EXPECT_NE(with("rescale", EnumValue(2)), by_default);
-    EXPECT_NE(with("rescale", EnumValue(2)), with("rescale", EnumValue(1)));
+    EXPECT_NE(with("rescale", *host::choice(1)), by_default);
+    EXPECT_NE(with("rescale", *host::choice(2)), by_default);
+    EXPECT_NE(with("rescale", *host::choice(2)), with("rescale", *host::choice(1)));
     EXPECT_NE(with("separate_sheets", BoolValue(false)), by_default);
-    EXPECT_NE(with("solver", EnumValue(1)), by_default);
+    EXPECT_NE(with("solver", *host::choice(1)), by_default);
 }
 
 TEST_F(Plugin, EveryBoundaryHasAnEffectOnAnOpenMesh) {
@@ -168,8 +156,8 @@ TEST_F(Plugin, EveryBoundaryHasAnEffectOnAnOpenMesh) {
     const auto original = layer.cm.vert;
     const auto with_boundary = [&](int boundary) {
         for (std::size_t i = 0; i < original.size(); ++i) layer.cm.vert[i].P() = original[i].cP();
-        parameters.setValue("boundary", EnumValue(boundary));
-        EXPECT_TRUE(apply()) << log_text().toStdString();
+        parameters.setValue("boundary", *host::choice(boundary));
+        EXPECT_TRUE(apply()) << outcome.message;
         return position_bits(layer);
     };
     const auto locked = with_boundary(0), cells = with_boundary(1), free = with_boundary(2);
@@ -179,11 +167,7 @@ TEST_F(Plugin, EveryBoundaryHasAnEffectOnAnOpenMesh) {
 }
 
 TEST_F(Plugin, SelectedIsOnAtFirstIfFacesAreSelected) {
-    const auto is_on_at_first = [&] {
-        RichParameterList defaults;
-        plugin().initParameterSet(action(), document, defaults);
-        return defaults.getBool("selected");
-    };
+    const auto is_on_at_first = [&] { return filter().parameters(document).getBool("selected"); };
     layer.cm.sfn = 0;
     EXPECT_TRUE(is_on_at_first()) << "whatever the counter says";
     for (CFaceO& face : layer.cm.face) face.ClearS();
@@ -207,18 +191,18 @@ TEST_F(Plugin, OnlySelectedFacesMove) {
     parameters.setValue("selected", BoolValue(true));
     const Belongings belongings(layer);
     const auto before = position_bits(layer);
-    ASSERT_TRUE(apply()) << log_text().toStdString();
+    ASSERT_TRUE(apply()) << outcome.message;
     const auto after = position_bits(layer);
     for (std::size_t i = 0; i < before.size(); ++i) EXPECT_EQ(before[i] == after[i], stays[i]) << i;
     EXPECT_TRUE(Belongings(layer) == belongings);
-    EXPECT_TRUE(log_text().contains("are held")) << log_text().toStdString();
+    EXPECT_TRUE(contains(outcome.log, "are held")) << outcome.log;
 }
 
 TEST_F(Plugin, ABoundaryKeepsItsBits) {
     delete_first_vertex(layer);
     const Belongings belongings(layer);
     const auto before = position_bits(layer);
-    ASSERT_TRUE(apply()) << log_text().toStdString();
+    ASSERT_TRUE(apply()) << outcome.message;
     const auto after = position_bits(layer);
     std::size_t kept = 0;
     for (std::size_t i = 1; i < before.size(); ++i) kept += before[i] == after[i] ? 1 : 0;
@@ -230,15 +214,15 @@ TEST_F(Plugin, AFlowThatVanishesSucceedsAndSaysSo) {
     parameters.setValue("step_size", FloatValue(1e3f));
     parameters.setValue("iterations", IntValue(100));
     const auto before = position_bits(layer);
-    ASSERT_TRUE(apply()) << log_text().toStdString();
-    EXPECT_TRUE(log_text().contains("Warning: ")) << log_text().toStdString();
+    ASSERT_TRUE(apply()) << outcome.message;
+    EXPECT_TRUE(contains(outcome.log, "Warning: ")) << outcome.log;
 }
 
 TEST_F(Plugin, UpdatesBoxAndNormals) {
     ASSERT_TRUE(apply());
     const Box3m box = layer.cm.bbox;
     const Point3m vertex_normal = layer.cm.vert[11].cN(), face_normal = layer.cm.face[11].cN();
-    layer.UpdateBoxAndNormals();
+    update_box_and_normals(layer);
     EXPECT_EQ(box, layer.cm.bbox);
     EXPECT_EQ(vertex_normal, layer.cm.vert[11].cN());
     EXPECT_EQ(face_normal, layer.cm.face[11].cN());
@@ -248,11 +232,11 @@ TEST_F(Plugin, DeletedElementsHaveNoSay) {
     delete_first_vertex(layer);
     const Belongings belongings(layer);
     const auto before = position_bits(layer);
-    ASSERT_TRUE(apply()) << log_text().toStdString();
+    ASSERT_TRUE(apply()) << outcome.message;
     EXPECT_EQ(position_bits(layer)[0], before[0]);
     EXPECT_TRUE(Belongings(layer) == belongings);
 
-    MeshModel& compact = *document.addNewMesh("", "compact", true);
+    MeshModel& compact = host::add_layer(document, "compact");
     make_layer(compact);
     delete_first_vertex(compact);
     vcg::tri::Allocator<CMeshO>::CompactEveryVector(compact.cm);
@@ -262,7 +246,7 @@ TEST_F(Plugin, DeletedElementsHaveNoSay) {
 }
 
 TEST_F(Plugin, OnlyTheCurrentLayerMoves) {
-    make_layer(*document.addNewMesh("", "other", true));
+    make_layer(host::add_layer(document, "other"));
     const auto before = position_bits(layer);
     ASSERT_TRUE(apply());
     EXPECT_EQ(position_bits(layer), before);
@@ -286,13 +270,14 @@ TEST_F(Plugin, StopsWhenTheCallbackSaysSo) {
     const auto before = position_bits(layer);
     EXPECT_FALSE(apply([](int percent, const char*) { return percent < 50; }));
     EXPECT_EQ(position_bits(layer), before);
-    EXPECT_FALSE(plugin().errorMsg().isEmpty());
+    EXPECT_TRUE(contains(outcome.message, "Stopped")) << outcome.message;
 }
 
 TEST_F(Plugin, WithoutALayerThereIsAMessage) {
     MeshDocument empty;
-    EXPECT_FALSE(plugin().applyFilter(action(), empty, parameters, nullptr));
-    EXPECT_TRUE(log_text().contains("no layer"));
+    outcome = filter().apply(empty, parameters);
+    EXPECT_FALSE(outcome.succeeded);
+    EXPECT_TRUE(contains(outcome.message, "no layer")) << outcome.message;
 }
 
 /// Something that must not work: what spoils it, and a word that the message must hold.
@@ -315,9 +300,7 @@ TEST_P(PluginRefuses, WithAMessageAndTheLayerUntouched) {
     EXPECT_FALSE(apply());
     EXPECT_EQ(position_bits(layer), before);
     EXPECT_TRUE(Belongings(layer) == belongings);
-    const QString message = plugin().errorMsg();
-    EXPECT_TRUE(message.contains(GetParam().word)) << message.toStdString();
-    EXPECT_TRUE(log_text().contains(message)) << log_text().toStdString();
+    EXPECT_TRUE(contains(outcome.message, GetParam().word)) << outcome.message;
 }
 
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
@@ -332,6 +315,10 @@ auto set(const char* name, Number value) {
 /// Spoils one coordinate.
 auto put(float value) {
     return [=](MeshModel& layer, RichParameterList&) { layer.cm.vert[17].P()[1] = value; };
+}
+
+auto set_choice(const char* name, int index) {
+    return [=](MeshModel&, RichParameterList& list) { list.setValue(name, *host::choice(index)); };
 }
 
 void remove_everything(MeshModel& layer, RichParameterList&) {
@@ -371,13 +358,13 @@ void select_nothing(MeshModel& layer, RichParameterList& list) {
 
 void rescale_the_selection(MeshModel&, RichParameterList& list) {
     list.setValue("selected", BoolValue(true));
-    list.setValue("rescale", EnumValue(1));
+    list.setValue("rescale", *host::choice(1));
 }
 
 void keep_the_volume_of_an_open_mesh(MeshModel& layer, RichParameterList& list) {
     vcg::tri::Allocator<CMeshO>::DeleteFace(layer.cm, layer.cm.face[7]);
-    list.setValue("boundary", EnumValue(2));
-    list.setValue("rescale", EnumValue(2));
+    list.setValue("boundary", *host::choice(2));
+    list.setValue("rescale", *host::choice(2));
 }
 
 auto set_absolute_step_size(float value) {
@@ -404,12 +391,12 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"StepSizeNegative", set<FloatValue>("step_size", -1e-5f), "step_size"},
         BadInput{"StepSizeNaN", set<FloatValue>("step_size", kNaN), "step_size"},
         BadInput{"StepSizeInfinite", set<FloatValue>("step_size", kInfinity), "step_size"},
-        BadInput{"BoundaryTooLarge", set<EnumValue>("boundary", 3), "boundary"},
-        BadInput{"BoundaryNegative", set<EnumValue>("boundary", -1), "boundary"},
-        BadInput{"FlowTooLarge", set<EnumValue>("flow", 2), "flow"},
-        BadInput{"FlowNegative", set<EnumValue>("flow", -1), "flow"},
-        BadInput{"RescaleTooLarge", set<EnumValue>("rescale", 3), "rescale"},
-        BadInput{"RescaleNegative", set<EnumValue>("rescale", -1), "rescale"},
+        BadInput{"BoundaryTooLarge", set_choice("boundary", 3), "boundary"},
+        BadInput{"BoundaryNegative", set_choice("boundary", -1), "boundary"},
+        BadInput{"FlowTooLarge", set_choice("flow", 2), "flow"},
+        BadInput{"FlowNegative", set_choice("flow", -1), "flow"},
+        BadInput{"RescaleTooLarge", set_choice("rescale", 3), "rescale"},
+        BadInput{"RescaleNegative", set_choice("rescale", -1), "rescale"},
         BadInput{"NothingSelected", select_nothing, "No face is selected"},
         BadInput{"RescaledPartOfTheMesh", rescale_the_selection, "rescale"},
         BadInput{"VolumeOfAnOpenMesh", keep_the_volume_of_an_open_mesh, "open"},
@@ -417,8 +404,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"AbsoluteOfTheWrongType", replace<RichInt>("absolute", 1), "absolute"},
         BadInput{"AbsoluteStepSizeNaN", set_absolute_step_size(kNaN), "step_size"},
         BadInput{"AbsoluteStepSizeInfinite", set_absolute_step_size(kInfinity), "step_size"},
-        BadInput{"SolverTooLarge", set<EnumValue>("solver", 2), "solver"},
-        BadInput{"SolverNegative", set<EnumValue>("solver", -1), "solver"},
+        BadInput{"SolverTooLarge", set_choice("solver", 2), "solver"},
+        BadInput{"SolverNegative", set_choice("solver", -1), "solver"},
         BadInput{"SheetsOfTheWrongType", replace<RichInt>("separate_sheets", 1), "separate_sheets"},
         BadInput{"DepthOfTheWrongType", replace<RichFloat>("depth", 5.0F), "depth"}),
     [](const auto& test) { return std::string(test.param.name); });

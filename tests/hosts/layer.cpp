@@ -1,4 +1,4 @@
-#include "tests/hosts/legacy/layer.h"
+#include "tests/hosts/layer.h"
 
 #include <vcg/complex/algorithms/create/platonic.h>
 
@@ -19,17 +19,17 @@ unsigned char byte_of(std::size_t number) {
 void add_bumps(CMeshO& mesh) {
     for (CVertexO& vertex : mesh.vert) {
         const Point3m p = vertex.cP();
-        vertex.P() *= 1 + 0.02f * std::sin(40 * p[0]) * std::sin(40 * p[1] + 7 * p[2]);
+        vertex.P() *= 1 + Scalarm(0.02) * std::sin(40 * p[0]) * std::sin(40 * p[1] + 7 * p[2]);
     }
 }
 
 void dress_vertices(CMeshO& mesh) {
     for (std::size_t i = 0; i < mesh.vert.size(); ++i) {
         CVertexO& vertex = mesh.vert[i];
-        const auto number = static_cast<float>(i);
+        const auto number = static_cast<Scalarm>(i);
         vertex.C() = Color4b(byte_of(i), byte_of(2 * i), byte_of(3 * i), 255);
-        vertex.Q() = 0.5f * number;
-        vertex.T().P() = {0.25f * number, -number};
+        vertex.Q() = number / 2;
+        vertex.T().P() = {number / 4, -number};
         if (i % 7 == 0) vertex.SetS();
     }
 }
@@ -37,11 +37,11 @@ void dress_vertices(CMeshO& mesh) {
 void dress_faces(CMeshO& mesh) {
     for (std::size_t i = 0; i < mesh.face.size(); ++i) {
         CFaceO& face = mesh.face[i];
-        const auto number = static_cast<float>(i);
+        const auto number = static_cast<Scalarm>(i);
         face.C() = Color4b(byte_of(5 * i), byte_of(7 * i), byte_of(11 * i), 255);
         face.Q() = -number;
         for (int corner = 0; corner < 3; ++corner) {
-            face.WT(corner).P() = {number, static_cast<float>(corner)};
+            face.WT(corner).P() = {number, static_cast<Scalarm>(corner)};
         }
         if (i % 5 == 0) face.SetS();
     }
@@ -53,7 +53,7 @@ void append(std::vector<unsigned char>& colours, const Colour& colour) {
 }
 
 template <class Texture>
-void append(std::vector<float>& coordinates, const Texture& texture) {
+void append(std::vector<Scalarm>& coordinates, const Texture& texture) {
     coordinates.push_back(texture.U());
     coordinates.push_back(texture.V());
 }
@@ -69,7 +69,7 @@ void make_layer(MeshModel& layer) {
     dress_vertices(layer.cm);
     dress_faces(layer.cm);
     layer.cm.Tr.SetTranslate(1, 2, 3);
-    layer.UpdateBoxAndNormals();
+    update_box_and_normals(layer);
 }
 
 void delete_first_vertex(MeshModel& layer) {
@@ -80,11 +80,11 @@ void delete_first_vertex(MeshModel& layer) {
         if (uses_it) vcg::tri::Allocator<CMeshO>::DeleteFace(mesh, face);
     }
     vcg::tri::Allocator<CMeshO>::DeleteVertex(mesh, mesh.vert[0]);
-    mesh.vert[0].P() = {std::numeric_limits<float>::quiet_NaN(), 1e30f, 0};
+    mesh.vert[0].P() = {std::numeric_limits<Scalarm>::quiet_NaN(), Scalarm(1e30), 0};
 }
 
-std::vector<std::array<std::uint32_t, 3>> position_bits(const MeshModel& layer) {
-    std::vector<std::array<std::uint32_t, 3>> result(layer.cm.vert.size());
+std::vector<PositionBits> position_bits(const MeshModel& layer) {
+    std::vector<PositionBits> result(layer.cm.vert.size());
     for (std::size_t i = 0; i < result.size(); ++i) {
         std::memcpy(&result[i], layer.cm.vert[i].cP().V(), sizeof result[i]);
     }

@@ -1,10 +1,9 @@
 #pragma once
 
-#include <common/interfaces.h>
-
 #include <array>
-#include <cstdint>
 #include <vector>
+
+#include "meshlab_api.h"
 
 namespace tracked_mcf {
 
@@ -16,8 +15,10 @@ void make_layer(MeshModel& layer);
 /// looks at it. The elements stay in memory, as filters leave them.
 void delete_first_vertex(MeshModel& layer);
 
+using PositionBits = std::array<unsigned char, 3 * sizeof(Scalarm)>;
+
 /// The positions' bits, deleted vertices included.
-std::vector<std::array<std::uint32_t, 3>> position_bits(const MeshModel& layer);
+std::vector<PositionBits> position_bits(const MeshModel& layer);
 
 /// Everything of a layer but positions, normals and box: what the filter has no business with.
 struct Belongings {
@@ -25,10 +26,10 @@ struct Belongings {
     bool operator==(const Belongings& other) const;
 
     std::vector<unsigned char> vertex_colours, face_colours;
-    std::vector<float> vertex_qualities, face_qualities, texture_coordinates;
+    std::vector<Scalarm> vertex_qualities, face_qualities, texture_coordinates;
     std::vector<bool> vertex_selection, face_selection, vertex_deleted, face_deleted;
     std::vector<std::size_t> face_vertices;
-    std::vector<float> matrix;
+    std::vector<Scalarm> matrix;
     int data_mask;
 };
 

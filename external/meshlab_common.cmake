@@ -1,0 +1,38 @@
+# MESHLAB_COMMON_LIBRARY, which plugins link: the caller's own if given, or the installed one if it
+# is of the release and precision that the plugin is built for. Else nothing but its name is known of
+# it: an empty library of that name stands in, and the host brings what is undefined.
+# Sets MESHLAB_LIBRARY_DIR to where the real one lies, or to nothing.
+
+set(MESHLAB_COMMON_LIBRARY "" CACHE FILEPATH
+    "libmeshlab-common of MESHLAB_RELEASE and MESHLAB_SCALAR; empty is the installed one if it fits")
+
+# Of Debian's package, since the library does not tell its release.
+function(find_installed_library result)
+  find_library(installed meshlab-common PATH_SUFFIXES meshlab NO_CACHE)
+  execute_process(COMMAND dpkg-query -W -f "\${Version}" meshlab
+                  OUTPUT_VARIABLE version ERROR_QUIET RESULT_VARIABLE status)
+  string(FIND "${version}" "${MESHLAB_SDK_RELEASE}" position)
+  if(installed AND status EQUAL 0 AND position EQUAL 0 AND MESHLAB_SCALAR STREQUAL float)
+    set(${result} "${installed}" PARENT_SCOPE)
+  endif()
+endfunction()
+
+set(library "${MESHLAB_COMMON_LIBRARY}")
+if(NOT library)
+  find_installed_library(library)
+endif()
+
+if(library)
+  get_filename_component(library_dir "${library}" DIRECTORY)
+  target_link_libraries(meshlab_sdk INTERFACE "${library}")
+  target_link_options(meshlab_sdk INTERFACE -Wl,--no-undefined,--as-needed)
+else()
+  set(library_dir "")
+  file(WRITE "${CMAKE_CURRENT_BINARY_DIR}/nothing.cpp" "")
+  add_library(meshlab_common_stand_in SHARED "${CMAKE_CURRENT_BINARY_DIR}/nothing.cpp")
+  set_target_properties(meshlab_common_stand_in PROPERTIES OUTPUT_NAME meshlab-common)
+  # Linked although nothing is found in it, and only it: of Qt, nothing that the plugin does not use.
+  target_link_libraries(meshlab_sdk INTERFACE -Wl,--no-as-needed meshlab_common_stand_in
+                                              -Wl,--as-needed)
+endif()
+set(MESHLAB_LIBRARY_DIR "${library_dir}" CACHE INTERNAL "Where MeshLab's libraries lie")
