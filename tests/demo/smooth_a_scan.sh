@@ -24,9 +24,9 @@ cmake --build "$build" --parallel "$(nproc)"
 
 say "Smoothing in meshlabserver"
 mkdir -p "$demo"
-plugin=$build/filter_tracked_mcf/plugin/legacy/libfilter_tracked_mcf.so
-plugin_dir=$(sed -n 's/^MESHLAB_PLUGIN_DIR:PATH=//p' "$build/CMakeCache.txt")
-"$hosts/private_prefix.sh" "$demo/meshlab" "$plugin_dir" "$plugin"
+plugin=$build/filter_tracked_mcf/plugin/libfilter_tracked_mcf.so
+libraries=$(sed -n 's/^MESHLAB_LIBRARY_DIR:INTERNAL=//p' "$build/CMakeCache.txt")
+"$hosts/private_prefix.sh" "$demo/meshlab" "$libraries/plugins" "$plugin"
 "$hosts/flow_script.sh" > "$demo/smooth.mlx" # the filter's defaults
 rm -f "$demo/smooth.ply"
 if ! xvfb-run -a "$demo/meshlab/bin/meshlabserver" -i "$mesh" -s "$demo/smooth.mlx" \

@@ -22,9 +22,9 @@ meshlab() { # IN SCRIPT OUT WHAT: names without .ply and .mlx; what to save besi
     grep -o "Smoothed .*" "$work/log.txt" | tail -n 1 || true
 }
 check() { # BEFORE PLUGIN TOOL
-    "$here/check_kept.py" "$work/$1.ply" "$work/$2.ply"
-    "$here/check_kept.py" "$work/$1.ply" "$work/$3.ply"
-    "$here/compare_positions.py" "$work/$2.ply" "$work/$3.ply" "$work/$1.ply" 0.5
+    "$here/../check_kept.py" "$work/$1.ply" "$work/$2.ply"
+    "$here/../check_kept.py" "$work/$1.ply" "$work/$3.ply"
+    "$here/../compare_positions.py" "$work/$2.ply" "$work/$3.ply" "$work/$1.ply" 0.5
 }
 function_filter() { # NAME PARAMETER=VALUE...: one of MeshLab's filters that take functions
     local type parameter

@@ -26,7 +26,7 @@ cd "$work"
 sed -n '/^```xml$/,/^```$/p' "$readme" | grep -v '^```' > smooth.mlx
 "$prefix/bin/meshlabserver" -i scan.ply -s smooth.mlx -o smooth.ply | grep "Smoothed"
 "$tool" scan.ply tool.ply --quiet
-"$here/compare_positions.py" smooth.ply tool.ply scan.ply 0.5
+"$here/../compare_positions.py" smooth.ply tool.ply scan.ply 0.5
 
 commands=$(sed -n '/^```sh$/,/^```$/p' "$readme" | grep '^tracked_mcf ')
 while read -r _ arguments; do

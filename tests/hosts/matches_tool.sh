@@ -1,30 +1,33 @@
 #!/usr/bin/env bash
-# Runs the filter with every value of every choice in stock meshlabserver and with the command-line
-# tool on the same mesh, and compares vertex by vertex; where the tool refuses, as it must refuse to
-# keep the volume of an open mesh, meshlabserver must do so in the same words:
-# meshlabserver_matches_tool.sh PREFIX TOOL MESH WORK_DIR
+# Runs the filter with every value of every choice in a host and with the command-line tool on the
+# same mesh, and compares vertex by vertex; where the tool refuses, as it must refuse to keep the
+# volume of an open mesh, the host must do so in the same words:
+# matches_tool.sh TOOL MESH WORK_DIR ULPS HOST...
+#
+# HOST is what runs the filter, given IN OUT NAME=VALUE... ULPS is how far the two may differ, in
+# units in the last place of a float: 0.5 where the host rounds to floats, 0 where it does not.
 set -euo pipefail
 
 here=$(dirname "$(realpath "$0")")
-prefix=$1 tool=$2 mesh=$3 work=$4
+tool=$1 mesh=$2 work=$3 ulps=$4 host=("${@:5}")
 rm -rf "$work"
 mkdir -p "$work"
 
-# Through MeshLab once, so that both start from the same floats whatever the format.
-"$prefix/bin/meshlabserver" -i "$mesh" -o "$work/in.ply"
+# So that both start from the same floats whatever the format.
+"$here/float_ply.py" "$mesh" "$work/in.ply"
 
-run() { # NAME PARAMETERS TOOL_OPTIONS: those as flow_script.sh takes them, these as the tool does
-    local parameters options plugin=0 ours=0
+run() { # NAME PARAMETERS TOOL_OPTIONS: those as a script takes them, these as the tool does
+    local parameters options in_host=0 ours=0
     read -ra parameters <<< "depth=6 step_size=$step_size iterations=5 $2"
     read -ra options <<< "--depth 6 --step-size $step_size --iterations 5 $3"
-    "$here/flow_script.sh" "${parameters[@]}" > "$work/$1.mlx"
-    "$prefix/bin/meshlabserver" -i "$work/in.ply" -s "$work/$1.mlx" -o "$work/plugin-$1.ply" \
-        > "$work/log.txt" 2>&1 || plugin=$?
+    "${host[@]}" "$work/in.ply" "$work/host-$1.ply" "${parameters[@]}" \
+        > "$work/log.txt" 2>&1 || in_host=$?
     "$tool" "$work/in.ply" "$work/tool-$1.ply" "${options[@]}" --quiet --report "$work/$1.json" \
         2> "$work/errors.txt" || ours=$?
-    [ "$plugin $ours" = "0 0" ] || [[ "$plugin $ours" = "255 "[12] ]] || {
+    # The tool tells bad parameters, 1, from bad meshes, 2; hosts end with 1 or 255.
+    [ "$in_host $ours" = "0 0" ] || [[ "$in_host $ours" =~ ^(1|255)\ [12]$ ]] || {
         cat "$work/log.txt" "$work/errors.txt"
-        echo "$1: meshlabserver ends with $plugin, the tool with $ours"
+        echo "$1: the host ends with $in_host, the tool with $ours"
         exit 1
     } >&2
     return "$ours"
@@ -32,8 +35,8 @@ run() { # NAME PARAMETERS TOOL_OPTIONS: those as flow_script.sh takes them, thes
 compare() { # NAME PARAMETERS TOOL_OPTIONS
     run "$@"
     grep -o "Smoothed .*" "$work/log.txt" | tail -n 1
-    # Half a unit in the last place: the plugin's floats are the tool's doubles, rounded.
-    "$here/compare_positions.py" "$work/plugin-$1.ply" "$work/tool-$1.ply" "$work/in.ply" 0.5
+    "$here/compare_positions.py" "$work/host-$1.ply" "$work/tool-$1.ply" "$work/in.ply" "$ulps" |
+        tee -a "$work/differences.txt"
 }
 both_refuse() { # NAME PARAMETERS TOOL_OPTIONS
     if run "$@"; then
@@ -63,5 +66,6 @@ else
 fi
 
 # A tenth of a squared cell, in units of the mesh.
-step_size=$(sed -n 's/^  "cell_size": \(.*\),$/\1/p' "$work/default.json" | awk '{printf "%.4g", $1 * $1 / 10}')
+step_size=$(sed -n 's/^  "cell_size": \(.*\),$/\1/p' "$work/default.json" |
+    awk '{printf "%.4g", $1 * $1 / 10}')
 compare absolute absolute=true --absolute
