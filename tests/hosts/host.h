@@ -41,6 +41,7 @@ public:
     bool is_applicable(const MeshModel& layer) const;
     /// As a dialog starts with them.
     RichParameterList parameters(MeshDocument& document) const;
+    /// Gives the current layer what the filter requires, as hosts do, and applies the filter.
     Outcome apply(MeshDocument& document, const RichParameterList& parameters,
                   vcg::CallBackPos* callback = nullptr) const;
 
@@ -51,6 +52,8 @@ private:
 
 /// An empty layer, made current.
 MeshModel& add_layer(MeshDocument& document, const char* label);
+
+void hide(MeshModel& layer);
 
 /// For what a file with this vcg::tri::io::Mask holds besides positions.
 void make_room(MeshModel& layer, int io_mask);

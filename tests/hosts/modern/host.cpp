@@ -59,6 +59,9 @@ RichParameterList Filter::parameters(MeshDocument& document) const {
 
 Outcome Filter::apply(MeshDocument& document, const RichParameterList& parameters,
                       vcg::CallBackPos* callback) const {
+    if (document.mm() != nullptr) {
+        document.mm()->updateDataMask(loaded_->filter->getRequirements(loaded_->action));
+    }
     GLLogStream log;
     FilterPlugin& filter = *loaded_->filter;
     filter.setLog(&log);
@@ -80,6 +83,10 @@ Outcome Filter::apply(MeshDocument& document, const RichParameterList& parameter
 
 MeshModel& add_layer(MeshDocument& document, const char* label) {
     return *document.addNewMesh(QString(), label, true);
+}
+
+void hide(MeshModel& layer) {
+    layer.setVisible(false);
 }
 
 void make_room(MeshModel& layer, int io_mask) {

@@ -1,0 +1,54 @@
+// What scripts get from MeshLab 2022.02 and later, and PyMeshLab: a name, and numbers.
+
+#include <gtest/gtest.h>
+
+#include <vcg/complex/algorithms/stat.h>
+
+#include "tests/hosts/host.h"
+#include "tests/hosts/layer.h"
+
+namespace tracked_mcf {
+
+namespace {
+
+const host::Filter& filter() {
+    static const host::Filter filter(TRACKED_MCF_PLUGIN_FILE);
+    return filter;
+}
+
+TEST(Scripts, KnowTheFilterByItsName) {
+    EXPECT_EQ(filter().declaration().python_name, "apply_coord_mean_curvature_flow");
+}
+
+TEST(Scripts, GetNumbersOfTypesThatReachThem) {
+    MeshDocument document;
+    MeshModel& layer = host::add_layer(document, "layer");
+    make_layer(layer);
+    RichParameterList parameters = filter().parameters(document);
+    parameters.setValue("depth", IntValue(5));
+    parameters.setValue("iterations", IntValue(3));
+    parameters.setValue("selected", BoolValue(false));
+    const auto outputs = filter().apply(document, parameters).outputs;
+
+    const auto type_of = [&](const char* name) { return outputs.at(name).type(); };
+    EXPECT_EQ(outputs.size(), 6u);
+    for (const char* name : {"depth", "steps", "unknowns"}) {
+        EXPECT_EQ(type_of(name), QVariant::Int) << name;
+    }
+    for (const char* name : {"final_residual", "area_before", "area_after"}) {
+        EXPECT_EQ(type_of(name), QVariant::Double) << name;
+    }
+    EXPECT_EQ(outputs.at("depth").toInt(), 5);
+    EXPECT_EQ(outputs.at("steps").toInt(), 3);
+    EXPECT_GT(outputs.at("unknowns").toInt(), 500);
+    EXPECT_GT(outputs.at("final_residual").toDouble(), 0);
+    EXPECT_LE(outputs.at("final_residual").toDouble(), 1e-3);
+    EXPECT_NEAR(outputs.at("area_after").toDouble(),
+                vcg::tri::Stat<CMeshO>::ComputeMeshArea(layer.cm),
+                1e-4 * outputs.at("area_before").toDouble());
+    EXPECT_LT(outputs.at("area_after").toDouble(), outputs.at("area_before").toDouble());
+}
+
+}  // namespace
+
+}  // namespace tracked_mcf
