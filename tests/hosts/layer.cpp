@@ -23,13 +23,18 @@ void add_bumps(CMeshO& mesh) {
     }
 }
 
+/// Texture coordinates are floats whatever positions are.
+vcg::Point2f texture(std::size_t u, int v) {
+    return {static_cast<float>(u) / 4, static_cast<float>(v)};
+}
+
 void dress_vertices(CMeshO& mesh) {
     for (std::size_t i = 0; i < mesh.vert.size(); ++i) {
         CVertexO& vertex = mesh.vert[i];
         const auto number = static_cast<Scalarm>(i);
         vertex.C() = Color4b(byte_of(i), byte_of(2 * i), byte_of(3 * i), 255);
         vertex.Q() = number / 2;
-        vertex.T().P() = {number / 4, -number};
+        vertex.T().P() = texture(i, -1);
         if (i % 7 == 0) vertex.SetS();
     }
 }
@@ -41,7 +46,7 @@ void dress_faces(CMeshO& mesh) {
         face.C() = Color4b(byte_of(5 * i), byte_of(7 * i), byte_of(11 * i), 255);
         face.Q() = -number;
         for (int corner = 0; corner < 3; ++corner) {
-            face.WT(corner).P() = {number, static_cast<Scalarm>(corner)};
+            face.WT(corner).P() = texture(i, corner);
         }
         if (i % 5 == 0) face.SetS();
     }

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "filter_tracked_mcf/parameters/parameter_table.h"
+#include "filter_tracked_mcf/plugin/parameter_values.h"
 #include "tests/hosts/host.h"
 #include "tests/hosts/layer.h"
 
@@ -73,7 +74,7 @@ struct ExpectParameter {
     }
     void operator()(const ParameterDescription::Real& expected) const {
         EXPECT_EQ(actual.stringType(), "RichFloat");
-        EXPECT_EQ(actual.value().getFloat(), static_cast<Scalarm>(expected.default_value));
+        EXPECT_EQ(as_typed(actual.value().getFloat()), expected.default_value);
     }
     void operator()(const ParameterDescription::Boolean& expected) const {
         EXPECT_EQ(actual.stringType(), "RichBool");
