@@ -1,0 +1,24 @@
+# Runs when cmake --install comes to the plugin: copies tracked_mcf_plugin_file to where
+# find_places.cmake has found that it belongs, and says how it is loaded.
+
+cmake_minimum_required(VERSION 3.22)
+
+if(NOT tracked_mcf_plugin_dir)
+  set(reason "no MeshLab of that release was found when this was configured")
+  if(TRACKED_MCF_USER_INSTALL)
+    set(reason "TRACKED_MCF_USER_INSTALL asks for a user's")
+  endif()
+  message(FATAL_ERROR
+          "MeshLab ${TRACKED_MCF_HOST_RELEASE} looks for plugins in its own folder alone, and "
+          "${reason}. Configure with -DTRACKED_MCF_PLUGIN_DIR=FOLDER, or copy the plugin there "
+          "yourself: ${tracked_mcf_plugin_file}")
+endif()
+file(INSTALL "${tracked_mcf_plugin_file}" DESTINATION "${tracked_mcf_plugin_dir}")
+
+get_filename_component(name "${tracked_mcf_plugin_file}" NAME)
+if(TRACKED_MCF_HOST STREQUAL PyMeshLab)
+  message(STATUS "PyMeshLab ${TRACKED_MCF_HOST_RELEASE} loads it with "
+                 "pymeshlab.load_plugin('${tracked_mcf_plugin_dir}/${name}')")
+elseif(NOT TRACKED_MCF_PLUGIN_DIR)
+  message(STATUS "MeshLab ${TRACKED_MCF_HOST_RELEASE} finds the plugin there when it starts")
+endif()

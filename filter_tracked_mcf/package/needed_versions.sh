@@ -1,0 +1,12 @@
+#!/usr/bin/env bash
+# Prints what binaries need of a system's libraries: for every set of symbol versions, such as
+# GLIBC, GLIBCXX, GOMP or Qt, the largest that one of them needs: needed_versions.sh FILE...
+set -euo pipefail
+
+[ $# -gt 0 ] || { sed -n '2,3s/^# \{0,1\}//p' "$0" >&2 && exit 2; }
+needs=$(LC_ALL=C readelf --version-info --wide "$@" |
+    sed -n '/^Version needs section/,/^$/s/.* Name: \([^ ]*\) .*/\1/p')
+[ -n "$needs" ] || { echo "needed_versions.sh: no symbol versions in $*" >&2 && exit 1; }
+# The part after the last underscore is the version.
+sed 's/\(.*\)_/\1 /' <<< "$needs" | LC_ALL=C sort -k1,1 -k2,2V |
+    awk '{ largest[$1] = $1 "_" $2 } END { for (set in largest) print largest[set] }' | LC_ALL=C sort

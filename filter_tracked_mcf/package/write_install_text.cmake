@@ -1,0 +1,81 @@
+# Runs when the package's files have been laid out in CMAKE_INSTALL_PREFIX: writes INSTALL.txt beside
+# them. CMakeLists.txt sets name, version, host, release, scalar, processor and files.
+
+cmake_minimum_required(VERSION 3.22)
+
+set(folder "$ENV{DESTDIR}${CMAKE_INSTALL_PREFIX}")
+
+function(needed_versions result)
+  list(TRANSFORM ARGN PREPEND "${folder}/")
+  execute_process(COMMAND "${CMAKE_CURRENT_LIST_DIR}/needed_versions.sh" ${ARGN}
+                  OUTPUT_VARIABLE output COMMAND_ERROR_IS_FATAL ANY)
+  string(STRIP "${output}" output)
+  string(REPLACE "\n" ";" output "${output}")
+  set(${result} "${output}" PARENT_SCOPE)
+endfunction()
+
+needed_versions(largest ${files})
+foreach(set IN ITEMS GLIBC GLIBCXX CXXABI Qt)
+  set(${set} "${largest}")
+  list(FILTER ${set} INCLUDE REGEX "^${set}_")
+  string(REPLACE "${set}_" " " ${set} "${${set}}")
+endforeach()
+# Which compiler's libstdc++ has the symbols, by the list in its manual.
+set(GCC " with GLIBCXX${GLIBCXX} and CXXABI${CXXABI}")
+set(first_with_3.4.29 11)
+set(first_with_3.4.30 12)
+set(first_with_3.4.31 13)
+set(first_with_3.4.32 13.2)
+set(first_with_3.4.33 14)
+set(first_with_3.4.34 15)
+string(STRIP "${GLIBCXX}" GLIBCXX)
+if(DEFINED first_with_${GLIBCXX})
+  string(PREPEND GCC " of GCC ${first_with_${GLIBCXX}},")
+endif()
+
+foreach(file IN LISTS files)
+  needed_versions(versions ${file})
+  list(JOIN versions " " versions)
+  string(APPEND needs "    ${file}\n        ${versions}\n")
+endforeach()
+string(STRIP "${needs}" needs)
+string(PREPEND needs "    ")
+cmake_host_system_information(RESULT system QUERY DISTRIB_PRETTY_NAME)
+
+set(menu "It is in the menu Filters > Smoothing, Fairing and Deformation > Mean Curvature Flow.\n")
+if(host STREQUAL PyMeshLab)
+  set(steps "Put it where you like. In Python:
+
+    import pymeshlab
+    pymeshlab.load_plugin('/path/libfilter_tracked_mcf.so')
+    ms = pymeshlab.MeshSet()
+    ms.load_new_mesh('scan.ply')
+    ms.apply_filter('apply_coord_mean_curvature_flow')
+    ms.save_current_mesh('smooth.ply')
+")
+elseif(release VERSION_LESS 2022.02)
+  set(steps "Copy it, as root, to MeshLab's own plugins, which in Debian's MeshLab are here:
+
+    cp libfilter_tracked_mcf.so /usr/lib/x86_64-linux-gnu/meshlab/plugins/
+
+${menu}")
+else()
+  set(steps "In MeshLab, choose it in Help > Plugin Info > Load Plugins. Or copy it yourself, before
+MeshLab starts, to your folder of plugins:
+
+    folder=\"\${XDG_DATA_HOME:-$HOME/.local/share}/VCG/MeshLab_64bit_fp/MeshLabExtraPlugins/${release}\"
+    mkdir -p \"$folder\"
+    cp libfilter_tracked_mcf.so \"$folder/\"
+
+${menu}")
+endif()
+set(program "")
+if(tracked_mcf IN_LIST files)
+  set(program "
+tracked_mcf, the command-line program
+
+It needs no ${host}. Run it from here, or copy it to a folder of your PATH, such as ~/.local/bin.
+tracked_mcf --help explains it.
+")
+endif()
+configure_file("${CMAKE_CURRENT_LIST_DIR}/INSTALL.txt.in" "${folder}/INSTALL.txt" @ONLY)

@@ -1,0 +1,99 @@
+#!/usr/bin/env bash
+# Installs into a private root as configured, and as if configured for every other host, and checks
+# where the plugin and the tool have gone:
+# install_works.sh BUILD_DIR RELEASE SCALAR TOOL MESHLAB_LIBRARY_DIR WORK_DIR
+#
+# TOOL is empty if it is not built, MESHLAB_LIBRARY_DIR if the plugin's MeshLab is not here.
+set -euo pipefail
+
+build=$1 release=$2 scalar=$3 tool=$4 library_dir=$5 work=$6
+plugin=libfilter_tracked_mcf.so
+home=/home/somebody
+user_plugins=VCG/MeshLab_64bit_fp/MeshLabExtraPlugins
+rm -rf "$work"
+mkdir -p "$work"
+
+# As cmake --install does it, but the list of what was installed, which is kept in the build folder
+# for the component at hand, stays that of the real installation.
+run_install() { # NAME=VALUE...: configured otherwise, or in the environment
+    local settings=(-DCMAKE_INSTALL_COMPONENT=Unspecified -DCMAKE_INSTALL_PREFIX=/usr/local
+        -DTRACKED_MCF_USER_INSTALL=OFF -DTRACKED_MCF_PLUGIN_DIR=) setting
+    local environment=(DESTDIR="$work/root" HOME="$home" XDG_DATA_HOME=)
+    for setting in "$@"; do
+        case $setting in
+            XDG_*) environment+=("$setting") ;;
+            *) settings+=("-D$setting") ;;
+        esac
+    done
+    rm -rf "$work/root"
+    env "${environment[@]}" cmake "${settings[@]}" -P "$build/cmake_install.cmake" \
+        > "$work/log.txt" 2>&1
+}
+failures=0
+fail() {
+    failures=$((failures + 1))
+    printf 'FAILED: %s\n' "$*"
+    cat "$work/log.txt"
+}
+goes_to() { # PLUGIN_DIR TOOL_DIR NAME=VALUE...
+    local expected found
+    expected=$({ echo "$1/$plugin" && [ -z "$tool" ] || echo "$2/$tool"; } | sort)
+    if ! run_install "${@:3}"; then
+        fail "cannot install: ${*:3}"
+        return
+    fi
+    found=$(cd "$work/root" && find . -type f | sed 's/^\.//' | sort)
+    if [ "$found" = "$expected" ] &&
+        ! readelf -d "$work/root/$1/$plugin" | grep -E 'RPATH|RUNPATH'; then
+        echo "${*:3} ->" $found
+    else
+        fail "${*:3}: found $found rather than $expected"
+    fi
+}
+is_refused() { # MESSAGE NAME=VALUE...
+    if run_install "${@:2}" || ! tr -s '\n ' ' ' < "$work/log.txt" | grep -qF "$1" ||
+        [ -n "$(find "$work/root" -name "$plugin")" ]; then
+        fail "not refused with '$1': ${*:2}"
+    else
+        echo "${*:2}: refused as it should be"
+    fi
+}
+
+echo "== As configured: MeshLab $release, $scalar"
+if [ "$scalar" = double ]; then
+    goes_to "/usr/local/lib/pymeshlab-${release/.0/.}" /usr/local/bin
+elif [ -n "$library_dir" ]; then
+    goes_to "$library_dir/plugins" /usr/local/bin
+elif [ "$release" = 2020.09 ]; then
+    is_refused "looks for plugins in its own folder alone"
+else
+    goes_to "$home/.local/share/$user_plugins/$release" "$home/.local/bin"
+fi
+
+echo "== For every host"
+old=(TRACKED_MCF_HOST=MeshLab TRACKED_MCF_HOST_RELEASE=2020.09)
+new=(TRACKED_MCF_HOST=MeshLab TRACKED_MCF_HOST_RELEASE=2022.02)
+python=(TRACKED_MCF_HOST=PyMeshLab TRACKED_MCF_HOST_RELEASE=2025.7)
+here=MESHLAB_LIBRARY_DIR=/opt/meshlab elsewhere=MESHLAB_LIBRARY_DIR=
+for_user=TRACKED_MCF_USER_INSTALL=ON
+goes_to /opt/meshlab/plugins /usr/local/bin "${old[@]}" $here
+goes_to /opt/meshlab/plugins /usr/local/bin "${new[@]}" $here
+goes_to /opt/meshlab/plugins /opt/bin "${new[@]}" $here CMAKE_INSTALL_PREFIX=/opt
+is_refused "no MeshLab of that release was found" "${old[@]}" $elsewhere
+is_refused "asks for a user's" "${old[@]}" $here $for_user
+for where in "$elsewhere" "$here $for_user"; do
+    read -ra where <<< "$where"
+    in_home=$home/.local/share/$user_plugins/2022.02
+    goes_to "$in_home" "$home/.local/bin" "${new[@]}" "${where[@]}"
+    goes_to "$in_home" /opt/bin "${new[@]}" "${where[@]}" CMAKE_INSTALL_PREFIX=/opt
+    goes_to "/data/$user_plugins/2022.02" "$home/.local/bin" "${new[@]}" "${where[@]}" \
+        XDG_DATA_HOME=/data
+done
+goes_to /usr/local/lib/pymeshlab-2025.7 /usr/local/bin "${python[@]}" $here
+goes_to /opt/lib/pymeshlab-2025.7 /opt/bin "${python[@]}" $elsewhere CMAKE_INSTALL_PREFIX=/opt
+goes_to "$home/.local/lib/pymeshlab-2025.7" "$home/.local/bin" "${python[@]}" $elsewhere $for_user
+for host in "${old[*]}" "${new[*]}" "${python[*]}"; do
+    read -ra host <<< "$host"
+    goes_to /plugins /usr/local/bin "${host[@]}" $elsewhere TRACKED_MCF_PLUGIN_DIR=/plugins
+done
+exit "$((failures > 0))"
