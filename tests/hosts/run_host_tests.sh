@@ -9,5 +9,6 @@ root=$(realpath "$(dirname "$0")/../..")
 build=$1
 cmake -S "$root" -B "$build" -DTRACKED_MCF_OTHER_HOSTS=OFF "${@:2}"
 cmake --build "$build" -j "$(nproc)" --target host_tests
-# Every line of what the tests print: a table is made of it.
 ctest --test-dir "$build" --output-on-failure -L hosts
+# Why, where a test was skipped: ctest itself does not tell.
+grep -h '^skipped: ' "$build/Testing/Temporary/LastTest.log" || true
