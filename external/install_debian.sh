@@ -16,8 +16,8 @@ packages_of() {
     case $1 in
         core) echo g++ make cmake libeigen3-dev ;;
         program) echo "$(packages_of core)" libcli11-dev nlohmann-json3-dev dpkg-dev ;;
-        plugin) echo "$(packages_of program)" meshlab qtbase5-dev libqt5opengl5-dev libglew-dev \
-            libglu1-mesa-dev ;;
+        plugin) echo "$(packages_of program)" meshlab "$(libraries_recommended_by meshlab)" \
+            qtbase5-dev libqt5opengl5-dev libglew-dev libglu1-mesa-dev ;;
         demo) echo "$(packages_of plugin)" xvfb xauth python3-vtk9 python3-numpy ;;
         tests) echo "$(packages_of plugin)" libgtest-dev libgmock-dev xvfb xauth xdotool \
             imagemagick python3 python3-matplotlib ;;
@@ -26,6 +26,13 @@ packages_of() {
         checks) echo clang-format clang-tidy libomp-dev git ;;
         *) echo "install_debian.sh: unknown task '$1'" >&2 && return 1 ;;
     esac
+}
+
+# Some Debians' meshlab only recommends what its own plugins need. Where one of those cannot be loaded,
+# MeshLab does not look for a user's plugins either.
+libraries_recommended_by() {
+    apt-cache show --no-all-versions "$1" 2> /dev/null | awk -F ', ' 'sub(/^Recommends: /, "") {
+        for (i = 1; i <= NF; ++i) if ($i ~ /^lib/) { sub(/ .*/, "", $i); print $i } }'
 }
 
 is_installed() { dpkg-query -W -f '${db:Status-Status}\n' "$1" 2> /dev/null | grep -qx installed; }
@@ -41,6 +48,9 @@ if ! command -v apt-get > /dev/null; then
     exit 1
 fi
 
+as_root=()
+[ "$(id -u)" = 0 ] || as_root=(sudo)
+has_lists || "${as_root[@]}" apt-get -q update
 missing=()
 for task in "$@"; do
     packages=$(packages_of "$task")
@@ -48,9 +58,7 @@ for task in "$@"; do
         is_installed "$package" || missing+=("$package")
     done
 done
-as_root=()
-[ "$(id -u)" = 0 ] || as_root=(sudo)
-if [ ${#missing[@]} -gt 0 ] || ! has_lists; then "${as_root[@]}" apt-get -q update; fi
 [ ${#missing[@]} -gt 0 ] || exit 0
+"${as_root[@]}" apt-get -q update
 "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -q install -y --no-install-recommends \
     "${missing[@]}"

@@ -1,6 +1,6 @@
-# meshlab::sdk: what a plugin for a MeshLab release compiles and links with: the headers of
-# MESHLAB_SOURCE_DIR, libmeshlab-common, Qt 5 and OpenGL. The sources say which release
-# (MESHLAB_SDK_RELEASE, such as 2025.07), and so which adapter is built.
+# meshlab::sdk: what is compiled for a MeshLab release needs: the headers of MESHLAB_SOURCE_DIR, Qt 5
+# and OpenGL; libmeshlab-common is apart. The sources say which release (MESHLAB_SDK_RELEASE, such as
+# 2025.07), and so which adapter is built.
 
 set(MESHLAB_SDK_RELEASE "${MESHLAB_SOURCE_RELEASE}" CACHE INTERNAL "Release of the MeshLab sources")
 if(NOT MESHLAB_SDK_RELEASE MATCHES "^(2020.09|2022.02|2025.07)$")

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 #include "filter_tracked_mcf/core/bspline.h"
 
@@ -36,11 +37,12 @@ CoarseFunctions coarse_functions(const Level& fine, const Level& coarse, const H
     const auto& parent_unknowns = coarse.unknowns[fine.parents[home.element]];
     const auto& octant_weights = weights[octant_of(fine.cells[home.element])];
     CoarseFunctions functions;
+    functions.unknowns.fill(std::numeric_limits<std::int32_t>::max());
     for (int corner = 0; corner < 8; ++corner) {
         if (octant_weights(home.corner, corner) == 0) continue;
         functions.unknowns[functions.size++] = parent_unknowns[corner];
     }
-    std::sort(functions.unknowns.begin(), functions.unknowns.begin() + functions.size);
+    std::sort(functions.unknowns.begin(), functions.unknowns.end());
     return functions;
 }
 

@@ -16,6 +16,7 @@ using io::Mask;
 namespace {
 
 using ObjReader = io::ImporterOBJ<VcglibMesh>;
+using StlReader = io::ImporterSTL<VcglibMesh>;
 
 /// Throws what vcglib says of a file that it cannot read, if it says so.
 void check_read(bool failed, const fs::path& path, const char* message) {
@@ -47,9 +48,10 @@ int read_off(VcglibMesh& mesh, const fs::path& path) {
 int read_stl(VcglibMesh& mesh, const fs::path& path) {
     check_stl(path);
     int mask = 0;
-    io::ImporterSTL<VcglibMesh>::LoadMask(path.c_str(), mask);
-    const int error = io::ImporterSTL<VcglibMesh>::Open(mesh, path.c_str(), mask);
-    check_read(error != 0, path, io::ImporterSTL<VcglibMesh>::ErrorMsg(error));
+    StlReader::LoadMask(path.c_str(), mask);
+    const int error = is_binary_stl(path.c_str()) ? StlReader::OpenBinary(mesh, path.c_str(), mask)
+                                                  : StlReader::OpenAscii(mesh, path.c_str());
+    check_read(error != 0, path, StlReader::ErrorMsg(error));
     return mask;
 }
 

@@ -18,6 +18,20 @@ namespace tracked_mcf {
 /// Any other mesh type: its OBJ reader is vcglib's own, which the repairs below call.
 class UnrepairedMesh : public VcglibMesh {};
 
+/// Whether an STL file, which has been checked, is binary: by its size. vcglib looks for bytes that
+/// are no text as well, 2020.09 in an array that it has not filled, and so takes short ASCII files
+/// for binary ones now and then.
+inline bool is_binary_stl(const char* file_name) {
+    constexpr std::streamoff kHeaderSize =
+        vcg::tri::io::ImporterSTL<UnrepairedMesh>::STL_LABEL_SIZE;
+    std::ifstream file(file_name, std::ios::binary | std::ios::ate);
+    const std::streamoff size = file.tellg();
+    std::uint32_t count = 0;
+    file.seekg(kHeaderSize);
+    file.read(reinterpret_cast<char*>(&count), sizeof count);
+    return file && size == kHeaderSize + 4 + std::streamoff{50} * count;
+}
+
 }  // namespace tracked_mcf
 
 // The names are vcglib's.
@@ -46,32 +60,16 @@ inline bool ImporterOBJ<tracked_mcf::VcglibMesh>::LoadMaterials(
     return complete;
 }
 
-/// vcglib looks for bytes that are no text in an array that it has not filled, and so takes short
-/// ASCII files for binary ones now and then. The size alone is as good: the file has been checked.
-template <>
-inline bool ImporterSTL<tracked_mcf::VcglibMesh>::IsSTLBinary(const char* file_name, bool& binary) {
-    std::ifstream file(file_name, std::ios::binary | std::ios::ate);
-    const std::streamoff size = file.tellg();
-    std::uint32_t count = 0;
-    file.seekg(STL_LABEL_SIZE);
-    file.read(reinterpret_cast<char*>(&count), sizeof count);
-    const std::streamoff announced = STL_LABEL_SIZE + 4 + std::streamoff{50} * count;
-    binary = file && size == announced;
-    return true;
-}
-
 /// vcglib takes the 80 bytes of the header for a text that ends with a zero, which need not be
 /// there, and leaves the file open.
 template <>
 inline bool ImporterSTL<tracked_mcf::VcglibMesh>::IsSTLColored(const char* file_name, bool& colored,
                                                                bool& magics) {
     colored = magics = false;
-    bool binary = false;
-    if (!IsSTLBinary(file_name, binary)) return false;
+    if (!tracked_mcf::is_binary_stl(file_name)) return true;
     std::ifstream file(file_name, std::ios::binary);
     std::string header(STL_LABEL_SIZE + sizeof(std::uint32_t), '\0');
-    if (!binary || !file.read(header.data(), static_cast<std::streamsize>(header.size())))
-        return true;
+    if (!file.read(header.data(), static_cast<std::streamsize>(header.size()))) return true;
     header.resize(STL_LABEL_SIZE);
     magics = header.find("COLOR=") != header.npos && header.find("MATERIAL=") != header.npos;
     // Each triangle ends with 15 bits of colour, and one that says that they are not just padding.

@@ -14,6 +14,7 @@ namespace tracked_mcf::host {
 /// What a filter says of itself.
 struct Declaration {
     std::string name, python_name, help;
+    std::string built_for;  ///< version and precision, such as "2025.07d double"
     bool smooths, takes_one_layer;
     int requirements, post_condition;
 };

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <regex>
 
 #include "filter_tracked_mcf/tool/mesh_file.h"
 #include "tests/tool/temporary_folder.h"
@@ -19,6 +20,14 @@ std::vector<std::string> lines_of(const std::filesystem::path& path) {
     std::ifstream file(path);
     std::vector<std::string> lines;
     for (std::string line; std::getline(file, line);) lines.push_back(line);
+    return lines;
+}
+
+/// Without zeros that change no number: how many digits vcglib writes depends on its release.
+std::vector<std::string> lines_of_obj(const std::filesystem::path& path) {
+    static const std::regex zeros("\\.0+(?![0-9])|(\\.[0-9]*[1-9])0+(?![0-9])");
+    std::vector<std::string> lines = lines_of(path);
+    for (std::string& line : lines) line = std::regex_replace(line, zeros, "$1");
     return lines;
 }
 
@@ -53,10 +62,10 @@ TEST(ConversionToObj, KeepsColoursTextureCoordinatesAndTexture) {
     write_file(folder / "in.ply", kTexturedPly);
     MeshFile file(folder / "in.ply");
     file.write(file.triangle_mesh(), folder / "out.obj", folder.path());
-    const auto lines = lines_of(folder / "out.obj");
+    const auto lines = lines_of_obj(folder / "out.obj");
     EXPECT_THAT(lines, IsSupersetOf({"mtllib ./out.obj.mtl", "f 1/1 2/2 3/3", "f 3/4 2/5 4/6",
-                                     "vt 0.500000 0.500000", "vt 0.750000 0.750000"}));
-    EXPECT_THAT(lines, Contains(HasSubstr(" 0.000000 1.000000 0.000000")));  // green
+                                     "vt 0.5 0.5", "vt 0.75 0.75"}));
+    EXPECT_THAT(lines, Contains(HasSubstr(" 0 0 0 1 0")));  // green
     EXPECT_THAT(lines_of(folder / "out.obj.mtl"), Contains("map_Kd skin.png"));
 }
 
@@ -69,9 +78,8 @@ TEST(ConversionToObj, TriangulatesPolygonsWithTheirTextureCoordinates) {
                "0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3 8 0 0 1 0 1 1 0 1\n");
     MeshFile file(folder / "in.ply");
     file.write(file.triangle_mesh(), folder / "out.obj", folder.path());
-    EXPECT_THAT(lines_of(folder / "out.obj"),
-                IsSupersetOf({"vt 1.000000 0.000000", "vt 0.000000 1.000000", "f 1/1 2/2 3/3",
-                              "f 1/1 3/3 4/4"}));
+    EXPECT_THAT(lines_of_obj(folder / "out.obj"),
+                IsSupersetOf({"vt 1 0", "vt 0 1", "f 1/1 2/2 3/3", "f 1/1 3/3 4/4"}));
 }
 
 TEST(ConversionToOff, KeepsColours) {

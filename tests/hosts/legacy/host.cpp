@@ -35,6 +35,7 @@ Declaration Filter::declaration() const {
     return {action->text().toStdString(),
             "",
             filter.filterInfo(action).toStdString(),
+            "",
             filter.getClass(action) == MeshFilterInterface::Smoothing,
             filter.filterArity(action) == MeshFilterInterface::SINGLE_MESH,
             filter.getRequirements(action),

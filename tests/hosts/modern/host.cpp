@@ -35,9 +35,11 @@ Filter::~Filter() = default;
 Declaration Filter::declaration() const {
     FilterPlugin& filter = *loaded_->filter;
     QAction* const action = loaded_->action;
+    const auto [version, has_doubles] = filter.getMLVersion();
     return {action->text().toStdString(),
             filter.pythonFilterName(action).toStdString(),
             filter.filterInfo(action).toStdString(),
+            version + (has_doubles ? " double" : " float"),
             filter.getClass(action) == FilterPlugin::Smoothing,
             filter.filterArity(action) == FilterPlugin::SINGLE_MESH,
             filter.getRequirements(action),

@@ -1,4 +1,4 @@
-// What scripts get from MeshLab 2022.02 and later, and PyMeshLab: a name, and numbers.
+// What MeshLab 2022.02 and later, and PyMeshLab with its scripts, get to know of the filter.
 
 #include <gtest/gtest.h>
 
@@ -14,6 +14,10 @@ namespace {
 const host::Filter& filter() {
     static const host::Filter filter(TRACKED_MCF_PLUGIN_FILE);
     return filter;
+}
+
+TEST(Hosts, SeeWhichOfThemThePluginIsFor) {
+    EXPECT_EQ(filter().declaration().built_for, TRACKED_MCF_BUILT_FOR);
 }
 
 TEST(Scripts, KnowTheFilterByItsName) {
