@@ -45,7 +45,7 @@ goes_to() { # PLUGIN_DIR TOOL_DIR NAME=VALUE...
     found=$(cd "$work/root" && find . -type f | sed 's/^\.//' | sort)
     if [ "$found" = "$expected" ] &&
         ! readelf -d "$work/root/$1/$plugin" | grep -E 'RPATH|RUNPATH'; then
-        echo "${*:3} ->" $found
+        echo "${*:3} -> ${found//$'\n'/ }"
     else
         fail "${*:3}: found $found rather than $expected"
     fi
