@@ -1,6 +1,6 @@
-# Runs first of all that cmake --install does: sets tracked_mcf_plugin_dir, where the plugin goes, to
-# nothing if there is no place for it, and for a user alone CMAKE_INSTALL_PREFIX to ~/.local, unless
-# another one than CMake's own was given.
+# Runs first of all that cmake --install does: sets tracked_mcf_plugin_dir, where the plugin goes,
+# to nothing if there is no place for it, and for a user alone CMAKE_INSTALL_PREFIX to ~/.local,
+# unless another one than CMake's own was given.
 #
 # A plugin goes to the MeshLab that it was linked with; else, from 2022.02 on, into the folder where
 # MeshLab looks for a user's own plugins. PyMeshLab loads a plugin from anywhere.
@@ -21,8 +21,8 @@ elseif(MESHLAB_LIBRARY_DIR AND NOT TRACKED_MCF_USER_INSTALL)
   set(tracked_mcf_plugin_dir "${MESHLAB_LIBRARY_DIR}/plugins")
 elseif(TRACKED_MCF_HOST_RELEASE VERSION_GREATER_EQUAL 2022.02)
   set(tracked_mcf_for_user ON)
-  set(tracked_mcf_plugin_dir
-      "${tracked_mcf_user_data}/VCG/MeshLab_64bit_fp/MeshLabExtraPlugins/${TRACKED_MCF_HOST_RELEASE}")
+  set(tracked_mcf_plugin_dir "${tracked_mcf_user_data}/VCG/MeshLab_64bit_fp/MeshLabExtraPlugins")
+  string(APPEND tracked_mcf_plugin_dir "/${TRACKED_MCF_HOST_RELEASE}")
 else()
   set(tracked_mcf_plugin_dir "")
 endif()

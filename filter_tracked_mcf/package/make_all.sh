@@ -2,8 +2,8 @@
 # Makes the packages for all MeshLabs on one Debian, whichever of them is installed, and lists them
 # with what they need: make_all.sh DESTINATION [arguments for cmake, such as -DTRACKED_MCF_TOOL=OFF]
 #
-# They run on this Debian and later ones, so the oldest is the one to make them on. Sources and build
-# folders stay in build/packages, for the next time.
+# They run on this Debian and later ones, so the oldest is the one to make them on. Sources and
+# build folders stay in build/packages, for the next time.
 set -euo pipefail
 
 destination=$(realpath -m "${1:?usage: make_all.sh DESTINATION [arguments for cmake]}")
@@ -35,6 +35,6 @@ done
 printf '\n== Packages in %s\n' "$destination"
 for archive in "${made[@]}"; do
     echo "$archive: $(stat -c %s "$destination/$archive") bytes"
-    tar -xOzf "$destination/$archive" "${archive%.tar.gz}/INSTALL.txt" | sed -n '/^What is needed/,$p' |
-        grep '^    '
+    tar -xOzf "$destination/$archive" "${archive%.tar.gz}/INSTALL.txt" |
+        sed -n '/^What is needed/,$p' | grep '^    '
 done

@@ -9,4 +9,5 @@ needs=$(LC_ALL=C readelf --version-info --wide "$@" |
     sed -n '/^Version needs section/,/^$/s/.* Name: \([^ ]*\)_\([^ _]*\) .*/\1 \2/p')
 [ -n "$needs" ] || { echo "needed_versions.sh: no versions of symbols in $*" >&2 && exit 1; }
 LC_ALL=C sort -k1,1 -k2,2V <<< "$needs" |
-    awk '{ largest[$1] = $1 "_" $2 } END { for (set in largest) print largest[set] }' | LC_ALL=C sort
+    awk '{ largest[$1] = $1 "_" $2 } END { for (set in largest) print largest[set] }' |
+    LC_ALL=C sort

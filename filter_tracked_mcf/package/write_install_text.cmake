@@ -1,5 +1,5 @@
-# Runs when the package's files have been laid out in CMAKE_INSTALL_PREFIX: writes INSTALL.txt beside
-# them. CMakeLists.txt sets name, version, host, release, scalar, processor and files.
+# Runs when the package's files have been laid out in CMAKE_INSTALL_PREFIX: writes INSTALL.txt
+# beside them. CMakeLists.txt sets name, version, host, release, scalar, processor and files.
 
 cmake_minimum_required(VERSION 3.22)
 
@@ -17,20 +17,26 @@ endfunction()
 needed_versions(largest ${files})
 foreach(set IN ITEMS GLIBC GLIBCXX CXXABI Qt)
   set(${set} "${largest}")
-  list(FILTER ${set} INCLUDE REGEX "^${set}_")
+  list(FILTER ${set} INCLUDE REGEX "^${set}_[0-9]")
   string(REPLACE "${set}_" " " ${set} "${${set}}")
 endforeach()
-# Which compiler's libstdc++ has the symbols, by the list in its manual.
 set(GCC " with GLIBCXX${GLIBCXX} and CXXABI${CXXABI}")
-set(first_with_3.4.29 11)
-set(first_with_3.4.30 12)
-set(first_with_3.4.31 13)
-set(first_with_3.4.32 13.2)
-set(first_with_3.4.33 14)
-set(first_with_3.4.34 15)
-string(STRIP "${GLIBCXX}" GLIBCXX)
-if(DEFINED first_with_${GLIBCXX})
-  string(PREPEND GCC " of GCC ${first_with_${GLIBCXX}},")
+
+# Which compiler's libstdc++ was the first with these symbols, by the lists in its manual.
+set(first_GLIBCXX 3.4.29=11 3.4.30=12 3.4.31=13 3.4.32=13.2 3.4.33=14 3.4.34=15)
+set(first_CXXABI 1.3.13=11 1.3.14=13 1.3.15=14)
+set(gcc 0)
+foreach(set IN ITEMS GLIBCXX CXXABI)
+  string(STRIP "${${set}}" needed)
+  string(REGEX MATCH "(^|;)${needed}=([0-9.]+)" known "${first_${set}}")
+  if(NOT known)
+    set(gcc unknown)
+  elseif(CMAKE_MATCH_2 VERSION_GREATER gcc AND NOT gcc STREQUAL unknown)
+    set(gcc ${CMAKE_MATCH_2})
+  endif()
+endforeach()
+if(NOT gcc STREQUAL unknown)
+  string(PREPEND GCC " of GCC ${gcc},")
 endif()
 
 foreach(file IN LISTS files)
@@ -63,7 +69,8 @@ else()
   set(steps "In MeshLab, choose it in Help > Plugin Info > Load Plugins. Or copy it yourself, before
 MeshLab starts, to your folder of plugins:
 
-    folder=\"\${XDG_DATA_HOME:-$HOME/.local/share}/VCG/MeshLab_64bit_fp/MeshLabExtraPlugins/${release}\"
+    data=\"\${XDG_DATA_HOME:-$HOME/.local/share}\"
+    folder=\"$data/VCG/MeshLab_64bit_fp/MeshLabExtraPlugins/${release}\"
     mkdir -p \"$folder\"
     cp libfilter_tracked_mcf.so \"$folder/\"
 

@@ -51,7 +51,8 @@ for file in "$build/filter_tracked_mcf/plugin/$plugin" \
         /^[0-9a-f]+ <.*>:$/ { name = $2; any = name !~ /\.(arch_|avx)/ }
         $2 ~ /^v[a-z]/ { vectors++; if (any) others[name] = 1 }
         END {
-            for (name in others) { print name " of " file " is for some processors only"; failed = 1 }
+            for (name in others) print name " of " file " is for some processors only"
+            for (name in others) failed = 1
             print vectors + 0 " instructions of the AVX family, all in chosen versions"
             exit failed
         }' || fail "not for any processor"
@@ -71,6 +72,7 @@ for file in "${binaries[@]}"; do
         grep -qwF "${set}_$version" <<< "$line" || fail "$file needs ${set}_$version"
     done
 done
+says "MeshLab ${host##*-}, $scalar precision"
 says " glibc $(largest GLIBC "${binaries[@]}") or later"
 says "GLIBCXX $(largest GLIBCXX "${binaries[@]}") and CXXABI $(largest CXXABI "${binaries[@]}") or"
 says " Qt $(largest Qt "$plugin"),"
