@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "filter_tracked_mcf/core/parallel.h"
+#include "filter_tracked_mcf/core/progress_meter.h"
 
 namespace tracked_mcf {
 
@@ -49,11 +50,17 @@ double ConjugateGradients::descend(Multigrid& multigrid, double target, int maxi
         const Eigen::Vector4d before = rz_;
         precondition(multigrid);
         ++iterations;
+        tell_progress();
         const float turn = ratio(rz_, before);
         parallel_for_rows(
             r_.cols(), [&](std::int32_t row) { p_.col(row) = z_.col(row) + turn * p_.col(row); });
     }
     return norm();
+}
+
+void ConjugateGradients::tell_progress() const {
+    // √(r·z) falls by about the same factor in every iteration.
+    if (norm() > 0) advance_progress(std::log(start_ / norm()) / std::log(start_ / goal_));
 }
 
 Convergence ConjugateGradients::solve(Multigrid& multigrid, const Field& right_side,
@@ -62,6 +69,8 @@ Convergence ConjugateGradients::solve(Multigrid& multigrid, const Field& right_s
     multigrid.finest().residual(right_side, x, r_);
     const double start = precondition(multigrid);
     const double goal = tolerance * start;
+    start_ = start;
+    goal_ = goal;
     const bool refines = tolerance < kSinglePrecision;
     Convergence result;
     double reached = start;

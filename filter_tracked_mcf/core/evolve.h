@@ -9,6 +9,8 @@
 
 namespace tracked_mcf {
 
+class ProgressMeter;
+
 /// Smooths `mesh`, or only its selected triangles, by mean-curvature flow with tracked octree
 /// finite elements: the one call that hosts make. Positions are written only after the last step
 /// has succeeded; vertices that do not move, those that are held or that no selected triangle uses
@@ -19,6 +21,10 @@ namespace tracked_mcf {
 /// as it was.
 FlowReport evolve(TriangleMesh& mesh, const Selection& selection, const FlowParameters& parameters,
                   const Progress& progress = {});
+
+/// The same, reporting to a meter that the calling thread has made for this (progress_meter.h).
+FlowReport evolve(TriangleMesh& mesh, const Selection& selection, const FlowParameters& parameters,
+                  ProgressMeter& meter);
 
 /// The same for all of the mesh.
 FlowReport evolve(TriangleMesh& mesh, const FlowParameters& parameters,

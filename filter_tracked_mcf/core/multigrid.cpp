@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "filter_tracked_mcf/core/galerkin.h"
+#include "filter_tracked_mcf/core/interruptible.h"
 #include "filter_tracked_mcf/core/parallel.h"
 
 namespace tracked_mcf {
@@ -28,12 +29,12 @@ Multigrid::LevelData::LevelData(const TrackedElements& elements, std::size_t lev
     if (level > 0) {
         prolongation =
             tracked_mcf::prolongation(elements.levels[level], elements.levels[level - 1]);
-        restriction = prolongation.transpose();
+        restriction = transposed(prolongation);
     }
     if (level + 1 < elements.levels.size()) {
         const std::int32_t count = elements.levels[level].element_count();
         children = Groups(elements.levels[level + 1].parents, count);
-        element_matrices.resize(static_cast<std::size_t>(count));
+        resize(element_matrices, count);
     }
 }
 
