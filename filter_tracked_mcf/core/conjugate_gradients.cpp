@@ -25,7 +25,7 @@ float ratio(const Eigen::Vector4d& a, const Eigen::Vector4d& b) {
 }  // namespace
 
 double ConjugateGradients::precondition(Multigrid& multigrid) {
-    z_.setZero(4, r_.cols());
+    set_zero(z_, r_.cols());
     multigrid.cycle(r_, z_);
     rz_ = dot(r_, z_);
     return norm();
@@ -38,8 +38,9 @@ double ConjugateGradients::norm() const {
 
 double ConjugateGradients::descend(Multigrid& multigrid, double target, int maximum_iterations,
                                    int& iterations) {
-    x_.setZero(4, r_.cols());
-    p_ = z_;
+    set_zero(x_, r_.cols());
+    p_.resize(4, r_.cols());
+    parallel_for_rows(r_.cols(), [&](std::int32_t row) { p_.col(row) = z_.col(row); });
     while (norm() > target && iterations < maximum_iterations) {
         multigrid.finest().multiply(p_, q_);
         const float step = ratio(rz_, dot(p_, q_));

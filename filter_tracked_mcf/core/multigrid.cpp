@@ -82,7 +82,7 @@ void Multigrid::cycle(std::size_t level, const Field& right_side, Field& x) {
     here.matrix.residual(right_side, x, here.residual);
     restrict_residual(level);
     LevelData& coarser = levels_[level - 1];
-    coarser.x.setZero(4, elements_.levels[level - 1].unknown_count());
+    set_zero(coarser.x, elements_.levels[level - 1].unknown_count());
     const int visits = worth_revisiting(level - 1) ? parameters_.coarse_visits : 1;
     for (int visit = 0; visit < visits; ++visit) {
         cycle(level - 1, coarser.right_side, coarser.x);
