@@ -9,3 +9,4 @@ external/cgal_meshes.sh build/cgal-meshes
 cmake -S . -B build -DTRACKED_MCF_TOOL=ON -DTRACKED_MCF_PLUGIN=ON -DTRACKED_MCF_TESTS=ON
 cmake --build build -j "$(nproc)"
 ctest --test-dir build --output-on-failure "$@"
+tests/hosts/host_table.py build

@@ -5,6 +5,7 @@
 
 #include "filter_tracked_mcf/core/flow_parameters.h"
 #include "filter_tracked_mcf/core/fragments.h"
+#include "filter_tracked_mcf/core/interruptible.h"
 #include "filter_tracked_mcf/core/octree.h"
 
 namespace tracked_mcf {
@@ -18,9 +19,9 @@ std::int64_t count_distinct_vertices(const TriangleMesh& mesh) {
     const std::vector<bool> referenced = referenced_vertices(mesh);
     const std::vector<std::int32_t> welded = weld_coincident_vertices(mesh);
     std::int64_t count = 0;
-    for (std::int32_t vertex = 0; vertex < static_cast<std::int32_t>(welded.size()); ++vertex) {
+    serial_for(static_cast<std::int64_t>(welded.size()), [&](std::int64_t vertex) {
         count += referenced[vertex] && welded[vertex] == vertex ? 1 : 0;
-    }
+    });
     return count;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "filter_tracked_mcf/core/parallel.h"
+#include "filter_tracked_mcf/core/progress_meter.h"
 
 namespace tracked_mcf {
 
@@ -24,7 +25,7 @@ float ratio(const Eigen::Vector4d& a, const Eigen::Vector4d& b) {
 }  // namespace
 
 double ConjugateGradients::precondition(Multigrid& multigrid) {
-    z_.setZero(4, r_.cols());
+    set_zero(z_, r_.cols());
     multigrid.cycle(r_, z_);
     rz_ = dot(r_, z_);
     return norm();
@@ -37,8 +38,9 @@ double ConjugateGradients::norm() const {
 
 double ConjugateGradients::descend(Multigrid& multigrid, double target, int maximum_iterations,
                                    int& iterations) {
-    x_.setZero(4, r_.cols());
-    p_ = z_;
+    set_zero(x_, r_.cols());
+    p_.resize(4, r_.cols());
+    parallel_for_rows(r_.cols(), [&](std::int32_t row) { p_.col(row) = z_.col(row); });
     while (norm() > target && iterations < maximum_iterations) {
         multigrid.finest().multiply(p_, q_);
         const float step = ratio(rz_, dot(p_, q_));
@@ -49,11 +51,17 @@ double ConjugateGradients::descend(Multigrid& multigrid, double target, int maxi
         const Eigen::Vector4d before = rz_;
         precondition(multigrid);
         ++iterations;
+        tell_progress();
         const float turn = ratio(rz_, before);
         parallel_for_rows(
             r_.cols(), [&](std::int32_t row) { p_.col(row) = z_.col(row) + turn * p_.col(row); });
     }
     return norm();
+}
+
+void ConjugateGradients::tell_progress() const {
+    // √(r·z) falls by about the same factor in every iteration.
+    if (norm() > 0) advance_progress(std::log(start_ / norm()) / std::log(start_ / goal_));
 }
 
 Convergence ConjugateGradients::solve(Multigrid& multigrid, const Field& right_side,
@@ -62,6 +70,8 @@ Convergence ConjugateGradients::solve(Multigrid& multigrid, const Field& right_s
     multigrid.finest().residual(right_side, x, r_);
     const double start = precondition(multigrid);
     const double goal = tolerance * start;
+    start_ = start;
+    goal_ = goal;
     const bool refines = tolerance < kSinglePrecision;
     Convergence result;
     double reached = start;

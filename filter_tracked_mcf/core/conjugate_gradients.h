@@ -44,9 +44,11 @@ private:
     /// Makes z_ and rz_ from r_; returns norm().
     double precondition(Multigrid& multigrid);
     double norm() const;  ///< √(r·z)
+    void tell_progress() const;
 
     Field x_, r_, z_, p_, q_;
-    Eigen::Vector4d rz_;  ///< r·z of every coordinate
+    Eigen::Vector4d rz_;           ///< r·z of every coordinate
+    double start_ = 0, goal_ = 0;  ///< of √(r·z) in this solve
 };
 
 }  // namespace tracked_mcf

@@ -1,9 +1,10 @@
 #pragma once
 
 #include <cstdint>
-#include <numeric>
 #include <utility>
 #include <vector>
+
+#include "filter_tracked_mcf/core/interruptible.h"
 
 namespace tracked_mcf {
 
@@ -12,8 +13,11 @@ namespace tracked_mcf {
 /// unite at once within ranges of members that no set crosses.
 class DisjointSets {
 public:
-    explicit DisjointSets(std::int32_t count) : parents_(static_cast<std::size_t>(count)) {
-        std::iota(parents_.begin(), parents_.end(), 0);
+    explicit DisjointSets(std::int32_t count) {
+        parents_.reserve(static_cast<std::size_t>(count));
+        serial_for(count, [&](std::int64_t member) {
+            parents_.push_back(static_cast<std::int32_t>(member));
+        });
     }
 
     /// The smallest member of the set that holds `member`.
@@ -38,7 +42,8 @@ public:
     /// find() of every member.
     std::vector<std::int32_t> representatives() && {
         // Parents are never larger than their children, so theirs is settled when it is asked for.
-        for (std::int32_t& parent : parents_) parent = parents_[parent];
+        serial_for(static_cast<std::int64_t>(parents_.size()),
+                   [&](std::int64_t member) { parents_[member] = parents_[parents_[member]]; });
         return std::move(parents_);
     }
 

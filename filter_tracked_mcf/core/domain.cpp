@@ -7,6 +7,7 @@
 
 #include "filter_tracked_mcf/core/disjoint_sets.h"
 #include "filter_tracked_mcf/core/errors.h"
+#include "filter_tracked_mcf/core/interruptible.h"
 
 namespace tracked_mcf {
 
@@ -29,9 +30,9 @@ void check_selection(const TriangleMesh& mesh, const Selection& selection) {
 template <class Item>
 std::vector<Item> selected_of(const std::vector<Item>& items, const Selection& selection) {
     std::vector<Item> selected;
-    for (std::size_t i = 0; i < items.size(); ++i) {
+    serial_for(static_cast<std::int64_t>(items.size()), [&](std::int64_t i) {
         if (selection[i] != 0) selected.push_back(items[i]);
-    }
+    });
     return selected;
 }
 
@@ -55,9 +56,9 @@ bool bit(std::uint8_t mask, int i) {
 double surface_area(const TriangleMesh& mesh, const Selection& selection) {
     if (selection.empty()) return surface_area(mesh);
     double twice = 0;
-    for (std::size_t i = 0; i < selection.size(); ++i) {
+    serial_for(static_cast<std::int64_t>(selection.size()), [&](std::int64_t i) {
         if (selection[i] != 0) twice += twice_vector_area(mesh, mesh.triangles[i]).norm();
-    }
+    });
     return 0.5 * twice;
 }
 
@@ -67,15 +68,16 @@ Domain::Domain(const TriangleMesh& mesh, const Selection& selection, BoundaryCon
     topology_ = topology_of(mesh);
     std::vector<std::uint8_t> boundary_sides = boundary_edges(topology_);
     if (!selection.empty()) boundary_sides = selected_of(boundary_sides, selection);
-    for (const std::uint8_t mask : boundary_sides) {
+    for_each_item(boundary_sides, [&](std::uint8_t mask) {
         for (int side = 0; side < 3; ++side) boundary_edge_count_ += bit(mask, side) ? 1 : 0;
-    }
+    });
     held_edges_ = std::move(boundary_sides);
     if (boundary == BoundaryCondition::Free) held_edges_.assign(held_edges_.size(), 0);
 
-    const MeshTopology whole = selection.empty() ? MeshTopology() : topology_;
+    MeshTopology whole;
     if (!selection.empty()) {
-        take(selection);
+        whole = std::move(topology_);
+        take(whole, selection);
         hold_seam(whole, selection);
     }
     hold_across_slivers();
@@ -83,57 +85,59 @@ Domain::Domain(const TriangleMesh& mesh, const Selection& selection, BoundaryCon
     leave_slivers_out();
 }
 
-void Domain::take(const Selection& selection) {
-    part_ = TriangleMesh{mesh_.positions, selected_of(mesh_.triangles, selection)};
-    topology_.triangles = selected_of(topology_.triangles, selection);
-    topology_.edges = selected_of(topology_.edges, selection);
+void Domain::take(const MeshTopology& whole, const Selection& selection) {
+    part_ = TriangleMesh{copy_of(mesh_.positions), selected_of(mesh_.triangles, selection)};
+    topology_.welded = whole.welded;
+    topology_.triangles = selected_of(whole.triangles, selection);
+    topology_.edges = selected_of(whole.edges, selection);
+    topology_.edge_count = whole.edge_count;
 }
 
 /// Calls visit(triangle, side, edge) for the surface's sides that are edges.
 template <class Visit>
 void Domain::for_each_side(const Visit& visit) const {
-    for (std::size_t triangle = 0; triangle < topology_.edges.size(); ++triangle) {
+    serial_for(static_cast<std::int64_t>(topology_.edges.size()), [&](std::int64_t triangle) {
         for (int side = 0; side < 3; ++side) {
             const std::int32_t edge = topology_.edges[triangle][side];
             if (edge != MeshTopology::kNoEdge) visit(triangle, side, edge);
         }
-    }
+    });
 }
 
 void Domain::hold_seam(const MeshTopology& whole, const Selection& selection) {
     std::vector<std::uint8_t> on_seam(static_cast<std::size_t>(whole.edge_count), 0);
-    for (std::size_t triangle = 0; triangle < selection.size(); ++triangle) {
-        if (selection[triangle] != 0) continue;
+    serial_for(static_cast<std::int64_t>(selection.size()), [&](std::int64_t triangle) {
+        if (selection[triangle] != 0) return;
         for (const std::int32_t edge : whole.edges[triangle]) {
             if (edge != MeshTopology::kNoEdge) on_seam[edge] = 1;
         }
-    }
-    for_each_side([&](std::size_t triangle, int side, std::int32_t edge) {
+    });
+    for_each_side([&](std::int64_t triangle, int side, std::int32_t edge) {
         if (on_seam[edge] != 0) held_edges_[triangle] |= static_cast<std::uint8_t>(1 << side);
     });
 }
 
 void Domain::hold_across_slivers() {
-    for (const Triangle& triangle : surface().triangles) {
+    for_each_item(surface().triangles, [&](const Triangle& triangle) {
         slivers_.push_back(is_sliver(surface(), triangle) ? 1 : 0);
-    }
+    });
     // Edges that slivers join: if one is held, all are.
     DisjointSets joined(topology_.edge_count);
-    for (std::size_t triangle = 0; triangle < slivers_.size(); ++triangle) {
-        if (slivers_[triangle] == 0) continue;
+    serial_for(static_cast<std::int64_t>(slivers_.size()), [&](std::int64_t triangle) {
+        if (slivers_[triangle] == 0) return;
         std::int32_t first = MeshTopology::kNoEdge;
         for (const std::int32_t edge : topology_.edges[triangle]) {
             if (edge == MeshTopology::kNoEdge) continue;
             if (first != MeshTopology::kNoEdge) joined.unite(first, edge);
             first = edge;
         }
-    }
+    });
     const std::vector<std::int32_t> set_of = std::move(joined).representatives();
     std::vector<std::uint8_t> held(set_of.size(), 0);
-    for_each_side([&](std::size_t triangle, int side, std::int32_t edge) {
+    for_each_side([&](std::int64_t triangle, int side, std::int32_t edge) {
         if (bit(held_edges_[triangle], side)) held[set_of[edge]] = 1;
     });
-    for_each_side([&](std::size_t triangle, int side, std::int32_t edge) {
+    for_each_side([&](std::int64_t triangle, int side, std::int32_t edge) {
         if (held[set_of[edge]] != 0) held_edges_[triangle] |= static_cast<std::uint8_t>(1 << side);
     });
 }
@@ -141,36 +145,35 @@ void Domain::hold_across_slivers() {
 /// What slivers hold, their neighbours hold as well; and they know no conormal.
 void Domain::leave_slivers_out() {
     std::vector<std::uint8_t> held_by_others(static_cast<std::size_t>(topology_.edge_count), 0);
-    for_each_side([&](std::size_t triangle, int side, std::int32_t edge) {
+    for_each_side([&](std::int64_t triangle, int side, std::int32_t edge) {
         if (bit(held_edges_[triangle], side) && slivers_[triangle] == 0) held_by_others[edge] = 1;
     });
-    for (std::size_t triangle = 0; triangle < held_edges_.size(); ++triangle) {
+    serial_for(static_cast<std::int64_t>(held_edges_.size()), [&](std::int64_t triangle) {
         const auto& edges = topology_.edges[triangle];
         const bool others_hold = std::any_of(edges.begin(), edges.end(), [&](std::int32_t edge) {
             return edge != MeshTopology::kNoEdge && held_by_others[edge] != 0;
         });
         if (slivers_[triangle] != 0 && others_hold) held_edges_[triangle] = 0;
-    }
+    });
 }
 
 void Domain::hold_vertices(const MeshTopology& whole, const Selection& selection) {
     const std::vector<std::int32_t>& welded = topology_.welded;
     std::vector<std::uint8_t> held(welded.size(), 0);
-    for (std::size_t triangle = 0; triangle < held_edges_.size(); ++triangle) {
+    serial_for(static_cast<std::int64_t>(held_edges_.size()), [&](std::int64_t triangle) {
         for (int side = 0; side < 3; ++side) {
             if (!bit(held_edges_[triangle], side)) continue;
             held[topology_.triangles[triangle][side]] = 1;
             held[topology_.triangles[triangle][(side + 1) % 3]] = 1;
         }
-    }
-    for (std::size_t triangle = 0; triangle < selection.size(); ++triangle) {
-        if (selection[triangle] != 0) continue;
+    });
+    serial_for(static_cast<std::int64_t>(selection.size()), [&](std::int64_t triangle) {
+        if (selection[triangle] != 0) return;
         for (const std::int32_t vertex : whole.triangles[triangle]) held[vertex] = 1;
-    }
+    });
     held_vertices_.resize(held.size());
-    for (std::size_t vertex = 0; vertex < held.size(); ++vertex) {
-        held_vertices_[vertex] = held[welded[vertex]];
-    }
+    serial_for(static_cast<std::int64_t>(held.size()),
+               [&](std::int64_t vertex) { held_vertices_[vertex] = held[welded[vertex]]; });
 }
 
 bool Domain::holds_anything() const {

@@ -50,7 +50,7 @@ public:
 private:
     template <class Visit>
     void for_each_side(const Visit& visit) const;
-    void take(const Selection& selection);
+    void take(const MeshTopology& whole, const Selection& selection);
     void hold_seam(const MeshTopology& whole, const Selection& selection);
     void hold_across_slivers();
     void leave_slivers_out();

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "filter_tracked_mcf/core/element_kernel.h"
+#include "filter_tracked_mcf/core/interruptible.h"
 #include "filter_tracked_mcf/core/parallel.h"
 
 namespace tracked_mcf {
@@ -42,17 +43,19 @@ Collapse collapse_of(std::int64_t element, const ElementTotals& totals) {
 void assemble_elements(const TrackedElements& elements, const Coefficients& displacement,
                        const SystemWeights& weights, ElementSystems& systems) {
     const std::int64_t count = elements.finest().element_count();
-    systems.matrices.resize(static_cast<std::size_t>(count));
-    systems.right_sides.resize(static_cast<std::size_t>(count));
-    systems.areas.resize(static_cast<std::size_t>(count));
+    resize(systems.matrices, count);
+    resize(systems.right_sides, count);
+    resize(systems.areas, count);
     systems.collapses = parallel_collect<Collapse>(
         count, [&](std::int64_t begin, std::int64_t end, std::vector<Collapse>& collapses) {
+            Pacer pacer;
             for (std::int64_t element = begin; element < end; ++element) {
                 const ElementTotals totals =
                     integrate_element(gather(elements, displacement, element), weights,
                                       systems.matrices[element], systems.right_sides[element]);
                 systems.areas[element] = totals.area;
                 if (totals.collapsed_samples > 0) collapses.push_back(collapse_of(element, totals));
+                pacer.did(elements.sample_begin[element + 1] - elements.sample_begin[element]);
             }
         });
     systems.area = std::accumulate(systems.areas.begin(), systems.areas.end(), 0.0);

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "filter_tracked_mcf/core/interruptible.h"
 #include "filter_tracked_mcf/core/morton.h"
 #include "filter_tracked_mcf/core/parallel.h"
 
@@ -95,8 +96,8 @@ void relax(const LevelMatrix& matrix, const Field& right_side, const ElementMatr
 
 }  // namespace
 
-ElementSmoother::ElementSmoother(const Level& level)
-    : level_(level), inverses_(level.cells.size()) {
+ElementSmoother::ElementSmoother(const Level& level) : level_(level) {
+    resize(inverses_, level.element_count());
     const auto block_of = [&](std::int32_t element) { return level.cells[element] >> kBlockBits; };
     const std::int32_t count = level.element_count();
     for (std::int32_t begin = 0, end = 0; begin < count; begin = end) {

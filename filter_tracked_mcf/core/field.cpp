@@ -6,6 +6,12 @@
 
 namespace tracked_mcf {
 
+void set_zero(Field& field, Eigen::Index count) {
+    field.resize(4, count);
+    // By all threads, and so that progress is told: fresh memory takes its time.
+    parallel_for_rows(count, [&](std::int32_t i) { field.col(i).setZero(); });
+}
+
 Eigen::Vector4d dot(const Field& a, const Field& b) {
     const Eigen::Vector4d zero = Eigen::Vector4d::Zero();
     return parallel_sum(a.cols(), zero, [&](std::int64_t begin, std::int64_t end) {

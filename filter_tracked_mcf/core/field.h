@@ -8,6 +8,9 @@ namespace tracked_mcf {
 /// z, and a zero that fills the column up to one 16-byte register.
 using Field = Eigen::Matrix<float, 4, Eigen::Dynamic>;
 
+/// Makes it a field of `count` zeros.
+void set_zero(Field& field, Eigen::Index count);
+
 /// Scalar product of every coordinate, summed in double in a fixed order.
 Eigen::Vector4d dot(const Field& a, const Field& b);
 

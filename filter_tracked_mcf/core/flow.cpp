@@ -5,16 +5,29 @@
 
 #include "filter_tracked_mcf/core/automatic_depth.h"
 #include "filter_tracked_mcf/core/errors.h"
+#include "filter_tracked_mcf/core/interruptible.h"
 #include "filter_tracked_mcf/core/locked_cells.h"
 #include "filter_tracked_mcf/core/parallel.h"
 #include "filter_tracked_mcf/core/pinches.h"
+#include "filter_tracked_mcf/core/progress_meter.h"
+#include "filter_tracked_mcf/core/setup_phases.h"
 #include "filter_tracked_mcf/core/stopwatch.h"
 
 namespace tracked_mcf {
 
 namespace {
 
+/// Of a step's time, what assembly takes.
+constexpr double kAssemblyShare = 0.45;
+
+Domain domain_of(const TriangleMesh& mesh, const Selection& selection,
+                 const FlowParameters& parameters) {
+    enter_setup_phase(SetupPhase::FindEdges);
+    return {mesh, selection, parameters.boundary};
+}
+
 Grid grid_for(const TriangleMesh& mesh, const Domain& domain, int depth) {
+    enter_setup_phase(SetupPhase::ChooseGrid);
     const Grid cube = enclosing_grid(mesh, 0);
     return with_depth(cube, depth == 0 ? automatic_depth(domain.surface(), cube) : depth);
 }
@@ -32,6 +45,7 @@ double to_grid_units(const FlowParameters& parameters, const TriangleMesh& mesh,
 
 std::vector<std::vector<std::uint8_t>> locked_unknowns(const TrackedElements& elements,
                                                        BoundaryCondition boundary) {
+    enter_setup_phase(SetupPhase::PrepareSolver);
     return boundary == BoundaryCondition::LockedCells ? unknowns_meeting_held_edges(elements)
                                                       : no_unknowns(elements);
 }
@@ -52,11 +66,11 @@ bool all_finite(const Coefficients& coefficients) {
 }  // namespace
 
 Flow::Flow(const TriangleMesh& mesh, const FlowParameters& parameters, const Selection& selection)
-    : Flow(mesh, Domain(mesh, selection, parameters.boundary), parameters) {}
+    : Flow(mesh, domain_of(mesh, selection, parameters), parameters) {}
 
 Flow::Flow(const TriangleMesh& mesh, const FlowParameters& parameters, const Grid& grid,
            const Selection& selection)
-    : Flow(mesh, Domain(mesh, selection, parameters.boundary), parameters, grid) {}
+    : Flow(mesh, domain_of(mesh, selection, parameters), parameters, grid) {}
 
 Flow::Flow(const TriangleMesh& mesh, const Domain& domain, const FlowParameters& parameters)
     : Flow(mesh, domain, parameters, grid_for(mesh, domain, parameters.depth)) {}
@@ -99,6 +113,7 @@ void Flow::fill_report(const Domain& domain) {
 bool Flow::step() {
     StepReport report;
     assemble(report);
+    const ProgressSpan solving(kAssemblyShare, 1);
     if (!report_.steps.empty() && report.area <= kVanishedArea * report_.steps.front().area) {
         take_back(Stop::Vanished);
         return false;
@@ -129,7 +144,9 @@ bool Flow::can_move() const {
 void Flow::scale(const Eigen::Vector3d& centre, double factor) {
     const Eigen::RowVector3d fixed = elements_.grid.to_grid(centre).transpose();
     const Coefficients from_centre = identity_coefficients(elements_).rowwise() - fixed;
+    poll_progress();
     displacement_ = factor * displacement_ + (factor - 1) * from_centre;
+    poll_progress();
     guess_ = (1 / factor - 1) * (from_centre + displacement_);
 }
 
@@ -176,6 +193,7 @@ void Flow::solve(StepReport& report) {
             "fewer iterations.");
     }
     previous_ = displacement_;
+    poll_progress();
     displacement_ += solution_;
     if (guess_.size() > 0) displacement_ += guess_;
     if (holds_curve() && parameters_.take_up_boundary) held_curve_.take_up(displacement_);
@@ -194,6 +212,7 @@ void Flow::solve_by_cycles(StepReport& report) {
     Field x = Field::Zero(4, elements_.finest().unknown_count());
     for (int i = 0; i < parameters_.cycles; ++i) {
         multigrid_.cycle(right_side_, x);
+        advance_progress((i + 1.0) / parameters_.cycles);
     }
     solution_ = x.topRows<3>().transpose().cast<double>();
     report.solver_iterations = parameters_.cycles;

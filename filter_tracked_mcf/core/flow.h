@@ -42,6 +42,8 @@ public:
     /// stabilised if so asked, and adds it. Throws NumericalFailure if it is not finite, leaving
     /// the embedding as it was.
     ///
+    /// Throws what poll_progress() throws; then the flow is over.
+    ///
     /// Returns false if there is nothing left to do, as report().stop then says: where the last
     /// step left next to no area it is taken back.
     bool step();

@@ -5,6 +5,7 @@
 
 #include "filter_tracked_mcf/core/clip.h"
 #include "filter_tracked_mcf/core/errors.h"
+#include "filter_tracked_mcf/core/interruptible.h"
 #include "filter_tracked_mcf/core/parallel.h"
 #include "filter_tracked_mcf/core/sorting.h"
 
@@ -58,7 +59,7 @@ std::uint8_t edges_of(const Polygon& polygon) {
 }
 
 void add_fragments(const GridMesh& mesh, std::int32_t triangle, std::int32_t cells_per_side,
-                   std::vector<KeyValue>& pairs) {
+                   std::vector<KeyValue>& pairs, Pacer& pacer) {
     const auto corners = mesh.corners(triangle);
     const bool degenerate = is_degenerate(corners);
     for_each_fragment(corners, cells_per_side, [&](const Cell& cell, const Polygon& polygon) {
@@ -66,16 +67,17 @@ void add_fragments(const GridMesh& mesh, std::int32_t triangle, std::int32_t cel
         const FragmentEntry entry{morton_code(cell), triangle, static_cast<std::uint8_t>(fan),
                                   corners_of(polygon), edges_of(polygon)};
         pairs.push_back({entry.cell, pack(entry)});
+        pacer.did(kItemsPerFragment);
     });
 }
 
 void check_inside(const GridMesh& mesh, const Grid& grid) {
     const double side = grid.cells_per_side();
-    for (const Eigen::Vector3d& position : mesh.positions) {
+    for_each_item(mesh.positions, [&](const Eigen::Vector3d& position) {
         if (!(position.minCoeff() >= 0 && position.maxCoeff() <= side)) {
             throw InvalidMesh("The mesh does not lie inside the cube of the grid.");
         }
-    }
+    });
 }
 
 }  // namespace
@@ -87,12 +89,13 @@ std::array<Eigen::Vector3d, 3> GridMesh::corners(std::int32_t triangle) const {
 
 GridMesh to_grid(const TriangleMesh& mesh, const Grid& grid) {
     const std::vector<bool> referenced = referenced_vertices(mesh);
-    GridMesh result{mesh,
-                    std::vector<Eigen::Vector3d>(mesh.positions.size(), Eigen::Vector3d::Zero())};
-    for (std::size_t vertex = 0; vertex < mesh.positions.size(); ++vertex) {
-        if (referenced[vertex])
-            result.positions[vertex] = rounded(grid.to_grid(mesh.positions[vertex]));
-    }
+    GridMesh result{mesh, {}};
+    result.positions.reserve(mesh.positions.size());
+    serial_for(static_cast<std::int64_t>(mesh.positions.size()), [&](std::int64_t vertex) {
+        result.positions.emplace_back(referenced[vertex]
+                                          ? rounded(grid.to_grid(mesh.positions[vertex]))
+                                          : Eigen::Vector3d::Zero());
+    });
     return result;
 }
 
@@ -105,32 +108,35 @@ bool is_degenerate(const std::array<Eigen::Vector3d, 3>& corners) {
 
 std::int64_t count_degenerate(const GridMesh& mesh) {
     std::int64_t count = 0;
-    for (std::size_t triangle = 0; triangle < mesh.original.triangles.size(); ++triangle) {
-        count += is_degenerate(mesh.corners(static_cast<std::int32_t>(triangle))) ? 1 : 0;
-    }
+    serial_for(static_cast<std::int64_t>(mesh.original.triangles.size()), [&](std::int64_t i) {
+        count += is_degenerate(mesh.corners(static_cast<std::int32_t>(i))) ? 1 : 0;
+    });
     return count;
 }
 
 std::vector<FragmentEntry> list_fragments(const GridMesh& mesh, const Grid& grid) {
     check_inside(mesh, grid);
     const auto count = static_cast<std::int64_t>(mesh.original.triangles.size());
-    auto pairs = parallel_collect<KeyValue>(count, [&](std::int64_t begin, std::int64_t end,
-                                                       std::vector<KeyValue>& out) {
-        for (std::int64_t triangle = begin; triangle < end; ++triangle) {
-            add_fragments(mesh, static_cast<std::int32_t>(triangle), grid.cells_per_side(), out);
-        }
-    });
+    auto pairs = parallel_collect<KeyValue>(
+        count, [&](std::int64_t begin, std::int64_t end, std::vector<KeyValue>& out) {
+            Pacer pacer;
+            for (std::int64_t triangle = begin; triangle < end; ++triangle) {
+                add_fragments(mesh, static_cast<std::int32_t>(triangle), grid.cells_per_side(), out,
+                              pacer);
+            }
+        });
     sort_by_key(pairs);
-    std::vector<FragmentEntry> entries(pairs.size());
-    std::transform(pairs.begin(), pairs.end(), entries.begin(), unpack);
+    std::vector<FragmentEntry> entries;
+    entries.reserve(pairs.size());
+    for_each_item(pairs, [&](const KeyValue& pair) { entries.push_back(unpack(pair)); });
     return entries;
 }
 
 std::vector<MortonCode> occupied_cells(const std::vector<FragmentEntry>& entries) {
     std::vector<MortonCode> cells;
-    for (const FragmentEntry& entry : entries) {
+    for_each_item(entries, [&](const FragmentEntry& entry) {
         if (cells.empty() || cells.back() != entry.cell) cells.push_back(entry.cell);
-    }
+    });
     return cells;
 }
 

@@ -40,6 +40,10 @@ struct FragmentEntry {
     std::uint8_t edges;  ///< bit i: so does, in more than a point, the edge from corner i on
 };
 
+/// Light items (interruptible.h) that clipping one fragment takes as long as. A large triangle may
+/// have millions of fragments, a cell as many.
+inline constexpr std::int64_t kItemsPerFragment = 64;
+
 /// All fragments of a mesh, sorted by cell, then by triangle. Throws InvalidMesh if a vertex lies
 /// outside the grid's cube.
 std::vector<FragmentEntry> list_fragments(const GridMesh& mesh, const Grid& grid);

@@ -1,5 +1,6 @@
 #include "filter_tracked_mcf/core/gauss_seidel.h"
 
+#include "filter_tracked_mcf/core/interruptible.h"
 #include "filter_tracked_mcf/core/parallel.h"
 
 namespace tracked_mcf {
@@ -39,9 +40,10 @@ void GaussSeidel::sweep_half(const LevelMatrix& matrix, const Field& right_side,
     const auto slabs = static_cast<std::int64_t>(slab_begin_.size()) - 1;
     parallel_for((slabs - first_slab + 1) / 2, [&](std::int64_t i) {
         const std::int64_t slab = first_slab + 2 * i;
-        for (std::int32_t row = slab_begin_[slab]; row < slab_begin_[slab + 1]; ++row) {
-            relax(matrix, right_side, x, row);
-        }
+        // The layers of a flat surface are few and large.
+        serial_for(slab_begin_[slab], slab_begin_[slab + 1], [&](std::int64_t row) {
+            relax(matrix, right_side, x, static_cast<std::int32_t>(row));
+        });
     });
 }
 

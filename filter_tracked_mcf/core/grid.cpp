@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "filter_tracked_mcf/core/errors.h"
+#include "filter_tracked_mcf/core/interruptible.h"
 
 namespace tracked_mcf {
 
@@ -21,9 +22,9 @@ constexpr double kFarthest = 1e12;
 
 Eigen::AlignedBox3d bounding_box(const TriangleMesh& mesh) {
     Eigen::AlignedBox3d box;
-    for (const Triangle& triangle : mesh.triangles) {
+    for_each_item(mesh.triangles, [&](const Triangle& triangle) {
         for (const std::int32_t vertex : triangle) box.extend(mesh.positions[vertex]);
-    }
+    });
     return box;
 }
 

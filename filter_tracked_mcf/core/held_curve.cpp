@@ -1,6 +1,7 @@
 #include "filter_tracked_mcf/core/held_curve.h"
 
 #include "filter_tracked_mcf/core/bspline.h"
+#include "filter_tracked_mcf/core/interruptible.h"
 #include "filter_tracked_mcf/core/parallel.h"
 
 namespace tracked_mcf {
@@ -25,9 +26,11 @@ void add_at(const CornerValues& values, double weight, const Eigen::Vector3d& fo
 HeldCurve::HeldCurve(const TrackedElements& elements, double spring)
     : elements_(elements), spring_(spring) {
     const std::vector<HeldSample>& samples = elements.held_samples;
+    Pacer pacer;
     for (std::size_t begin = 0, end = 0; begin < samples.size(); begin = end) {
         while (end < samples.size() && samples[end].element == samples[begin].element) ++end;
         supports_.push_back({samples[begin].element, begin, end, Eigen::Vector3d::Zero()});
+        pacer.did(static_cast<std::int64_t>(end - begin));
     }
 }
 
@@ -50,7 +53,8 @@ void HeldCurve::add(const Coefficients& displacement, double step_size,
 }
 
 void HeldCurve::take_up(const Coefficients& displacement) {
-    for (Support& support : supports_) {
+    parallel_for_rows(static_cast<std::int64_t>(supports_.size()), [&](std::int32_t i) {
+        Support& support = supports_[i];
         Eigen::Vector3d sum = Eigen::Vector3d::Zero();
         double length = 0;
         for (std::size_t k = support.begin; k < support.end; ++k) {
@@ -59,7 +63,7 @@ void HeldCurve::take_up(const Coefficients& displacement) {
             length += sample.weight;
         }
         support.taken_up -= spring_ * sum / length;
-    }
+    });
 }
 
 Eigen::Vector3d HeldCurve::displacement_at(const HeldSample& sample,

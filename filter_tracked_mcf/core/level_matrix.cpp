@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "filter_tracked_mcf/core/errors.h"
+#include "filter_tracked_mcf/core/interruptible.h"
 #include "filter_tracked_mcf/core/parallel.h"
 
 namespace tracked_mcf {
@@ -17,8 +18,9 @@ constexpr float kSmallestDiagonal = 1e-30F;
 std::vector<std::int32_t> flatten(const std::vector<std::array<std::int32_t, 8>>& unknowns) {
     std::vector<std::int32_t> flat;
     flat.reserve(8 * unknowns.size());
-    for (const auto& of_element : unknowns)
+    for_each_item(unknowns, [&](const auto& of_element) {
         flat.insert(flat.end(), of_element.begin(), of_element.end());
+    });
     return flat;
 }
 
@@ -54,17 +56,22 @@ void LevelMatrix::make_pattern() {
     matrix_.resizeNonZeros(static_cast<Eigen::Index>(columns.size()));
     std::int32_t* const row_begin = matrix_.outerIndexPtr();
     row_begin[0] = 0;
-    for (std::int32_t row = 0; row < count; ++row)
-        row_begin[row + 1] = row_begin[row] + row_size[row];
-    std::copy(columns.begin(), columns.end(), matrix_.innerIndexPtr());
+    serial_for(count,
+               [&](std::int64_t row) { row_begin[row + 1] = row_begin[row] + row_size[row]; });
+    parallel_for_blocks(static_cast<std::int64_t>(columns.size()), [&](std::int64_t begin,
+                                                                       std::int64_t end) {
+        std::copy(columns.begin() + begin, columns.begin() + end, matrix_.innerIndexPtr() + begin);
+    });
 }
 
 void LevelMatrix::assemble(const std::vector<ElementMatrix>& elements,
                            const std::vector<std::uint8_t>& frozen) {
     inverse_diagonal_.resize(static_cast<std::size_t>(level_.unknown_count()));
-    parallel_for_slices(level_.unknown_count(), [&](std::int64_t begin, std::int64_t end) {
-        // One number for every unknown: where the entries of a row are summed.
-        std::vector<float> sums(static_cast<std::size_t>(level_.unknown_count()), 0.0F);
+    // One number for every unknown: where the entries of a row are summed.
+    const auto no_sums = [&] {
+        return std::vector<float>(static_cast<std::size_t>(level_.unknown_count()), 0.0F);
+    };
+    const auto assemble_rows = [&](std::vector<float>& sums, std::int64_t begin, std::int64_t end) {
         for (auto row = static_cast<std::int32_t>(begin); row < end; ++row) {
             assemble_row(row, elements, sums);
             const float diagonal = sums[row];
@@ -73,7 +80,8 @@ void LevelMatrix::assemble(const std::vector<ElementMatrix>& elements,
             inverse_diagonal_[row] = stays ? 0 : 1 / diagonal;
             store_row(row, sums);
         }
-    });
+    };
+    parallel_for_blocks_with(level_.unknown_count(), no_sums, assemble_rows);
 }
 
 void LevelMatrix::assemble_row(std::int32_t row, const std::vector<ElementMatrix>& elements,

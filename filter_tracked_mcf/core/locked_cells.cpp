@@ -1,5 +1,7 @@
 #include "filter_tracked_mcf/core/locked_cells.h"
 
+#include "filter_tracked_mcf/core/interruptible.h"
+
 namespace tracked_mcf {
 
 namespace {
@@ -8,9 +10,9 @@ namespace {
 std::vector<std::uint8_t> mark_parents(const Level& fine, const Level& coarse,
                                        const std::vector<std::uint8_t>& marked) {
     std::vector<std::uint8_t> parents(static_cast<std::size_t>(coarse.element_count()), 0);
-    for (std::int32_t element = 0; element < fine.element_count(); ++element) {
+    serial_for(fine.element_count(), [&](std::int64_t element) {
         if (marked[element] != 0) parents[fine.parents[element]] = 1;
-    }
+    });
     return parents;
 }
 
@@ -18,10 +20,10 @@ std::vector<std::uint8_t> mark_parents(const Level& fine, const Level& coarse,
 std::vector<std::uint8_t> mark_unknowns(const Level& level,
                                         const std::vector<std::uint8_t>& marked) {
     std::vector<std::uint8_t> unknowns(static_cast<std::size_t>(level.unknown_count()), 0);
-    for (std::int32_t element = 0; element < level.element_count(); ++element) {
-        if (marked[element] == 0) continue;
+    serial_for(level.element_count(), [&](std::int64_t element) {
+        if (marked[element] == 0) return;
         for (const std::int32_t unknown : level.unknowns[element]) unknowns[unknown] = 1;
-    }
+    });
     return unknowns;
 }
 

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "filter_tracked_mcf/core/galerkin.h"
+#include "filter_tracked_mcf/core/interruptible.h"
 #include "filter_tracked_mcf/core/parallel.h"
 
 namespace tracked_mcf {
@@ -28,12 +29,12 @@ Multigrid::LevelData::LevelData(const TrackedElements& elements, std::size_t lev
     if (level > 0) {
         prolongation =
             tracked_mcf::prolongation(elements.levels[level], elements.levels[level - 1]);
-        restriction = prolongation.transpose();
+        restriction = transposed(prolongation);
     }
     if (level + 1 < elements.levels.size()) {
         const std::int32_t count = elements.levels[level].element_count();
         children = Groups(elements.levels[level + 1].parents, count);
-        element_matrices.resize(static_cast<std::size_t>(count));
+        resize(element_matrices, count);
     }
 }
 
@@ -81,7 +82,7 @@ void Multigrid::cycle(std::size_t level, const Field& right_side, Field& x) {
     here.matrix.residual(right_side, x, here.residual);
     restrict_residual(level);
     LevelData& coarser = levels_[level - 1];
-    coarser.x.setZero(4, elements_.levels[level - 1].unknown_count());
+    set_zero(coarser.x, elements_.levels[level - 1].unknown_count());
     const int visits = worth_revisiting(level - 1) ? parameters_.coarse_visits : 1;
     for (int visit = 0; visit < visits; ++visit) {
         cycle(level - 1, coarser.right_side, coarser.x);

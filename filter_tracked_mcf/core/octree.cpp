@@ -7,6 +7,7 @@
 #include "filter_tracked_mcf/core/bspline.h"
 #include "filter_tracked_mcf/core/disjoint_sets.h"
 #include "filter_tracked_mcf/core/errors.h"
+#include "filter_tracked_mcf/core/interruptible.h"
 #include "filter_tracked_mcf/core/parallel.h"
 #include "filter_tracked_mcf/core/sorting.h"
 
@@ -19,11 +20,11 @@ std::vector<MortonCode> coarsen(const std::vector<MortonCode>& cells,
                                 std::vector<std::int32_t>& parents) {
     std::vector<MortonCode> coarse;
     parents.resize(cells.size());
-    for (std::size_t element = 0; element < cells.size(); ++element) {
+    serial_for(static_cast<std::int64_t>(cells.size()), [&](std::int64_t element) {
         const MortonCode parent = parent_of(cells[element]);
         if (coarse.empty() || coarse.back() != parent) coarse.push_back(parent);
         parents[element] = static_cast<std::int32_t>(coarse.size()) - 1;
-    }
+    });
     return coarse;
 }
 
@@ -58,7 +59,8 @@ void check_size(const Level& level) {
 
 /// Every element's corners, each with the place that its unknown's number has to go to.
 std::vector<KeyValue> list_corners(const Level& level, const CornerNumbering& numbering) {
-    std::vector<KeyValue> corners(8 * level.cells.size());
+    std::vector<KeyValue> corners;
+    resize(corners, 8 * std::int64_t{level.element_count()});
     parallel_for_blocks(level.element_count(), [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t element = begin; element < end; ++element) {
             const Cell cell = cell_at(level.cells[element]);
@@ -77,13 +79,13 @@ void number_unknowns(Level& level) {
     const CornerNumbering numbering(level.depth);
     std::vector<KeyValue> corners = list_corners(level, numbering);
     sort_by_key(corners);
-    level.unknowns.resize(level.cells.size());
-    for (std::size_t i = 0; i < corners.size(); ++i) {
+    resize(level.unknowns, level.element_count());
+    serial_for(static_cast<std::int64_t>(corners.size()), [&](std::int64_t i) {
         if (i == 0 || corners[i].key != corners[i - 1].key) {
             level.layers.push_back(numbering.layer(corners[i].key));
         }
         level.unknowns[corners[i].value / 8][corners[i].value % 8] = level.unknown_count() - 1;
-    }
+    });
     level.layers.shrink_to_fit();
 }
 
@@ -110,27 +112,29 @@ void unite_shared_corners(const Link& link, const Level& level, DisjointSets& co
 void number_unknowns(Level& level, const std::vector<Link>& links) {
     check_size(level);
     DisjointSets corners(8 * level.element_count());
-    for (const Link& link : links) unite_shared_corners(link, level, corners);
+    for_each_item(links, [&](const Link& link) { unite_shared_corners(link, level, corners); });
     const std::vector<std::int32_t> class_of = std::move(corners).representatives();
 
     const CornerNumbering numbering(level.depth);
     std::vector<KeyValue> classes;
-    for (std::int32_t place = 0; place < 8 * level.element_count(); ++place) {
-        if (class_of[place] != place) continue;
-        classes.push_back({numbering.number(cell_at(level.cells[place / 8]), place % 8),
+    const std::int64_t place_count = 8 * std::int64_t{level.element_count()};
+    serial_for(place_count, [&](std::int64_t place) {
+        if (class_of[place] != place) return;
+        const int corner = static_cast<int>(place % 8);
+        classes.push_back({numbering.number(cell_at(level.cells[place / 8]), corner),
                            static_cast<std::uint64_t>(place)});
-    }
+    });
     sort_by_key(classes);
-    level.unknowns.resize(level.cells.size());
+    resize(level.unknowns, level.element_count());
     level.layers.reserve(classes.size());
-    for (const KeyValue& of_class : classes) {
+    for_each_item(classes, [&](const KeyValue& of_class) {
         level.unknowns[of_class.value / 8][of_class.value % 8] = level.unknown_count();
         level.layers.push_back(numbering.layer(of_class.key));
-    }
-    for (std::int32_t place = 0; place < 8 * level.element_count(); ++place) {
+    });
+    serial_for(place_count, [&](std::int64_t place) {
         const std::int32_t first = class_of[place];
         level.unknowns[place / 8][place % 8] = level.unknowns[first / 8][first % 8];
-    }
+    });
 }
 
 /// Cells of the elements of the next coarser level: of each class of linked elements with the same
@@ -140,19 +144,19 @@ std::vector<MortonCode> coarsen(const std::vector<MortonCode>& cells,
                                 std::vector<std::int32_t>& parents) {
     const auto count = static_cast<std::int32_t>(cells.size());
     DisjointSets siblings(count);
-    for (const Link& link : links) {
+    for_each_item(links, [&](const Link& link) {
         if (parent_of(cells[link.first]) == parent_of(cells[link.second])) {
             siblings.unite(link.first, link.second);
         }
-    }
+    });
     parents = std::move(siblings).representatives();
     std::vector<MortonCode> coarse;
-    for (std::int32_t element = 0; element < count; ++element) {
+    serial_for(count, [&](std::int64_t element) {
         const std::int32_t first = parents[element];
         if (first == element) coarse.push_back(parent_of(cells[element]));
         parents[element] =
             first == element ? static_cast<std::int32_t>(coarse.size()) - 1 : parents[first];
-    }
+    });
     return coarse;
 }
 
@@ -160,10 +164,10 @@ std::vector<MortonCode> coarsen(const std::vector<MortonCode>& cells,
 std::vector<Link> coarsen(const std::vector<Link>& links, const std::vector<std::int32_t>& parents,
                           std::int32_t parent_count) {
     std::vector<Link> coarse;
-    for (const Link& link : links) {
+    for_each_item(links, [&](const Link& link) {
         const auto [first, second] = std::minmax(parents[link.first], parents[link.second]);
         if (first != second) coarse.push_back({first, second});
-    }
+    });
     sort_and_remove_copies(coarse, parent_count);
     return coarse;
 }

@@ -12,9 +12,12 @@ ThreadCountScope::~ThreadCountScope() {
     omp_set_num_threads(previous_);
 }
 
-std::int64_t slice_count() {
-    const int threads = omp_get_max_threads();
-    return threads == 1 ? 1 : 4 * threads;
+std::size_t thread_count() {
+    return static_cast<std::size_t>(omp_get_max_threads());
+}
+
+std::size_t thread_number() {
+    return static_cast<std::size_t>(omp_get_thread_num());
 }
 
 }  // namespace tracked_mcf

@@ -1,11 +1,16 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <exception>
 #include <numeric>
+#include <optional>
 #include <vector>
+
+#include "filter_tracked_mcf/core/interruptible.h"
+#include "filter_tracked_mcf/core/progress_meter.h"
 
 namespace tracked_mcf {
 
@@ -22,22 +27,26 @@ private:
     int previous_;
 };
 
-/// Slices to cut a loop into, so that the threads there are finish at about the same time.
-std::int64_t slice_count();
+/// Threads that a loop started from here may have, and which of them, from 0, the caller is.
+std::size_t thread_count();
+std::size_t thread_number();
 
 /// Calls body(i) for every i in [0, count), in any order and, from `worth_threads` of them on, in
-/// parallel. An exception of a body is thrown on after the loop; it must not leave an OpenMP region
-/// by itself.
+/// parallel. The first exception of a body is thrown on after the loop, of which the rest is left
+/// out; it must not leave an OpenMP region by itself. Progress is polled before every body of the
+/// calling thread, which has a meter if any has one.
 template <class Body>
 void parallel_for(std::int64_t count, const Body& body, std::int64_t worth_threads = 2) {
     std::exception_ptr failure;
+    std::atomic<bool> failed{false};
 #pragma omp parallel for schedule(dynamic, 1) if (count >= worth_threads)
     for (std::int64_t i = 0; i < count; ++i) {
+        if (failed.load(std::memory_order_relaxed)) continue;
         try {
+            poll_progress();
             body(i);
         } catch (...) {
-#pragma omp critical(tracked_mcf_parallel_for)
-            failure = std::current_exception();
+            if (!failed.exchange(true)) failure = std::current_exception();
         }
     }
     if (failure) std::rethrow_exception(failure);
@@ -76,14 +85,16 @@ void parallel_for_rows(std::int64_t count, const Body& body) {
         kBlocksWorthThreads);
 }
 
-/// Calls body(begin, end) for a few slices that cover [0, count), in parallel, for bodies that need
-/// a large workspace of their own. How many depends on the number of threads, so the results must
-/// not depend on where a slice begins.
-template <class Body>
-void parallel_for_slices(std::int64_t count, const Body& body) {
-    const std::int64_t slices = std::min<std::int64_t>(count, slice_count());
-    parallel_for(slices, [&](std::int64_t slice) {
-        body(count * slice / slices, count * (slice + 1) / slices);
+/// Calls body(workspace, begin, end) for consecutive blocks that cover [0, count), in parallel.
+/// Each thread that gets any has a workspace of its own, what make() returns. The results must not
+/// depend on which blocks, in which order, have had the same one.
+template <class Make, class Body>
+void parallel_for_blocks_with(std::int64_t count, const Make& make, const Body& body) {
+    std::vector<std::optional<decltype(make())>> workspaces(thread_count());
+    parallel_for_blocks(count, [&](std::int64_t begin, std::int64_t end) {
+        auto& workspace = workspaces[thread_number()];
+        if (!workspace) workspace.emplace(make());
+        body(*workspace, begin, end);
     });
 }
 
@@ -109,7 +120,8 @@ std::vector<Item> parallel_collect(std::int64_t count, const Body& body) {
     for (std::size_t part = 0; part < parts.size(); ++part) {
         offsets[part + 1] = offsets[part] + parts[part].size();
     }
-    std::vector<Item> all(offsets.back());
+    std::vector<Item> all;
+    resize(all, static_cast<std::int64_t>(offsets.back()));
     parallel_for(static_cast<std::int64_t>(parts.size()), [&](std::int64_t part) {
         std::copy(parts[part].begin(), parts[part].end(), all.begin() + offsets[part]);
         std::vector<Item>().swap(parts[part]);

@@ -1,5 +1,7 @@
 #include "filter_tracked_mcf/core/pinches.h"
 
+#include "filter_tracked_mcf/core/interruptible.h"
+
 namespace tracked_mcf {
 
 void freeze_pinched(const TrackedElements& elements, const Supports& supports,
@@ -7,15 +9,15 @@ void freeze_pinched(const TrackedElements& elements, const Supports& supports,
                     std::vector<std::uint8_t>& frozen) {
     if (systems.collapses.empty()) return;
     std::vector<float> collapsed(supports.mass.size(), 0.0F);
-    for (const Collapse& collapse : systems.collapses) {
+    for_each_item(systems.collapses, [&](const Collapse& collapse) {
         const auto& unknowns = elements.finest().unknowns[collapse.element];
         for (int corner = 0; corner < 8; ++corner) {
             collapsed[unknowns[corner]] += collapse.mass[corner];
         }
-    }
-    for (std::size_t unknown = 0; unknown < collapsed.size(); ++unknown) {
+    });
+    serial_for(static_cast<std::int64_t>(collapsed.size()), [&](std::int64_t unknown) {
         if (collapsed[unknown] > pinched_share * supports.mass[unknown]) frozen[unknown] = 1;
-    }
+    });
 }
 
 }  // namespace tracked_mcf

@@ -5,6 +5,7 @@
 
 #include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/grid.h"
+#include "filter_tracked_mcf/core/interruptible.h"
 #include "filter_tracked_mcf/core/mesh_topology.h"
 
 namespace tracked_mcf {
@@ -51,8 +52,8 @@ Rescaler::Rescaler(const TriangleMesh& mesh, const Selection& selection,
                    const FlowParameters& parameters)
     : kind_(parameters.rescale),
       flow_(parameters.flow),
-      start_(mesh.positions),
-      moved_(mesh),
+      start_(copy_of(mesh.positions)),
+      moved_{copy_of(mesh.positions), copy_of(mesh.triangles)},
       initial_side_(longest_side(mesh)),
       area_(surface_area(mesh)) {
     const Domain domain(mesh, selection, parameters.boundary);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "filter_tracked_mcf/core/interruptible.h"
 #include "filter_tracked_mcf/core/parallel.h"
 #include "filter_tracked_mcf/core/sorting.h"
 
@@ -132,11 +133,8 @@ class LinkFinder {
 public:
     LinkFinder(const GridMesh& mesh, const MeshTopology& topology,
                const std::vector<FragmentEntry>& fragments, const FinestElements& elements)
-        : mesh_(mesh),
-          topology_(topology),
-          fragments_(fragments),
-          elements_(elements),
-          element_of_(fragments.size()) {
+        : mesh_(mesh), topology_(topology), fragments_(fragments), elements_(elements) {
+        resize(element_of_, static_cast<std::int64_t>(fragments.size()));
         const auto count = static_cast<std::int64_t>(elements.cells.size());
         parallel_for_blocks(count, [&](std::int64_t begin, std::int64_t end) {
             for (std::int64_t element = begin; element < end; ++element) {
@@ -145,9 +143,11 @@ public:
                           static_cast<std::int32_t>(element));
             }
         });
-        std::vector<std::int32_t> triangle_of(fragments.size());
-        std::transform(fragments.begin(), fragments.end(), triangle_of.begin(),
-                       [](const FragmentEntry& fragment) { return fragment.triangle; });
+        std::vector<std::int32_t> triangle_of;
+        triangle_of.reserve(fragments.size());
+        for_each_item(fragments, [&](const FragmentEntry& fragment) {
+            triangle_of.push_back(fragment.triangle);
+        });
         fragments_of_ = Groups(triangle_of, static_cast<std::int32_t>(topology.triangles.size()));
     }
 
@@ -157,6 +157,7 @@ public:
             triangle_count(), [&](std::int64_t begin, std::int64_t end, std::vector<Link>& out) {
                 LinkCollector collector(out);
                 std::vector<Piece> pieces;
+                Pacer pacer;
                 for (auto triangle = static_cast<std::int32_t>(begin); triangle < end; ++triangle) {
                     const Groups::Members members = fragments_of_.members(triangle);
                     if (members.end() - members.begin() < 2) continue;
@@ -165,6 +166,7 @@ public:
                         pieces.push_back(piece_of(element_of_[fragment]));
                     }
                     collector.link_touching(pieces);
+                    pacer.did(kItemsPerPiece * static_cast<std::int64_t>(pieces.size()));
                 }
             });
     }
@@ -175,6 +177,7 @@ public:
         std::vector<Link> links;
         LinkCollector collector(links);
         std::vector<Piece> pieces;
+        Pacer pacer;
         for (std::size_t begin = 0, end = 0; begin < pieces_of.size(); begin = end) {
             pieces.clear();
             for (; end < pieces_of.size() && pieces_of[end].key == pieces_of[begin].key; ++end) {
@@ -182,11 +185,15 @@ public:
             }
             sort_and_remove_copies(pieces);
             collector.link_touching(pieces);
+            pacer.did(kItemsPerPiece * static_cast<std::int64_t>(pieces.size()));
         }
         return links;
     }
 
 private:
+    /// Light items that looking for a piece's links takes as long as.
+    static constexpr std::int64_t kItemsPerPiece = 32;
+
     std::int64_t triangle_count() const {
         return static_cast<std::int64_t>(topology_.triangles.size());
     }
@@ -253,8 +260,7 @@ std::vector<Link> find_links(const GridMesh& mesh, const MeshTopology& topology,
                              const FinestElements& elements) {
     const LinkFinder finder(mesh, topology, fragments, elements);
     std::vector<Link> links = finder.through_triangles();
-    const std::vector<Link> others = finder.through_edges_and_vertices();
-    links.insert(links.end(), others.begin(), others.end());
+    append(finder.through_edges_and_vertices(), links);
     sort_and_remove_copies(links, static_cast<std::int32_t>(elements.cells.size()));
     return links;
 }

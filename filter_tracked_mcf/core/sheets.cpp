@@ -7,6 +7,7 @@
 
 #include "filter_tracked_mcf/core/disjoint_sets.h"
 #include "filter_tracked_mcf/core/errors.h"
+#include "filter_tracked_mcf/core/interruptible.h"
 #include "filter_tracked_mcf/core/parallel.h"
 
 namespace tracked_mcf {
@@ -24,7 +25,7 @@ public:
           last_with_vertex_(topology.welded.size(), kNone),
           last_with_edge_(static_cast<std::size_t>(topology.edge_count), kNone) {}
 
-    /// Cells must come in order.
+    /// Joins the fragments from begin to end, all those of a cell.
     void join(std::int32_t begin, std::int32_t end) {
         for (std::int32_t i = begin; i < end; ++i) {
             const FragmentEntry& fragment = fragments_[i];
@@ -32,10 +33,10 @@ public:
             const auto& edges = topology_.edges[fragment.triangle];
             for (int k = 0; k < 3; ++k) {
                 if (((fragment.corners >> k) & 1) != 0) {
-                    join(last_with_vertex_[vertices[k]], i, begin);
+                    join(last_with_vertex_[vertices[k]], i, begin, end);
                 }
                 if (((fragment.edges >> k) & 1) != 0 && edges[k] != MeshTopology::kNoEdge) {
-                    join(last_with_edge_[edges[k]], i, begin);
+                    join(last_with_edge_[edges[k]], i, begin, end);
                 }
             }
         }
@@ -45,8 +46,9 @@ private:
     static constexpr std::int32_t kNone = -1;
 
     /// Joins a fragment to the last one that had the same vertex or edge, if that was in this cell.
-    void join(std::int32_t& last, std::int32_t fragment, std::int32_t cell_begin) {
-        if (last >= cell_begin) sheets_.unite(last, fragment);
+    void join(std::int32_t& last, std::int32_t fragment, std::int32_t cell_begin,
+              std::int32_t cell_end) {
+        if (last >= cell_begin && last < cell_end) sheets_.unite(last, fragment);
         last = fragment;
     }
 
@@ -63,13 +65,17 @@ std::vector<std::int32_t> find_sheets(const MeshTopology& topology,
                                       const FinestElements& cells) {
     DisjointSets sheets(static_cast<std::int32_t>(fragments.size()));
     const auto count = static_cast<std::int64_t>(cells.cells.size());
-    parallel_for_slices(count, [&](std::int64_t begin, std::int64_t end) {
-        FragmentJoiner joiner(topology, fragments, sheets);
-        for (std::int64_t cell = begin; cell < end; ++cell) {
-            joiner.join(static_cast<std::int32_t>(cells.fragment_begin[cell]),
-                        static_cast<std::int32_t>(cells.fragment_begin[cell + 1]));
-        }
-    });
+    parallel_for_blocks_with(
+        count, [&] { return FragmentJoiner(topology, fragments, sheets); },
+        [&](FragmentJoiner& joiner, std::int64_t begin, std::int64_t end) {
+            Pacer pacer;
+            for (std::int64_t cell = begin; cell < end; ++cell) {
+                const std::int64_t first = cells.fragment_begin[cell];
+                const std::int64_t last = cells.fragment_begin[cell + 1];
+                joiner.join(static_cast<std::int32_t>(first), static_cast<std::int32_t>(last));
+                pacer.did(last - first);
+            }
+        });
     return std::move(sheets).representatives();
 }
 
@@ -90,11 +96,11 @@ void sort_by_sheet(std::vector<FragmentEntry>& fragments, std::vector<std::int32
 template <class Label>
 FinestElements group_fragments(const std::vector<FragmentEntry>& fragments, const Label& label) {
     FinestElements elements;
-    for (std::size_t i = 0; i < fragments.size(); ++i) {
-        if (i > 0 && label(i) == label(i - 1)) continue;
+    serial_for(static_cast<std::int64_t>(fragments.size()), [&](std::int64_t i) {
+        if (i > 0 && label(i) == label(i - 1)) return;
         elements.cells.push_back(fragments[i].cell);
-        elements.fragment_begin.push_back(static_cast<std::int64_t>(i));
-    }
+        elements.fragment_begin.push_back(i);
+    });
     elements.fragment_begin.push_back(static_cast<std::int64_t>(fragments.size()));
     return elements;
 }
@@ -102,7 +108,7 @@ FinestElements group_fragments(const std::vector<FragmentEntry>& fragments, cons
 }  // namespace
 
 FinestElements one_element_per_cell(const std::vector<FragmentEntry>& fragments) {
-    return group_fragments(fragments, [&](std::size_t i) { return fragments[i].cell; });
+    return group_fragments(fragments, [&](std::int64_t i) { return fragments[i].cell; });
 }
 
 FinestElements separate_sheets(const MeshTopology& topology,
@@ -119,7 +125,7 @@ FinestElements separate_sheets(const MeshTopology& topology,
                           cells.fragment_begin[cell + 1]);
         }
     });
-    return group_fragments(fragments, [&](std::size_t i) { return sheets[i]; });
+    return group_fragments(fragments, [&](std::int64_t i) { return sheets[i]; });
 }
 
 }  // namespace tracked_mcf

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "filter_tracked_mcf/core/bspline.h"
+#include "filter_tracked_mcf/core/interruptible.h"
 #include "filter_tracked_mcf/core/parallel.h"
 
 namespace tracked_mcf {
@@ -84,16 +85,18 @@ Eigen::Matrix3d normal_tensor(const Eigen::Matrix3d& normal_product) {
 
 }  // namespace
 
-Stabilization::Stabilization(const TrackedElements& elements)
-    : normal_tensors_(elements.finest().cells.size()) {
+Stabilization::Stabilization(const TrackedElements& elements) {
+    resize(normal_tensors_, elements.finest().element_count());
     parallel_for_blocks(
         elements.finest().element_count(), [&](std::int64_t begin, std::int64_t end) {
+            Pacer pacer;
             for (std::int64_t element = begin; element < end; ++element) {
                 const Eigen::Matrix3d tensor = normal_tensor(normal_product(elements, element));
                 for (std::size_t entry = 0; entry < kEntries.size(); ++entry) {
                     const auto [row, column] = kEntries[entry];
                     normal_tensors_[element][entry] = static_cast<float>(tensor(row, column));
                 }
+                pacer.did(elements.sample_begin[element + 1] - elements.sample_begin[element]);
             }
         });
 }

@@ -13,8 +13,10 @@
 #include "filter_tracked_mcf/core/fan.h"
 #include "filter_tracked_mcf/core/fragments.h"
 #include "filter_tracked_mcf/core/held_samples.h"
+#include "filter_tracked_mcf/core/interruptible.h"
 #include "filter_tracked_mcf/core/mesh_topology.h"
 #include "filter_tracked_mcf/core/parallel.h"
+#include "filter_tracked_mcf/core/setup_phases.h"
 #include "filter_tracked_mcf/core/sheet_links.h"
 #include "filter_tracked_mcf/core/sheets.h"
 
@@ -56,8 +58,9 @@ public:
         lay_out();
         parallel_for_blocks(elements_.finest().element_count(),
                             [&](std::int64_t begin, std::int64_t end) {
+                                Pacer pacer;
                                 for (std::int64_t element = begin; element < end; ++element) {
-                                    fill_element(static_cast<std::int32_t>(element));
+                                    fill_element(static_cast<std::int32_t>(element), pacer);
                                 }
                             });
         place_vertices();
@@ -68,7 +71,7 @@ private:
     void lay_out() {
         const auto samples_per_triangle = static_cast<std::int64_t>(rule_.size());
         std::int64_t samples = 0;
-        for (std::int32_t element = 0; element < elements_.finest().element_count(); ++element) {
+        serial_for(elements_.finest().element_count(), [&](std::int64_t element) {
             elements_.sample_begin.push_back(samples);
             for (std::int64_t i = elements_.fragment_begin[element];
                  i < elements_.fragment_begin[element + 1]; ++i) {
@@ -76,20 +79,21 @@ private:
                 elements_.split_triangle_count += entries_[i].split_triangles;
                 elements_.fragment_count += entries_[i].split_triangles > 0 ? 1 : 0;
             }
-        }
+        });
         elements_.sample_begin.push_back(samples);
-        elements_.fragments.resize(entries_.size());
-        elements_.samples.resize(static_cast<std::size_t>(samples));
+        resize(elements_.fragments, static_cast<std::int64_t>(entries_.size()));
+        resize(elements_.samples, samples);
         elements_.held.assign(elements_.finest().cells.size(), 0);
     }
 
-    void fill_element(std::int32_t element) {
+    void fill_element(std::int32_t element, Pacer& pacer) {
         const Cell cell = cell_at(elements_.finest().cells[element]);
         Sample* next_sample = elements_.samples.data() + elements_.sample_begin[element];
         for (std::int64_t i = elements_.fragment_begin[element];
              i < elements_.fragment_begin[element + 1]; ++i) {
             const std::int32_t triangle = entries_[i].triangle;
             note_vertices_and_holds(entries_[i], element);
+            pacer.did(kItemsPerFragment);
             if (entries_[i].split_triangles == 0) continue;
             const auto corners = mesh_.corners(triangle);
             const Polygon polygon = clip_to_cell(corners, cell);
@@ -113,17 +117,18 @@ private:
     }
 
     void place_vertices() {
-        elements_.vertices.resize(mesh_.positions.size());
-        for (std::size_t vertex = 0; vertex < mesh_.positions.size(); ++vertex) {
+        const auto count = static_cast<std::int64_t>(mesh_.positions.size());
+        resize(elements_.vertices, count);
+        serial_for(count, [&](std::int64_t vertex) {
             // Coincident vertices take their first one's place, so that soups stay together.
             const std::int32_t first = domain_.topology().welded[vertex];
             const std::int32_t element = claims_[first].load(std::memory_order_relaxed);
-            if (element == kUnclaimed) continue;
+            if (element == kUnclaimed) return;
             const Cell cell = cell_at(elements_.finest().cells[element]);
             const Eigen::Vector3d position =
                 elements_.grid.to_grid(mesh_.original.positions[first]);
             elements_.vertices[vertex] = {element, position - cell.cast<double>()};
-        }
+        });
     }
 
     TrackedElements& elements_;
@@ -153,6 +158,7 @@ void build_octree(TrackedElements& elements, const GridMesh& mesh, const MeshTop
 
 TrackedElements build_tracked_elements(const Domain& domain, const Grid& grid, Cubature cubature,
                                        bool separate_sheets) {
+    enter_setup_phase(SetupPhase::ClipTriangles);
     const TriangleMesh& surface = domain.surface();
     const GridMesh grid_mesh = to_grid(surface, grid);
     TrackedElements elements;
@@ -173,7 +179,9 @@ TrackedElements build_tracked_elements(const Domain& domain, const Grid& grid, C
     }
 
     std::vector<FragmentEntry> entries = list_fragments(grid_mesh, grid);
+    enter_setup_phase(SetupPhase::BuildOctree);
     build_octree(elements, grid_mesh, domain.topology(), entries, separate_sheets);
+    enter_setup_phase(SetupPhase::SampleSurface);
     ElementBuilder(elements, domain, grid_mesh, entries, cubature_rule(cubature)).build();
     elements.held_samples = sample_held_edges(elements, grid_mesh, entries, domain.held_edges());
     return elements;
@@ -188,7 +196,7 @@ TrackedElements build_tracked_elements(const TriangleMesh& mesh, const Grid& gri
 Coefficients identity_coefficients(const TrackedElements& elements) {
     const Level& finest = elements.finest();
     Coefficients coefficients(finest.unknown_count(), 3);
-    for (std::int32_t element = 0; element < finest.element_count(); ++element) {
+    serial_for(finest.element_count(), [&](std::int64_t element) {
         const Cell cell = cell_at(finest.cells[element]);
         for (int corner = 0; corner < 8; ++corner) {
             for (int axis = 0; axis < 3; ++axis) {
@@ -196,7 +204,7 @@ Coefficients identity_coefficients(const TrackedElements& elements) {
                     cell[axis] + corner_bit(corner, axis);
             }
         }
-    }
+    });
     return coefficients;
 }
 

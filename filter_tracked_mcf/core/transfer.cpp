@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <numeric>
 
 #include "filter_tracked_mcf/core/bspline.h"
+#include "filter_tracked_mcf/core/interruptible.h"
 
 namespace tracked_mcf {
 
@@ -18,11 +20,11 @@ struct Home {
 
 std::vector<Home> homes_of_unknowns(const Level& level) {
     std::vector<Home> homes(static_cast<std::size_t>(level.unknown_count()));
-    for (std::int32_t element = 0; element < level.element_count(); ++element) {
+    serial_for(level.element_count(), [&](std::int64_t element) {
         for (int corner = 0; corner < 8; ++corner) {
-            homes[level.unknowns[element][corner]] = {element, corner};
+            homes[level.unknowns[element][corner]] = {static_cast<std::int32_t>(element), corner};
         }
-    }
+    });
     return homes;
 }
 
@@ -55,7 +57,7 @@ SparseMatrix prolongation(const Level& fine, const Level& coarse) {
     SparseMatrix matrix(fine.unknown_count(), coarse.unknown_count());
     matrix.reserve(4 * static_cast<Eigen::Index>(fine.unknown_count()));
     std::int32_t row = 0;
-    for (const Home& home : homes_of_unknowns(fine)) {
+    for_each_item(homes_of_unknowns(fine), [&](const Home& home) {
         matrix.startVec(row);
         const CoarseFunctions functions = coarse_functions(fine, coarse, home, weights);
         for (int i = 0; i < functions.size; ++i) {
@@ -63,9 +65,28 @@ SparseMatrix prolongation(const Level& fine, const Level& coarse) {
                 1.0F / static_cast<float>(functions.size);
         }
         ++row;
-    }
+    });
     matrix.finalize();
     return matrix;
+}
+
+SparseMatrix transposed(const SparseMatrix& matrix) {
+    SparseMatrix result(matrix.cols(), matrix.rows());
+    result.resizeNonZeros(matrix.nonZeros());
+    std::int32_t* const begin = result.outerIndexPtr();
+    std::fill(begin, begin + result.rows() + 1, 0);
+    serial_for(matrix.nonZeros(), [&](std::int64_t k) { ++begin[matrix.innerIndexPtr()[k] + 1]; });
+    std::partial_sum(begin, begin + result.rows() + 1, begin);
+    std::vector<std::int32_t> next(begin, begin + result.rows());
+    serial_for(matrix.rows(), [&](std::int64_t row) {
+        const std::int32_t end = matrix.outerIndexPtr()[row + 1];
+        for (std::int32_t k = matrix.outerIndexPtr()[row]; k < end; ++k) {
+            const std::int32_t place = next[matrix.innerIndexPtr()[k]]++;
+            result.innerIndexPtr()[place] = static_cast<std::int32_t>(row);
+            result.valuePtr()[place] = matrix.valuePtr()[k];
+        }
+    });
+    return result;
 }
 
 }  // namespace tracked_mcf

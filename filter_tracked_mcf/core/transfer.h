@@ -10,4 +10,7 @@ namespace tracked_mcf {
 /// that the tree lacks vanish on the surface, so that holds exactly there.
 SparseMatrix prolongation(const Level& fine, const Level& coarse);
 
+/// The restriction Pᵀ of a prolongation P.
+SparseMatrix transposed(const SparseMatrix& matrix);
+
 }  // namespace tracked_mcf

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "filter_tracked_mcf/core/interruptible.h"
+
 namespace tracked_mcf {
 
 namespace {
@@ -17,9 +19,8 @@ std::vector<std::int32_t> parts(const TrackedElements& elements) {
     for (std::size_t level = 1; level < elements.levels.size(); ++level) {
         std::vector<std::int32_t> finer;
         finer.reserve(elements.levels[level].parents.size());
-        for (const std::int32_t parent : elements.levels[level].parents) {
-            finer.push_back(part_of[parent]);
-        }
+        for_each_item(elements.levels[level].parents,
+                      [&](std::int32_t parent) { finer.push_back(part_of[parent]); });
         part_of = std::move(finer);
     }
     return part_of;
@@ -31,26 +32,28 @@ VanishedParts::VanishedParts(const TrackedElements& elements)
     : elements_(elements),
       part_of_(parts(elements)),
       initial_areas_(elements.levels.front().cells.size(), 0) {
+    Pacer pacer;
     for (std::size_t element = 0; element < part_of_.size(); ++element) {
         for (std::int64_t i = elements.sample_begin[element];
              i < elements.sample_begin[element + 1]; ++i) {
             initial_areas_[part_of_[element]] += elements.samples[i].weight;
         }
+        pacer.did(elements.sample_begin[element + 1] - elements.sample_begin[element]);
     }
 }
 
 void VanishedParts::freeze(const ElementSystems& systems, double share,
                            std::vector<std::uint8_t>& frozen) const {
     std::vector<double> areas(initial_areas_.size(), 0);
-    for (std::size_t element = 0; element < part_of_.size(); ++element) {
-        areas[part_of_[element]] += systems.areas[element];
-    }
-    for (std::size_t element = 0; element < part_of_.size(); ++element) {
+    const auto count = static_cast<std::int64_t>(part_of_.size());
+    serial_for(count,
+               [&](std::int64_t element) { areas[part_of_[element]] += systems.areas[element]; });
+    serial_for(count, [&](std::int64_t element) {
         const std::int32_t part = part_of_[element];
         // What is not a number must not pass for a part that stays.
-        if (!(areas[part] <= share * initial_areas_[part])) continue;
+        if (!(areas[part] <= share * initial_areas_[part])) return;
         for (const std::int32_t unknown : elements_.finest().unknowns[element]) frozen[unknown] = 1;
-    }
+    });
 }
 
 }  // namespace tracked_mcf

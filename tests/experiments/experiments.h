@@ -29,6 +29,9 @@ void add_pinches(CLI::App& app);
 /// Disjoint pieces closer than a cell, together and alone.
 void add_pieces(CLI::App& app);
 
+/// How often the progress callback is called, and what that costs.
+void add_progress(CLI::App& app);
+
 /// Size and time of the set-up.
 void add_setup(CLI::App& app);
 

@@ -17,6 +17,7 @@ int main(int argc, char** argv) {
     add_minimal(app);
     add_pieces(app);
     add_pinches(app);
+    add_progress(app);
     add_setup(app);
     add_sphere(app);
     add_stages(app);

@@ -30,10 +30,11 @@ def main(first, second, reference, ulps):
     a, b, start = (read_coordinates(path) for path in (first, second, reference))
     if not len(a) == len(b) == len(start):
         sys.exit(f"different numbers of coordinates: {len(a)}, {len(b)}, {len(start)}")
-    tolerance = float(ulps) * float_ulp(max(map(abs, a)))
+    largest = max(map(abs, a))
+    tolerance = float(ulps) * float_ulp(largest)
     difference, movement = largest_difference(a, b), largest_difference(a, start)
-    print(f"{len(a) // 3} vertices: largest difference {difference:.3g}, tolerance "
-          f"{tolerance:.3g}, largest movement {movement:.3g}")
+    print(f"{len(a) // 3} vertices: largest difference {difference / largest:.3g} of the largest "
+          f"coordinate, {difference:.3g}; tolerance {tolerance:.3g}, largest movement {movement:.3g}")
     if difference > tolerance:
         sys.exit("the positions differ")
     if movement < 100 * tolerance:

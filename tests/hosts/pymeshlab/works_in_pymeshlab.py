@@ -152,13 +152,14 @@ def check_readme(plugin, tool, readme, mesh, work):
 def main(plugin, tool, readme, work, *meshes):
     work = pathlib.Path(work)
     work.mkdir(parents=True, exist_ok=True)
-    (work / "differences.txt").unlink(missing_ok=True)
     check_readme(plugin, tool, readme, meshes[0], work)
     pymeshlab.load_plugin(plugin)
     for mesh in map(pathlib.Path, meshes):
+        differences = work.with_name(f"{work.name}.{mesh.stem}") / "differences.txt"
+        differences.parent.mkdir(exist_ok=True)
         largest = compare(tool, mesh, work)
-        with open(work / "differences.txt", "a", encoding="ascii") as file:
-            print(f"{mesh.stem}: largest difference {largest:.3g} of the largest coordinate", file=file)
+        differences.write_text(f"largest difference {largest:.3g} of the largest coordinate\n",
+                               encoding="ascii")
     check_selection(meshes[0])
     refuse_all(plugin, meshes[0])
 

@@ -1,0 +1,57 @@
+#!/usr/bin/env python3
+"""Prints, as a table, how far the results of the last host tests are from the command-line tool's:
+host_table.py BUILD_DIR
+
+Every figure is the largest difference of a coordinate over all parameters that were tried, as a part
+of the mesh's largest coordinate.
+"""
+
+import pathlib
+import re
+import sys
+
+MESHES = ["bumpy_bowl", "mannequin-devil", "armadillo"]
+WAYS = {"matches_tool": "meshlabserver", "without_a_display": "plugin, without a display",
+        "pymeshlab": "Python"}
+DIFFERENCE = re.compile(r"largest difference (\S+) of the largest coordinate")
+
+
+def cached(build, name):
+    """A value that CMake keeps."""
+    text = (build / "CMakeCache.txt").read_text(encoding="utf-8")
+    return re.search(rf"^{name}:\w+=(.*)$", text, re.MULTILINE).group(1)
+
+
+def largest_difference(folder):
+    """As text; empty where the test was not run."""
+    file = folder / "differences.txt"
+    found = DIFFERENCE.findall(file.read_text(encoding="utf-8")) if file.exists() else []
+    return f"{max(map(float, found)):.1e}" if found else ""
+
+
+def rows(build):
+    tests = build / "tests" / "hosts"
+    precision = cached(build, "MESHLAB_SCALAR")
+    for test, way in WAYS.items():
+        differences = [largest_difference(tests / f"{test}.{mesh}") for mesh in MESHES]
+        if any(differences):
+            host = "PyMeshLab" if test == "pymeshlab" else "MeshLab"
+            yield [host, cached(build, "MESHLAB_SDK_RELEASE"), precision, way, *differences]
+    if (tests / "dialog" / "applied.png").exists():
+        yield ["MeshLab", cached(build, "MESHLAB_SDK_RELEASE"), precision, "window, by its picture",
+               "Apply shows what Preview does", "", ""]
+
+
+def main(build):
+    builds = [build, *(file.parent for file in sorted(build.glob("other-hosts/*/*/CMakeCache.txt")))]
+    table = [row for folder in builds for row in rows(folder)]
+    if not table:
+        return
+    print("| host | release | precision | how |", " | ".join(MESHES), "|")
+    print("|---" * (4 + len(MESHES)) + "|")
+    for row in table:
+        print("|", " | ".join(row), "|")
+
+
+if __name__ == "__main__":
+    main(pathlib.Path(sys.argv[1]))
