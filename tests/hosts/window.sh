@@ -57,7 +57,8 @@ picture() { sleep 0.5; import -window root "$out/$1.png"; }
 surface() { import -window root -crop 740x740+5+75 +repage "$out/$1.png"; }
 differing_pixels() { # PICTURE: of the surface at another time
     surface now
-    { compare -metric AE "$out/$1.png" "$out/now.png" null: 2>&1 || true; } | cut -d' ' -f1
+    convert "$out/$1.png" "$out/now.png" -compose difference -composite -colorspace Gray \
+        -threshold 0 -format "%[fx:round(mean*w*h)]" info:
 }
 same_as() { [ "$(differing_pixels "$1")" -le 50 ]; }
 unlike() { [ "$(differing_pixels "$1")" -ge 5000 ]; }

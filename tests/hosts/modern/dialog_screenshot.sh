@@ -30,9 +30,11 @@ start_filter
 picture dialog
 surface before
 
+wait_for "the dialog fits a screen of 1280 by 960" smaller_than 1280 960
 click_help
+# It scrolls what does not fit, unless enlarged.
+xdotool windowsize --sync "$dialog" 600 930
 picture dialog_with_help
-wait_for "the dialog fits a screen of 1280 by 960 with its help" smaller_than 1280 960
 click_help
 sleep 0.5
 click_preview

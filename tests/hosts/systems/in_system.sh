@@ -8,7 +8,11 @@
 set -euo pipefail
 
 if [ "${1:-}" != --unshared ]; then # Once more, where mounts and processes are its own.
-    exec unshare --mount --pid --fork --kill-child "$0" --unshared "$@"
+    unshare --mount --pid --fork --kill-child "$0" --unshared "$@" <&0 &
+    unshared=$!
+    trap 'kill -KILL $unshared 2> /dev/null || true' EXIT # It ignores weaker signals.
+    wait $unshared
+    exit
 fi
 shift
 readable=("$(realpath "$(dirname "$0")/../../..")")

@@ -12,6 +12,10 @@ skip() { echo "lay_system.sh: no Debian $suite can be laid here: $1" >&2 && exit
 unshare --mount true 2> /dev/null || skip "that takes root, allowed to mount"
 command -v debootstrap > /dev/null || skip "there is no debootstrap (apt-get install debootstrap)"
 
+# One at a time; nor before what another left running, should it have been killed, has ended.
+mkdir -p "$(dirname "$folder")"
+exec {parent}< "$(dirname "$folder")"
+flock "$parent"
 stamp="$folder/etc/laid_suite"
 if [ "$(cat "$stamp" 2> /dev/null)" = "$suite" ]; then exit 0; fi
 if [ -e "$folder" ]; then
@@ -31,7 +35,6 @@ eval "$(apt-config shell proxy Acquire::http::Proxy)"
 [ -z "${proxy:-}" ] || export http_proxy="$proxy"
 
 # All suites are laid as sid is: an older debootstrap need not know them. What it mounts goes with it.
-mkdir -p "$(dirname "$folder")"
 rm -rf --one-file-system "$half"
 unshare --mount debootstrap --variant=minbase --include=ca-certificates "$suite" "$half" "$mirror" sid
 
