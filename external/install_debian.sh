@@ -15,12 +15,12 @@ set -euo pipefail
 packages_of() {
     case $1 in
         core) echo g++ make cmake libeigen3-dev ;;
-        program) echo "$(packages_of core)" libcli11-dev nlohmann-json3-dev dpkg-dev ;;
+        program) echo "$(packages_of core)" libcli11-dev nlohmann-json3-dev xz-utils ;;
         plugin) echo "$(packages_of program)" meshlab "$(libraries_recommended_by meshlab)" \
             qtbase5-dev libqt5opengl5-dev libglew-dev libglu1-mesa-dev ;;
         demo) echo "$(packages_of plugin)" xvfb xauth python3-vtk9 python3-numpy ;;
         tests) echo "$(packages_of plugin)" libgtest-dev libgmock-dev xvfb xauth xdotool \
-            imagemagick python3 python3-matplotlib ;;
+            imagemagick python3 python3-matplotlib debootstrap ;;
         experiments) echo "$(packages_of program)" libgtest-dev libgmock-dev python3-matplotlib \
             python3-vtk9 python3-numpy xvfb xauth ;;
         checks) echo clang-format clang-tidy libomp-dev git ;;
