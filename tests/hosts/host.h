@@ -8,7 +8,8 @@
 #include "meshlab_api.h"
 
 /// What the tests need of a MeshLab release: its common library, without a display or its programs.
-/// legacy/host.cpp is MeshLab 2020.09, modern/host.cpp 2022.02 and later, and PyMeshLab.
+/// What differs between releases is in release.h and release.cpp: legacy is MeshLab 2020.09, modern
+/// 2022.02 and later, and PyMeshLab.
 namespace tracked_mcf::host {
 
 /// What a filter says of itself.
