@@ -9,4 +9,6 @@ external/cgal_meshes.sh build/cgal-meshes
 cmake -S . -B build -DTRACKED_MCF_TOOL=ON -DTRACKED_MCF_PLUGIN=ON -DTRACKED_MCF_TESTS=ON
 cmake --build build -j "$(nproc)"
 ctest --test-dir build --output-on-failure "$@"
+# Why, where a test was skipped: ctest itself does not tell.
+grep -h '^skipped: ' build/Testing/Temporary/LastTest.log || true
 tests/hosts/host_table.py build

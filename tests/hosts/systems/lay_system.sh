@@ -8,7 +8,7 @@ set -euo pipefail
 
 suite=$1 folder=$(realpath -m "$2") half="$(realpath -m "$2").half-laid"
 
-skip() { echo "lay_system.sh: no Debian $suite can be laid here: $1" >&2 && exit 77; }
+skip() { echo "skipped: no Debian $suite can be laid here: $1" && exit 77; }
 unshare --mount true 2> /dev/null || skip "that takes root, allowed to mount"
 command -v debootstrap > /dev/null || skip "there is no debootstrap (apt-get install debootstrap)"
 
