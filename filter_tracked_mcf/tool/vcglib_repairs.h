@@ -22,14 +22,14 @@ class UnrepairedMesh : public VcglibMesh {};
 /// are no text as well, 2020.09 in an array that it has not filled, and so takes short ASCII files
 /// for binary ones now and then.
 inline bool is_binary_stl(const char* file_name) {
-    constexpr std::streamoff kHeaderSize =
+    constexpr std::streamoff header_size =
         vcg::tri::io::ImporterSTL<UnrepairedMesh>::STL_LABEL_SIZE;
     std::ifstream file(file_name, std::ios::binary | std::ios::ate);
     const std::streamoff size = file.tellg();
     std::uint32_t count = 0;
-    file.seekg(kHeaderSize);
+    file.seekg(header_size);
     file.read(reinterpret_cast<char*>(&count), sizeof count);
-    return file && size == kHeaderSize + 4 + std::streamoff{50} * count;
+    return file && size == header_size + 4 + std::streamoff{50} * count;
 }
 
 }  // namespace tracked_mcf
