@@ -38,7 +38,7 @@ public:
     Filter& operator=(const Filter&) = delete;
 
     Declaration declaration() const;
-    /// Of how many filters the plugin's.
+    /// How many filters the plugin has.
     int filters_in_plugin() const;
     bool is_applicable(const MeshModel& layer) const;
     /// As a dialog starts with them.
