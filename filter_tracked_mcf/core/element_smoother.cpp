@@ -21,17 +21,14 @@ constexpr std::int64_t kElementBlocksWorthThreads = 8;
 constexpr float kDependent = 1e-5F;
 
 /// The entries of the matrix between the unknowns of one element, zero for those that stay.
-/// An element's unknowns increase, as do the columns of a row.
 ElementMatrix restricted(const LevelMatrix& matrix, const std::array<std::int32_t, 8>& unknowns) {
     ElementMatrix result{};
     const SparseMatrix& sparse = matrix.matrix();
     for (int row = 0; row < 8; ++row) {
         if (matrix.inverse_diagonal()[unknowns[row]] == 0) continue;
-        std::int32_t k = sparse.outerIndexPtr()[unknowns[row]];
         for (int column = 0; column < 8; ++column) {
-            while (sparse.innerIndexPtr()[k] < unknowns[column]) ++k;
             if (matrix.inverse_diagonal()[unknowns[column]] == 0) continue;
-            result.entry[row][column] = sparse.valuePtr()[k];
+            result.entry[row][column] = sparse.coeff(unknowns[row], unknowns[column]);
         }
     }
     return result;

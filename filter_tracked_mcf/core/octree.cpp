@@ -28,26 +28,6 @@ std::vector<MortonCode> coarsen(const std::vector<MortonCode>& cells,
     return coarse;
 }
 
-/// Numbers of the grid's corners in lexicographic order, x fastest.
-struct CornerNumbering {
-    explicit CornerNumbering(int depth)
-        : corners_per_side((std::uint64_t{1} << static_cast<unsigned>(depth)) + 1) {}
-
-    std::uint64_t number(const Cell& cell, int corner) const {
-        const auto coordinate = [&](int axis) {
-            return static_cast<std::uint64_t>(cell[axis]) +
-                   static_cast<std::uint64_t>(corner_bit(corner, axis));
-        };
-        return (coordinate(2) * corners_per_side + coordinate(1)) * corners_per_side +
-               coordinate(0);
-    }
-    std::int32_t layer(std::uint64_t number) const {
-        return static_cast<std::int32_t>(number / (corners_per_side * corners_per_side));
-    }
-
-    std::uint64_t corners_per_side;
-};
-
 void check_size(const Level& level) {
     // Corners of elements, eight each, are numbered with 32 bits.
     constexpr std::size_t most = std::numeric_limits<std::int32_t>::max() / 8;
@@ -58,7 +38,7 @@ void check_size(const Level& level) {
 }
 
 /// Every element's corners, each with the place that its unknown's number has to go to.
-std::vector<KeyValue> list_corners(const Level& level, const CornerNumbering& numbering) {
+std::vector<KeyValue> list_corners(const Level& level) {
     std::vector<KeyValue> corners;
     resize(corners, 8 * std::int64_t{level.element_count()});
     parallel_for_blocks(level.element_count(), [&](std::int64_t begin, std::int64_t end) {
@@ -66,7 +46,7 @@ std::vector<KeyValue> list_corners(const Level& level, const CornerNumbering& nu
             const Cell cell = cell_at(level.cells[element]);
             for (int corner = 0; corner < 8; ++corner) {
                 const auto place = static_cast<std::uint64_t>(8 * element + corner);
-                corners[place] = {numbering.number(cell, corner), place};
+                corners[place] = {morton_code(corner_of(cell, corner)), place};
             }
         }
     });
@@ -76,17 +56,13 @@ std::vector<KeyValue> list_corners(const Level& level, const CornerNumbering& nu
 /// One unknown for every corner.
 void number_unknowns(Level& level) {
     check_size(level);
-    const CornerNumbering numbering(level.depth);
-    std::vector<KeyValue> corners = list_corners(level, numbering);
+    std::vector<KeyValue> corners = list_corners(level);
     sort_by_key(corners);
     resize(level.unknowns, level.element_count());
     serial_for(static_cast<std::int64_t>(corners.size()), [&](std::int64_t i) {
-        if (i == 0 || corners[i].key != corners[i - 1].key) {
-            level.layers.push_back(numbering.layer(corners[i].key));
-        }
+        if (i == 0 || corners[i].key != corners[i - 1].key) ++level.number_of_unknowns;
         level.unknowns[corners[i].value / 8][corners[i].value % 8] = level.unknown_count() - 1;
     });
-    level.layers.shrink_to_fit();
 }
 
 /// Unites the elements' corners, numbered 8 * element + corner, at all corners that the cells of
@@ -115,21 +91,19 @@ void number_unknowns(Level& level, const std::vector<Link>& links) {
     for_each_item(links, [&](const Link& link) { unite_shared_corners(link, level, corners); });
     const std::vector<std::int32_t> class_of = std::move(corners).representatives();
 
-    const CornerNumbering numbering(level.depth);
     std::vector<KeyValue> classes;
     const std::int64_t place_count = 8 * std::int64_t{level.element_count()};
     serial_for(place_count, [&](std::int64_t place) {
         if (class_of[place] != place) return;
         const int corner = static_cast<int>(place % 8);
-        classes.push_back({numbering.number(cell_at(level.cells[place / 8]), corner),
+        classes.push_back({morton_code(corner_of(cell_at(level.cells[place / 8]), corner)),
                            static_cast<std::uint64_t>(place)});
     });
     sort_by_key(classes);
     resize(level.unknowns, level.element_count());
-    level.layers.reserve(classes.size());
     for_each_item(classes, [&](const KeyValue& of_class) {
         level.unknowns[of_class.value / 8][of_class.value % 8] = level.unknown_count();
-        level.layers.push_back(numbering.layer(of_class.key));
+        ++level.number_of_unknowns;
     });
     serial_for(place_count, [&](std::int64_t place) {
         const std::int32_t first = class_of[place];
@@ -197,6 +171,10 @@ std::vector<Level> build_levels(std::vector<MortonCode> finest_cells, std::vecto
         links = coarsen(links, levels[l].parents, levels[l - 1].element_count());
     }
     return levels;
+}
+
+Cell corner_of(const Cell& cell, int corner) {
+    return cell + Cell(corner_bit(corner, 0), corner_bit(corner, 1), corner_bit(corner, 2));
 }
 
 std::int64_t count_cells(const Level& level) {

@@ -21,13 +21,13 @@ struct Level {
     std::vector<std::array<std::int32_t, 8>> unknowns;
     /// Of every element: the element of the next coarser level that contains it; empty at level 0.
     std::vector<std::int32_t> parents;
-    /// Of every unknown: its corner's layer, the z coordinate. Unknowns are numbered
-    /// lexicographically, x fastest, so layers never decrease; those at one corner by their
-    /// smallest element.
-    std::vector<std::int32_t> layers;
+    /// Unknowns are numbered in Morton order of their corners, those at one corner by their
+    /// smallest element: like the elements that have them, so what is near in space is near in
+    /// memory.
+    std::int32_t number_of_unknowns = 0;
 
     std::int32_t element_count() const { return static_cast<std::int32_t>(cells.size()); }
-    std::int32_t unknown_count() const { return static_cast<std::int32_t>(layers.size()); }
+    std::int32_t unknown_count() const { return number_of_unknowns; }
 };
 
 /// All levels above `finest_cells` (increasing, without repetition), which lie at `depth`. Level 0,
@@ -41,6 +41,9 @@ std::vector<Level> build_levels(std::vector<MortonCode> finest_cells, int depth)
 /// the parts of finer functions that lie in it completely, so the levels nest exactly.
 std::vector<Level> build_levels(std::vector<MortonCode> finest_cells, std::vector<Link> links,
                                 int depth);
+
+/// The corner of a cell (numbered as in bspline.h), grid coordinates.
+Cell corner_of(const Cell& cell, int corner);
 
 /// Number of different cells of a level.
 std::int64_t count_cells(const Level& level);

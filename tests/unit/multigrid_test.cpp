@@ -88,19 +88,23 @@ TEST(Hierarchy, ProlongationKeepsConstants) {
 }
 
 TEST(GaussSeidel, IsAForwardSubstitution) {
-    // Small enough for one slab, so one sweep is (D + L)⁻¹ (b - U x) in the order of the unknowns.
+    // Small enough for one slab, so one sweep is (D + L)⁻¹ (b - U x) in its order of the unknowns.
     const System system(shapes::bumpy_sphere(6), 3, 0.5F);
-    const Dense a = dense(system.multigrid.finest().matrix());
+    const Dense unordered = dense(system.multigrid.finest().matrix());
+    const GaussSeidel gauss_seidel(system.elements.finest());
+    const std::vector<std::int32_t>& order = gauss_seidel.order();
+    const Dense a = unordered(order, order);
     Field x = Field::Random(4, a.rows());
     x.row(3).setZero();
-    const Dense b = system.right_side.cast<double>().transpose();
+    const Dense b = system.right_side.cast<double>().transpose()(order, Eigen::all);
     const Dense upper = a.triangularView<Eigen::StrictlyUpper>();
-    const Dense start = x.cast<double>().transpose();
+    const Dense start = x.cast<double>().transpose()(order, Eigen::all);
     const Dense expected = a.triangularView<Eigen::Lower>().solve(b - upper * start);
-    GaussSeidel(system.elements.finest()).sweep(system.multigrid.finest(), system.right_side, x);
+    gauss_seidel.sweep(system.multigrid.finest(), system.right_side, x);
     // Entries of functions that barely meet the surface are large and ill determined: compare what
     // the sweep makes of the equations.
-    const Dense difference = a * (x.cast<double>().transpose() - expected);
+    const Dense swept = x.cast<double>().transpose()(order, Eigen::all);
+    const Dense difference = a * (swept - expected);
     EXPECT_LT(difference.norm(), 1e-5 * (a * expected).norm());
 }
 

@@ -132,14 +132,19 @@ TEST(Octree, LevelsNestAndNumberTheirCornersInOrder) {
     for (std::size_t l = 1; l < elements.levels.size(); ++l) {
         const Level& fine = elements.levels[l];
         const Level& coarse = elements.levels[l - 1];
+        constexpr auto none = std::numeric_limits<MortonCode>::max();
+        std::vector<MortonCode> corners(static_cast<std::size_t>(fine.unknown_count()), none);
         for (std::int32_t e = 0; e < fine.element_count(); ++e) {
             EXPECT_EQ(coarse.cells[fine.parents[e]], parent_of(fine.cells[e]));
             for (int corner = 0; corner < 8; ++corner) {
-                EXPECT_EQ(fine.layers[fine.unknowns[e][corner]],
-                          cell_at(fine.cells[e])[2] + corner_bit(corner, 2));
+                const MortonCode code = morton_code(corner_of(cell_at(fine.cells[e]), corner));
+                MortonCode& of_unknown = corners[fine.unknowns[e][corner]];
+                EXPECT_TRUE(of_unknown == none || of_unknown == code);
+                of_unknown = code;
             }
         }
-        EXPECT_TRUE(std::is_sorted(fine.layers.begin(), fine.layers.end()));
+        EXPECT_EQ(std::count(corners.begin(), corners.end(), none), 0);
+        EXPECT_TRUE(std::is_sorted(corners.begin(), corners.end()));
     }
 }
 
