@@ -4,8 +4,8 @@
 #include <iterator>
 #include <numeric>
 
-#include "filter_tracked_mcf/core/element_kernel.h"
 #include "filter_tracked_mcf/core/interruptible.h"
+#include "filter_tracked_mcf/core/kernels/kernels.h"
 #include "filter_tracked_mcf/core/parallel.h"
 
 namespace tracked_mcf {
@@ -13,7 +13,7 @@ namespace tracked_mcf {
 namespace {
 
 ElementInput gather(const TrackedElements& elements, const Coefficients& displacement,
-                    std::int64_t element) {
+                    const SystemWeights& weights, std::int64_t element) {
     ElementInput input;
     const auto& unknowns = elements.finest().unknowns[element];
     for (int axis = 0; axis < 3; ++axis) {
@@ -27,6 +27,9 @@ ElementInput gather(const TrackedElements& elements, const Coefficients& displac
     input.fragments = fragments + elements.fragment_begin[element];
     input.fragments_end = fragments + elements.fragment_begin[element + 1];
     input.samples = elements.samples.data() + elements.sample_begin[element];
+    input.mass = weights.mass;
+    input.stiffness = weights.stiffness;
+    input.initial_metric = weights.flow == FlowKind::Conformalized;
     return input;
 }
 
@@ -42,6 +45,7 @@ Collapse collapse_of(std::int64_t element, const ElementTotals& totals) {
 
 void assemble_elements(const TrackedElements& elements, const Coefficients& displacement,
                        const SystemWeights& weights, ElementSystems& systems) {
+    IntegrateElement& integrate_element = *kernels().integrate_element;
     const std::int64_t count = elements.finest().element_count();
     resize(systems.matrices, count);
     resize(systems.right_sides, count);
@@ -51,7 +55,7 @@ void assemble_elements(const TrackedElements& elements, const Coefficients& disp
             Pacer pacer;
             for (std::int64_t element = begin; element < end; ++element) {
                 const ElementTotals totals =
-                    integrate_element(gather(elements, displacement, element), weights,
+                    integrate_element(gather(elements, displacement, weights, element),
                                       systems.matrices[element], systems.right_sides[element]);
                 systems.areas[element] = totals.area;
                 if (totals.collapsed_samples > 0) collapses.push_back(collapse_of(element, totals));

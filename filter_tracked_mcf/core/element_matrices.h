@@ -3,19 +3,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "filter_tracked_mcf/core/element_matrix.h"
 #include "filter_tracked_mcf/core/tracked_elements.h"
 
 namespace tracked_mcf {
-
-/// The matrix of one element: a row and a column for each of its cell's eight functions. Symmetric.
-struct ElementMatrix {
-    alignas(32) float entry[8][8];
-};
-
-/// The displacement system's right side of one element: for each coordinate the eight functions'.
-struct ElementVector {
-    alignas(32) float entry[3][8];
-};
 
 /// What is assembled: mass * D + stiffness * S, grid units.
 struct SystemWeights {
@@ -24,12 +15,6 @@ struct SystemWeights {
     /// S of the present metric or, for conformalized flow, of the initial one. D is of the present.
     FlowKind flow = FlowKind::MeanCurvature;
 };
-
-/// Samples whose deformed area is at most this fraction of their initial area have collapsed: the
-/// surface there has become a thread or a point and its metric means nothing. They contribute
-/// nothing (section 5.1). Not so in a conformalized flow, where the stiffness is that of the
-/// initial metric and nothing is divided by an area.
-inline constexpr float kCollapsedAreaRatio = 1e-4F;
 
 /// What has collapsed of one element: of each function ∫ B_I² over that part of the initial
 /// surface.

@@ -8,21 +8,10 @@
 #include "filter_tracked_mcf/core/flow_parameters.h"
 #include "filter_tracked_mcf/core/grid.h"
 #include "filter_tracked_mcf/core/octree.h"
+#include "filter_tracked_mcf/core/surface_samples.h"
 #include "filter_tracked_mcf/core/triangle_mesh.h"
 
 namespace tracked_mcf {
-
-/// A point at which the integrals of equation 4 are sampled.
-struct Sample {
-    float local[3];  ///< local coordinates in its cell, 0 to 1
-    float weight;    ///< w_p: area it stands for on the initial surface, grid units²
-};
-
-/// The part of a triangle in a cell, as the integrals see it.
-struct Fragment {
-    float normal[3];            ///< unit normal of the initial triangle; 0 if degenerate
-    std::int32_t sample_count;  ///< consecutive in TrackedElements::samples
-};
 
 /// A point at which the surface is held, on the piece of a held edge in one element.
 struct HeldSample {

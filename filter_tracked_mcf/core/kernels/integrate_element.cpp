@@ -1,11 +1,6 @@
-#include "filter_tracked_mcf/core/element_kernel.h"
+#include "filter_tracked_mcf/core/kernels/integrate_element.h"
 
-#include <cmath>
-
-// Nothing here may call inline functions of other headers: they would be compiled for the baseline
-// and could not be inlined into the wider versions, or worse, the linker could keep the wide one.
-
-namespace tracked_mcf {
+namespace tracked_mcf::TRACKED_MCF_KERNELS {
 
 namespace {
 
@@ -104,21 +99,12 @@ TRACKED_MCF_INLINE MetricFactor factor(const Vector& a, const Vector& b, float a
 
 }  // namespace
 
-#if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-// Sanitizers cannot run the resolvers that choose among the versions.
-#define TRACKED_MCF_VERSIONS __attribute__((target_clones("default", "arch=haswell")))
-#else
-#define TRACKED_MCF_VERSIONS
-#endif
-
-TRACKED_MCF_VERSIONS
-ElementTotals integrate_element(const ElementInput& input, const SystemWeights& weights,
-                                ElementMatrix& matrix, ElementVector& right_side) {
+ElementTotals integrate_element(const ElementInput& input, ElementMatrix& matrix,
+                                ElementVector& right_side) {
     Lanes rows[8] = {};
     Lanes force[3] = {};
-    ElementTotals totals;
+    ElementTotals totals = {};
 
-    const bool conformalized = weights.flow == FlowKind::Conformalized;
     const Trilinear ux = trilinear(input.displacement[0]);
     const Trilinear uy = trilinear(input.displacement[1]);
     const Trilinear uz = trilinear(input.displacement[2]);
@@ -139,7 +125,7 @@ ElementTotals integrate_element(const ElementInput& input, const SystemWeights& 
             // √|g| as the length of a × b, which cancels far less than a determinant.
             const Vector normal = cross(a, b);
             const float area = __builtin_sqrtf(dot(normal, normal));
-            if (!conformalized && !(area > kCollapsedAreaRatio)) {
+            if (!input.initial_metric && !(area > kCollapsedAreaRatio)) {
                 ++totals.collapsed_samples;
                 const Lanes value = functions_at(at).value;
                 const Lanes mass = sample->weight * value * value;
@@ -150,7 +136,8 @@ ElementTotals integrate_element(const ElementInput& input, const SystemWeights& 
             }
 
             // √|g| g⁻¹ = C Cᵀ with C lower triangular and of determinant 1; q = [t1 t2] C.
-            const MetricFactor c = conformalized ? MetricFactor{1, 0, 1} : factor(a, b, area);
+            const MetricFactor c =
+                input.initial_metric ? MetricFactor{1, 0, 1} : factor(a, b, area);
             const Vector q1 = c.c11 * t.t1 + c.c21 * t.t2;
             const Vector q2 = c.c22 * t.t2;
             const Vector jq1 = c.c11 * a + c.c21 * b;
@@ -160,8 +147,8 @@ ElementTotals integrate_element(const ElementInput& input, const SystemWeights& 
             const Lanes p1 = derivative_along(f, q1);
             const Lanes p2 = derivative_along(f, q2);
 
-            const float mass = weights.mass * sample->weight * area;
-            const float stiffness = weights.stiffness * sample->weight;
+            const float mass = input.mass * sample->weight * area;
+            const float stiffness = input.stiffness * sample->weight;
             const Lanes mf = mass * f.value;
             const Lanes sp1 = stiffness * p1;
             const Lanes sp2 = stiffness * p2;
@@ -186,4 +173,4 @@ ElementTotals integrate_element(const ElementInput& input, const SystemWeights& 
     return totals;
 }
 
-}  // namespace tracked_mcf
+}  // namespace tracked_mcf::TRACKED_MCF_KERNELS

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "filter_tracked_mcf/core/kernels/integrate_element.h"
+
+namespace tracked_mcf {
+
+/// The innermost loops. The sources of this folder that define them, and kernel_table.cpp, are
+/// compiled once for every InstructionSet, each time into a namespace of its own, which
+/// TRACKED_MCF_KERNELS names; the processor's is chosen at run time.
+///
+/// A kernel has a header with its signature, a source file, a member here, and a line in
+/// kernel_table.cpp. What kernels include must not define anything but plain structs and constants:
+/// no inline functions, no templates of the standard library or Eigen, no default member
+/// initializers. Compilers need not inline those, and of several copies of one the linker keeps
+/// any, perhaps the one that needs AVX-512. The test kernel_symbols watches over it.
+struct Kernels {
+    IntegrateElement* integrate_element;
+};
+
+}  // namespace tracked_mcf

@@ -1,0 +1,70 @@
+#include "filter_tracked_mcf/core/kernels/kernels.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <string>
+
+#include "filter_tracked_mcf/core/errors.h"
+
+namespace tracked_mcf {
+namespace {
+
+/// Sets TRACKED_MCF_INSTRUCTIONS, and back at the end.
+class Instructions : public ::testing::Test {
+protected:
+    Instructions() {
+        const char* const value = std::getenv(kVariable);
+        if (value != nullptr) before_ = value;
+    }
+    ~Instructions() override { ::setenv(kVariable, before_.c_str(), 1); }
+
+    static void set(const std::string& value) { ::setenv(kVariable, value.c_str(), 1); }
+
+private:
+    static constexpr const char* kVariable = "TRACKED_MCF_INSTRUCTIONS";
+    std::string before_;
+};
+
+TEST_F(Instructions, AreTheBestByThemselves) {
+    set("");
+    EXPECT_EQ(choose_instruction_set(), available_instruction_sets().back());
+}
+
+TEST_F(Instructions, CanBeChosen) {
+    for (const InstructionSet instructions : available_instruction_sets()) {
+        set(std::string(name_of(instructions)));
+        EXPECT_EQ(choose_instruction_set(), instructions);
+        EXPECT_NE(kernels_for(instructions).integrate_element, nullptr);
+    }
+}
+
+TEST_F(Instructions, BaselineIsAlwaysThere) {
+    EXPECT_EQ(available_instruction_sets().front(), InstructionSet::Baseline);
+}
+
+TEST_F(Instructions, UnknownOnesAreRefused) {
+    for (const char* const value : {"sse9", "AVX2", "avx2 "}) {
+        set(value);
+        EXPECT_THROW(choose_instruction_set(), InvalidParameter);
+    }
+}
+
+TEST_F(Instructions, ThoseThatTheMachineLacksAreRefused) {
+    const auto best = available_instruction_sets().back();
+    if (best == InstructionSet::Avx512) GTEST_SKIP() << "This machine has all of them.";
+    set("avx512");
+    EXPECT_THROW(choose_instruction_set(), InvalidParameter);
+    EXPECT_THROW(kernels_for(InstructionSet::Avx512), InvalidParameter);
+}
+
+TEST(Kernels, EveryInstructionSetHasItsOwn) {
+    for (const InstructionSet a : available_instruction_sets()) {
+        for (const InstructionSet b : available_instruction_sets()) {
+            EXPECT_EQ(a == b, kernels_for(a).integrate_element == kernels_for(b).integrate_element);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace tracked_mcf
