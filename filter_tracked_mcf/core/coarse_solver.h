@@ -3,7 +3,8 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "filter_tracked_mcf/core/level_matrix.h"
+#include "filter_tracked_mcf/core/element_matrix.h"
+#include "filter_tracked_mcf/core/field.h"
 #include "filter_tracked_mcf/core/octree.h"
 
 namespace tracked_mcf {
@@ -18,7 +19,9 @@ public:
     /// `level` is level 0; it must outlive this.
     explicit CoarseSolver(const Level& level) : level_(level) {}
 
-    void factorise(const LevelMatrix& matrix);
+    /// Takes the element matrices of the level, in which the rows and columns of unknowns that may
+    /// not move are zero.
+    void factorise(const std::vector<ElementMatrix>& matrices);
 
     /// x = A⁺ right_side over the unknowns that may move, zero for the others.
     void solve(const Field& right_side, Field& x) const;

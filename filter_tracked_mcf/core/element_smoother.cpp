@@ -1,134 +1,112 @@
 #include "filter_tracked_mcf/core/element_smoother.h"
 
-#include <array>
+#include <algorithm>
 
+#include "filter_tracked_mcf/core/element_products.h"
 #include "filter_tracked_mcf/core/interruptible.h"
-#include "filter_tracked_mcf/core/morton.h"
+#include "filter_tracked_mcf/core/kernels/coupling_places.h"
+#include "filter_tracked_mcf/core/kernels/kernels.h"
 #include "filter_tracked_mcf/core/parallel.h"
 
 namespace tracked_mcf {
 
 namespace {
 
-/// A block is a cube of 2^3 cells a side: about a hundred elements, few of them at its rim.
-constexpr unsigned kBlockBits = 3 * 3;
+/// Whatever so small a function does, the surface does not see it.
+constexpr float kSmallestDiagonal = 1e-30F;
 
-/// Blocks of one colour that outweigh waking and joining threads.
-constexpr std::int64_t kElementBlocksWorthThreads = 8;
-
-/// A pivot that elimination has brought below this fraction of the diagonal is rounding: its
-/// function depends on those before it, and is left to them.
-constexpr float kDependent = 1e-5F;
-
-/// The entries of the matrix between the unknowns of one element, zero for those that stay.
-ElementMatrix restricted(const LevelMatrix& matrix, const std::array<std::int32_t, 8>& unknowns) {
-    ElementMatrix result{};
-    const SparseMatrix& sparse = matrix.matrix();
-    for (int row = 0; row < 8; ++row) {
-        if (matrix.inverse_diagonal()[unknowns[row]] == 0) continue;
-        for (int column = 0; column < 8; ++column) {
-            if (matrix.inverse_diagonal()[unknowns[column]] == 0) continue;
-            result.entry[row][column] = sparse.coeff(unknowns[row], unknowns[column]);
+/// Of every element, 1 / the number of elements that have the most shared of its unknowns.
+std::vector<float> shares_of(const Level& level) {
+    std::vector<std::int32_t> sharing(static_cast<std::size_t>(level.unknown_count()), 0);
+    for_each_item(level.unknowns, [&](const auto& unknowns) {
+        for (const std::int32_t unknown : unknowns) ++sharing[unknown];
+    });
+    std::vector<float> shares;
+    resize(shares, level.element_count());
+    parallel_for_rows(level.element_count(), [&](std::int32_t element) {
+        std::int32_t most = 1;
+        for (const std::int32_t unknown : level.unknowns[element]) {
+            most = std::max(most, sharing[unknown]);
         }
-    }
-    return result;
+        shares[element] = 1.0F / static_cast<float>(most);
+    });
+    return shares;
 }
 
-void leave_out(ElementMatrix& m, int k) {
-    for (int i = 0; i < 8; ++i) m.entry[k][i] = m.entry[i][k] = 0;
-}
-
-/// One step of Beaton's sweep operator (1964): solves the k-th equation for the k-th unknown and
-/// inserts that in the others. After all steps the matrix has become minus its inverse.
-void sweep_pivot(ElementMatrix& m, int k) {
-    const float inverse_pivot = 1 / m.entry[k][k];
-    for (int i = 0; i < 8; ++i) {
-        if (i == k) continue;
-        const float factor = m.entry[i][k] * inverse_pivot;
-        for (int j = 0; j < 8; ++j) m.entry[i][j] -= factor * m.entry[k][j];
-        m.entry[i][k] = factor;
-    }
-    for (float& entry : m.entry[k]) entry *= inverse_pivot;
-    m.entry[k][k] = -inverse_pivot;
-}
-
-/// Inverts a symmetric positive semi-definite matrix in place. Rows that are zero or depend on
-/// those before become zero: what is left is the inverse over the others.
-void invert(ElementMatrix& m) {
-    std::array<float, 8> diagonal;
-    for (int k = 0; k < 8; ++k) diagonal[k] = m.entry[k][k];
-    for (int k = 0; k < 8; ++k) {
-        if (m.entry[k][k] > kDependent * diagonal[k]) {
-            sweep_pivot(m, k);
-        } else {
-            leave_out(m, k);
+/// Finds the entries that have no place of their own in Couplings: an unknown may be coupled with
+/// two at the same corner, where the surface in that corner's support is in two parts and one of
+/// them leads on to the other side. The first such keeps the place.
+std::vector<std::uint32_t> entries_apart(const Level& level, const ElementBlocks& blocks) {
+    constexpr std::int32_t none = -1;
+    constexpr std::int64_t places = sizeof(Couplings) / sizeof(float);
+    std::vector<std::int32_t> coupled_with;
+    resize(coupled_with, places * level.unknown_count());
+    parallel_for_rows(level.unknown_count(), [&](std::int32_t unknown) {
+        std::fill_n(coupled_with.begin() + places * unknown, places, none);
+    });
+    const auto for_each_entry = [&](std::int32_t element, const auto& visit) {
+        const auto& unknowns = level.unknowns[element];
+        for (int i = 0; i < 8; ++i) {
+            for (int j = i + 1; j < 8; ++j) {
+                const std::int64_t place = places * unknowns[i] + kCouplingPlaces.place[i][j];
+                visit(coupled_with[place], unknowns[j], kCouplingPlaces.bit[i][j]);
+            }
         }
-    }
-    for (auto& row : m.entry) {
-        for (float& entry : row) entry = -entry;
-    }
-}
-
-/// Calls body(block), in parallel where there are enough of them.
-template <class Block, class Body>
-void for_each_block(const std::vector<Block>& blocks, const Body& body) {
-    parallel_for(
-        static_cast<std::int64_t>(blocks.size()), [&](std::int64_t i) { body(blocks[i]); },
-        kElementBlocksWorthThreads);
-}
-
-/// Solves for the unknowns of one element.
-void relax(const LevelMatrix& matrix, const Field& right_side, const ElementMatrix& inverse,
-           const std::array<std::int32_t, 8>& unknowns, Field& x) {
-    Eigen::Vector4f residual[8];
-    for (int i = 0; i < 8; ++i) {
-        residual[i] = right_side.col(unknowns[i]) - row_times(matrix.matrix(), unknowns[i], x);
-    }
-    for (int i = 0; i < 8; ++i) {
-        Eigen::Vector4f correction = Eigen::Vector4f::Zero();
-        for (int j = 0; j < 8; ++j) correction += inverse.entry[i][j] * residual[j];
-        x.col(unknowns[i]) += correction;
-    }
+    };
+    blocks.for_each([&](std::int32_t begin, std::int32_t end) {
+        for (std::int32_t element = begin; element < end; ++element) {
+            for_each_entry(element, [&](std::int32_t& holder, std::int32_t unknown, int) {
+                if (holder == none) holder = unknown;
+            });
+        }
+    });
+    std::vector<std::uint32_t> apart(static_cast<std::size_t>(level.element_count()), 0);
+    parallel_for_rows(level.element_count(), [&](std::int32_t element) {
+        for_each_entry(element, [&](std::int32_t holder, std::int32_t unknown, int bit) {
+            if (holder != unknown) apart[element] |= std::uint32_t{1} << bit;
+        });
+    });
+    return apart;
 }
 
 }  // namespace
 
-ElementSmoother::ElementSmoother(const Level& level) : level_(level) {
+ElementSmoother::ElementSmoother(const Level& level, const ElementBlocks& blocks)
+    : level_(level),
+      blocks_(blocks),
+      shares_(shares_of(level)),
+      apart_(entries_apart(level, blocks)) {
     resize(inverses_, level.element_count());
-    const auto block_of = [&](std::int32_t element) { return level.cells[element] >> kBlockBits; };
-    const std::int32_t count = level.element_count();
-    for (std::int32_t begin = 0, end = 0; begin < count; begin = end) {
-        while (end < count && block_of(end) == block_of(begin)) ++end;
-        colours_[octant_of(block_of(begin))].push_back({begin, end});
-    }
+    resize(movable_, level.unknown_count());
 }
 
-void ElementSmoother::refresh(const LevelMatrix& matrix) {
-    parallel_for_rows(level_.element_count(), [&](std::int32_t element) {
-        inverses_[element] = restricted(matrix, level_.unknowns[element]);
-        invert(inverses_[element]);
+CoupledElements ElementSmoother::range(std::int32_t begin, std::int32_t end) const {
+    return {level_.unknowns.front().data(), apart_.data(), begin, end};
+}
+
+void ElementSmoother::refresh(const std::vector<ElementMatrix>& matrices,
+                              std::vector<Couplings>& workspace) {
+    if (static_cast<std::int64_t>(workspace.size()) < level_.unknown_count()) {
+        resize(workspace, level_.unknown_count());
+    }
+    parallel_for_rows(level_.unknown_count(),
+                      [&](std::int32_t unknown) { workspace[unknown] = Couplings{}; });
+    blocks_.for_each([&](std::int32_t begin, std::int32_t end) {
+        kernels().sum_couplings(range(begin, end), matrices.data(), workspace.data());
+    });
+    parallel_for_rows(level_.unknown_count(), [&](std::int32_t unknown) {
+        // What is not a number must not pass for a function that stays.
+        movable_[unknown] = workspace[unknown].sum[0] <= kSmallestDiagonal ? 0 : 1;
+    });
+    parallel_for_blocks(level_.element_count(), [&](std::int64_t begin, std::int64_t end) {
+        kernels().invert_locally(
+            range(static_cast<std::int32_t>(begin), static_cast<std::int32_t>(end)),
+            matrices.data(), workspace.data(), shares_.data(), inverses_.data());
     });
 }
 
-void ElementSmoother::sweep(const LevelMatrix& matrix, const Field& right_side, Field& x) const {
-    for (const std::vector<Block>& blocks : colours_) {
-        for_each_block(blocks, [&](const Block& block) {
-            for (std::int32_t element = block.begin; element < block.end; ++element) {
-                relax(matrix, right_side, inverses_[element], level_.unknowns[element], x);
-            }
-        });
-    }
-}
-
-void ElementSmoother::sweep_backward(const LevelMatrix& matrix, const Field& right_side,
-                                     Field& x) const {
-    for (auto blocks = colours_.rbegin(); blocks != colours_.rend(); ++blocks) {
-        for_each_block(*blocks, [&](const Block& block) {
-            for (std::int32_t element = block.end; element-- > block.begin;) {
-                relax(matrix, right_side, inverses_[element], level_.unknowns[element], x);
-            }
-        });
-    }
+void ElementSmoother::add_correction(float factor, const Field& residual, Field& x) const {
+    add_products(level_, blocks_, inverses_, factor, residual, x);
 }
 
 }  // namespace tracked_mcf

@@ -1,49 +1,49 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
-#include "filter_tracked_mcf/core/element_matrices.h"
+#include "filter_tracked_mcf/core/element_blocks.h"
+#include "filter_tracked_mcf/core/element_matrix.h"
 #include "filter_tracked_mcf/core/field.h"
-#include "filter_tracked_mcf/core/level_matrix.h"
+#include "filter_tracked_mcf/core/kernels/local_systems.h"
 #include "filter_tracked_mcf/core/octree.h"
 
 namespace tracked_mcf {
 
-/// Multiplicative Schwarz over the elements: one after the other, the eight unknowns of an element
-/// are solved for together, the rest held.
+/// Additive Schwarz over the elements: from one residual, the eight unknowns of every element are
+/// solved for together, and the corrections, each divided by how many elements share the most
+/// shared of its unknowns, are added up: x += S r with S = Σ_e R_eᵀ (A_e⁻¹ / m_e) R_e.
 ///
 /// What makes these systems hard is that the functions around an element are nearly dependent on
 /// the surface in it; Gauss-Seidel, which moves one of them at a time, takes tens of sweeps for
-/// what a solve of all eight does at once.
-///
-/// The order is that of eight colours of blocks of cells, so that blocks of one colour do not touch
-/// and can go in parallel, and that of the elements inside a block. Neither depends on the number
-/// of threads, so the bits do not either.
+/// what a solve of all eight does at once. With these divisors, one for an element and not one for
+/// an unknown, what is nearly dependent stays so, and the largest eigenvalue of S A is between 1
+/// and 1.7 on all surfaces and levels tried, so nothing has to be estimated. S is symmetric.
 class ElementSmoother {
 public:
-    explicit ElementSmoother(const Level& level);
+    /// Both must outlive this.
+    ElementSmoother(const Level& level, const ElementBlocks& blocks);
 
-    /// Takes the level's matrix, whose numbers have changed.
-    void refresh(const LevelMatrix& matrix);
+    /// Takes the level's element matrices, in which the rows and columns of unknowns that must not
+    /// move are zero. `workspace` is for use during the call; its content does not matter.
+    void refresh(const std::vector<ElementMatrix>& matrices, std::vector<Couplings>& workspace);
 
-    /// One sweep over A x = right_side, in place, with the matrix of the last refresh. Unknowns
-    /// with inverse diagonal 0 stay.
-    void sweep(const LevelMatrix& matrix, const Field& right_side, Field& x) const;
+    /// x += factor * S residual. What may not move, does not.
+    void add_correction(float factor, const Field& residual, Field& x) const;
 
-    /// The same in exactly the opposite order, which makes it the adjoint of sweep in the energy of
-    /// A.
-    void sweep_backward(const LevelMatrix& matrix, const Field& right_side, Field& x) const;
+    /// Of every unknown: whether something constrains it (not 0); what may not move has nothing.
+    const std::vector<std::uint8_t>& movable() const { return movable_; }
 
 private:
-    struct Block {
-        std::int32_t begin, end;  ///< elements
-    };
+    CoupledElements range(std::int32_t begin, std::int32_t end) const;
 
     const Level& level_;
-    std::array<std::vector<Block>, 8> colours_;
-    std::vector<ElementMatrix> inverses_;  ///< of A restricted to each element's unknowns
+    const ElementBlocks& blocks_;
+    std::vector<float> shares_;         ///< of every element, 1 / m_e
+    std::vector<std::uint32_t> apart_;  ///< of every element, see CoupledElements
+    std::vector<ElementMatrix> inverses_;
+    std::vector<std::uint8_t> movable_;
 };
 
 }  // namespace tracked_mcf

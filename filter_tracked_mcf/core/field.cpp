@@ -12,6 +12,11 @@ void set_zero(Field& field, Eigen::Index count) {
     parallel_for_rows(count, [&](std::int32_t i) { field.col(i).setZero(); });
 }
 
+void copy(const Field& from, Field& to) {
+    to.resize(4, from.cols());
+    parallel_for_rows(from.cols(), [&](std::int32_t i) { to.col(i) = from.col(i); });
+}
+
 Eigen::Vector4d dot(const Field& a, const Field& b) {
     const Eigen::Vector4d zero = Eigen::Vector4d::Zero();
     return parallel_sum(a.cols(), zero, [&](std::int64_t begin, std::int64_t end) {

@@ -11,6 +11,9 @@ using Field = Eigen::Matrix<float, 4, Eigen::Dynamic>;
 /// Makes it a field of `count` zeros.
 void set_zero(Field& field, Eigen::Index count);
 
+/// to = from.
+void copy(const Field& from, Field& to);
+
 /// Scalar product of every coordinate, summed in double in a fixed order.
 Eigen::Vector4d dot(const Field& a, const Field& b);
 

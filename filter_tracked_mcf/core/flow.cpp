@@ -6,7 +6,6 @@
 #include "filter_tracked_mcf/core/automatic_depth.h"
 #include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/interruptible.h"
-#include "filter_tracked_mcf/core/locked_cells.h"
 #include "filter_tracked_mcf/core/parallel.h"
 #include "filter_tracked_mcf/core/pinches.h"
 #include "filter_tracked_mcf/core/progress_meter.h"
@@ -43,15 +42,10 @@ double to_grid_units(const FlowParameters& parameters, const TriangleMesh& mesh,
     return std::min(parameters.step_size * cells * cells, kLargestStepSize);
 }
 
-std::vector<std::vector<std::uint8_t>> locked_unknowns(const TrackedElements& elements,
-                                                       BoundaryCondition boundary) {
+std::unique_ptr<StepSolver> solver_for(const TrackedElements& elements,
+                                       const FlowParameters& parameters) {
     enter_setup_phase(SetupPhase::PrepareSolver);
-    return boundary == BoundaryCondition::LockedCells ? unknowns_meeting_held_edges(elements)
-                                                      : no_unknowns(elements);
-}
-
-CycleParameters cycle_parameters(Solver solver) {
-    return solver == Solver::Converged ? kPreconditioner : CycleParameters();
+    return make_step_solver(elements, parameters);
 }
 
 float pinched_share(Solver solver) {
@@ -81,8 +75,7 @@ Flow::Flow(const TriangleMesh& mesh, const Domain& domain, const FlowParameters&
       elements_(
           build_tracked_elements(domain, grid, parameters.cubature, parameters.separate_sheets)),
       grid_step_size_(to_grid_units(parameters, mesh, grid)),
-      multigrid_(elements_, locked_unknowns(elements_, parameters.boundary),
-                 cycle_parameters(parameters.solver)),
+      solver_(solver_for(elements_, parameters)),
       stabilization_(elements_),
       supports_(measure_supports(elements_)),
       vanished_parts_(elements_),
@@ -90,7 +83,7 @@ Flow::Flow(const TriangleMesh& mesh, const Domain& domain, const FlowParameters&
       displacement_(Coefficients::Zero(elements_.finest().unknown_count(), 3)) {
     fill_report(domain);
     // With the stabilisation, functions that hardly meet the surface follow those that do.
-    if (stabilization_of(parameters) == 0) freeze_negligible(supports_, multigrid_.frozen());
+    if (stabilization_of(parameters) == 0) freeze_negligible(supports_, solver_->frozen());
 }
 
 void Flow::fill_report(const Domain& domain) {
@@ -104,7 +97,7 @@ void Flow::fill_report(const Domain& domain) {
     report_.cells = count_cells(elements_.finest());
     report_.elements = elements_.finest().element_count();
     report_.unknowns = elements_.finest().unknown_count();
-    report_.locked_unknowns = std::count(multigrid_.frozen().begin(), multigrid_.frozen().end(), 1);
+    report_.locked_unknowns = std::count(solver_->frozen().begin(), solver_->frozen().end(), 1);
     report_.fragments = elements_.fragment_count;
     report_.split_triangles = elements_.split_triangle_count;
     report_.samples = static_cast<std::int64_t>(elements_.samples.size());
@@ -135,10 +128,7 @@ void Flow::take_back(Stop reason) {
 }
 
 bool Flow::can_move() const {
-    if (report_.held_vertices == report_.vertices) return false;
-    const std::vector<float>& inverse_diagonal = multigrid_.finest().inverse_diagonal();
-    return std::any_of(inverse_diagonal.begin(), inverse_diagonal.end(),
-                       [](float inverse) { return inverse != 0; });
+    return report_.held_vertices != report_.vertices && solver_->can_move();
 }
 
 void Flow::scale(const Eigen::Vector3d& centre, double factor) {
@@ -158,8 +148,7 @@ void Flow::assemble(StepReport& report) {
     if (holds_curve()) held_curve_.add(displacement_, grid_step_size_, systems_);
     stabilization_.add(stabilization_of(parameters_), grid_step_size_, systems_.matrices);
     if (parameters_.anchor_pinches) anchor_what_has_pinched();
-    multigrid_.refresh(systems_.matrices);
-    multigrid_.finest().assemble(systems_.right_sides, right_side_);
+    solver_->take(systems_);
     report.area = systems_.area * elements_.grid.cell_size * elements_.grid.cell_size;
     report.collapsed_samples = systems_.collapsed_samples;
     report.assemble_seconds = stopwatch.seconds();
@@ -167,25 +156,16 @@ void Flow::assemble(StepReport& report) {
 
 void Flow::anchor_what_has_pinched() {
     if (parameters_.flow == FlowKind::Conformalized) {
-        vanished_parts_.freeze(systems_, kVanishedArea, multigrid_.frozen());
+        vanished_parts_.freeze(systems_, kVanishedArea, solver_->frozen());
     } else {
         freeze_pinched(elements_, supports_, systems_, pinched_share(parameters_.solver),
-                       multigrid_.frozen());
+                       solver_->frozen());
     }
 }
 
 void Flow::solve(StepReport& report) {
     const Stopwatch stopwatch;
-    solution_.setZero(displacement_.rows(), 3);
-    multigrid_.finest().residual(right_side_, solution_, residual_);
-    report.residual_before = norm(residual_);
-    if (parameters_.solver == Solver::Converged) {
-        solve_by_conjugate_gradients(report);
-    } else {
-        solve_by_cycles(report);
-    }
-    multigrid_.finest().residual(right_side_, solution_, residual_);
-    report.residual_after = norm(residual_);
+    solver_->solve(solution_, report);
     // Conjugate gradients leave the solution at zero if the system is not finite.
     if (!all_finite(solution_) || !std::isfinite(report.relative_residual)) {
         throw NumericalFailure(
@@ -198,24 +178,6 @@ void Flow::solve(StepReport& report) {
     if (guess_.size() > 0) displacement_ += guess_;
     if (holds_curve() && parameters_.take_up_boundary) held_curve_.take_up(displacement_);
     report.solve_seconds = stopwatch.seconds();
-}
-
-void Flow::solve_by_conjugate_gradients(StepReport& report) {
-    const Convergence convergence = conjugate_gradients_.solve(
-        multigrid_, right_side_, parameters_.tolerance, kMaximumSolverIterations, solution_);
-    report.solver_iterations = convergence.iterations;
-    report.relative_residual = convergence.relative_residual;
-    report.reached_tolerance = convergence.reached_tolerance;
-}
-
-void Flow::solve_by_cycles(StepReport& report) {
-    Field x = Field::Zero(4, elements_.finest().unknown_count());
-    for (int i = 0; i < parameters_.cycles; ++i) {
-        multigrid_.cycle(right_side_, x);
-        advance_progress((i + 1.0) / parameters_.cycles);
-    }
-    solution_ = x.topRows<3>().transpose().cast<double>();
-    report.solver_iterations = parameters_.cycles;
 }
 
 void Flow::move_vertices(TriangleMesh& mesh) const {

@@ -1,13 +1,14 @@
 #pragma once
 
-#include "filter_tracked_mcf/core/conjugate_gradients.h"
+#include <memory>
+
 #include "filter_tracked_mcf/core/domain.h"
 #include "filter_tracked_mcf/core/flow_parameters.h"
 #include "filter_tracked_mcf/core/flow_report.h"
 #include "filter_tracked_mcf/core/grid.h"
 #include "filter_tracked_mcf/core/held_curve.h"
-#include "filter_tracked_mcf/core/multigrid.h"
 #include "filter_tracked_mcf/core/stabilization.h"
+#include "filter_tracked_mcf/core/step_solver.h"
 #include "filter_tracked_mcf/core/supports.h"
 #include "filter_tracked_mcf/core/tracked_elements.h"
 #include "filter_tracked_mcf/core/triangle_mesh.h"
@@ -79,15 +80,13 @@ private:
     void assemble(StepReport& report);
     void anchor_what_has_pinched();
     void solve(StepReport& report);
-    void solve_by_conjugate_gradients(StepReport& report);
-    void solve_by_cycles(StepReport& report);
     void fill_report(const Domain& domain);
 
     FlowParameters parameters_;
     FlowReport report_;
     TrackedElements elements_;
     double grid_step_size_;
-    Multigrid multigrid_;
+    std::unique_ptr<StepSolver> solver_;
     Stabilization stabilization_;
     Supports supports_;
     VanishedParts vanished_parts_;
@@ -98,8 +97,6 @@ private:
 
     // Refilled by every step.
     ElementSystems systems_;
-    ConjugateGradients conjugate_gradients_;
-    Field right_side_, residual_;
     Coefficients solution_;
 };
 

@@ -12,12 +12,14 @@ namespace tracked_mcf {
 /// children c, with P_c the refinement weights of the child's octant. Assembled, that is exactly
 /// the Galerkin product PᵀAP, at a fraction of its cost.
 ///
-/// `fine` is the finer level, `children` its elements grouped by parent, `frozen` tells which of
-/// its unknowns do not move: their rows and columns count as zero, so that coarse corrections are
-/// made for what can follow them.
+/// `fine` is the finer level, `children` its elements grouped by parent.
 void coarsen_element_matrices(const Level& fine, const Groups& children,
-                              const std::vector<std::uint8_t>& frozen,
                               const std::vector<ElementMatrix>& fine_matrices,
                               std::vector<ElementMatrix>& coarse_matrices);
+
+/// Sets the rows and columns of a level's frozen unknowns to zero in its element matrices, so that
+/// coarse corrections are made for what can follow them.
+void leave_out_frozen(const Level& level, const std::vector<std::uint8_t>& frozen,
+                      std::vector<ElementMatrix>& matrices);
 
 }  // namespace tracked_mcf

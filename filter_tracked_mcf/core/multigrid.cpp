@@ -16,16 +16,10 @@ constexpr std::int32_t kCheapToVisit = 1000;
 /// From this share of a level's unknowns on, the next coarser level is hardly smaller.
 constexpr double kHardlySmaller = 0.9;
 
-std::variant<GaussSeidel, ElementSmoother> make_smoother(const Level& level, Smoothing smoothing) {
-    if (smoothing == Smoothing::GaussSeidel) return GaussSeidel(level);
-    return ElementSmoother(level);
-}
-
 }  // namespace
 
-Multigrid::LevelData::LevelData(const TrackedElements& elements, std::size_t level,
-                                Smoothing smoothing)
-    : matrix(elements.levels[level]), smoother(make_smoother(elements.levels[level], smoothing)) {
+Multigrid::LevelData::LevelData(const TrackedElements& elements, std::size_t level)
+    : matrix(elements.levels[level]), smoother(elements.levels[level]) {
     if (level > 0) {
         prolongation =
             tracked_mcf::prolongation(elements.levels[level], elements.levels[level - 1]);
@@ -46,23 +40,22 @@ Multigrid::Multigrid(const TrackedElements& elements, std::vector<std::vector<st
       coarse_solver_(elements.levels.front()) {
     levels_.reserve(elements.levels.size());
     for (std::size_t level = 0; level < elements.levels.size(); ++level) {
-        levels_.emplace_back(elements, level, parameters.smoothing);
+        levels_.emplace_back(elements, level);
     }
 }
 
-void Multigrid::refresh(const std::vector<ElementMatrix>& finest) {
-    const std::vector<ElementMatrix>* fine = &finest;
+void Multigrid::refresh(std::vector<ElementMatrix>& finest) {
+    std::vector<ElementMatrix>* matrices = &finest;
     for (std::size_t level = levels_.size(); level-- > 0;) {
-        levels_[level].matrix.assemble(*fine, frozen_[level]);
+        leave_out_frozen(elements_.levels[level], frozen_[level], *matrices);
+        levels_[level].matrix.assemble(*matrices, frozen_[level]);
         if (level == 0) break;
-        if (auto* const smoother = std::get_if<ElementSmoother>(&levels_[level].smoother)) {
-            smoother->refresh(levels_[level].matrix);
-        }
-        coarsen_element_matrices(elements_.levels[level], levels_[level - 1].children,
-                                 frozen_[level], *fine, levels_[level - 1].element_matrices);
-        fine = &levels_[level - 1].element_matrices;
+        std::vector<ElementMatrix>& coarse = levels_[level - 1].element_matrices;
+        coarsen_element_matrices(elements_.levels[level], levels_[level - 1].children, *matrices,
+                                 coarse);
+        matrices = &coarse;
     }
-    coarse_solver_.factorise(levels_.front().matrix);
+    coarse_solver_.factorise(*matrices);
 }
 
 void Multigrid::cycle(const Field& right_side, Field& x) {
@@ -78,7 +71,8 @@ void Multigrid::cycle(std::size_t level, const Field& right_side, Field& x) {
         x += correction;
         return;
     }
-    for (int i = 0; i < parameters_.sweeps_before; ++i) here.smooth_before(right_side, x);
+    for (int i = 0; i < parameters_.sweeps_before; ++i)
+        here.smoother.sweep(here.matrix, right_side, x);
     here.matrix.residual(right_side, x, here.residual);
     restrict_residual(level);
     LevelData& coarser = levels_[level - 1];
@@ -88,19 +82,8 @@ void Multigrid::cycle(std::size_t level, const Field& right_side, Field& x) {
         cycle(level - 1, coarser.right_side, coarser.x);
     }
     add_correction(level, x);
-    for (int i = 0; i < parameters_.sweeps_after; ++i) here.smooth_after(right_side, x);
-}
-
-void Multigrid::LevelData::smooth_before(const Field& b, Field& solution) const {
-    std::visit([&](const auto& any) { any.sweep(matrix, b, solution); }, smoother);
-}
-
-void Multigrid::LevelData::smooth_after(const Field& b, Field& solution) const {
-    if (const auto* const elements = std::get_if<ElementSmoother>(&smoother)) {
-        elements->sweep_backward(matrix, b, solution);
-    } else {
-        smooth_before(b, solution);
-    }
+    for (int i = 0; i < parameters_.sweeps_after; ++i)
+        here.smoother.sweep(here.matrix, right_side, x);
 }
 
 bool Multigrid::worth_revisiting(std::size_t level) const {

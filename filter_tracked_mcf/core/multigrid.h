@@ -1,12 +1,10 @@
 #pragma once
 
 #include <cstdint>
-#include <variant>
 #include <vector>
 
 #include "filter_tracked_mcf/core/coarse_solver.h"
 #include "filter_tracked_mcf/core/element_matrices.h"
-#include "filter_tracked_mcf/core/element_smoother.h"
 #include "filter_tracked_mcf/core/gauss_seidel.h"
 #include "filter_tracked_mcf/core/level_matrix.h"
 #include "filter_tracked_mcf/core/tracked_elements.h"
@@ -14,19 +12,8 @@
 
 namespace tracked_mcf {
 
-/// How a level's error is smoothed.
-enum class Smoothing {
-    /// Gauss-Seidel over the unknowns, as in the paper.
-    GaussSeidel,
-    /// ElementSmoother, forward before the coarse correction and backward after it: with as many
-    /// sweeps after as before, a cycle from zero is a symmetric operator, as conjugate gradients
-    /// need it.
-    Elements
-};
-
 /// What a cycle does; the default is the paper's (section 5.2).
 struct CycleParameters {
-    Smoothing smoothing = Smoothing::GaussSeidel;
     int sweeps_before = 5;  ///< before the coarse correction
     int sweeps_after = 5;   ///< and after it
     /// Times a level visits the next coarser one: 1 is a V-, 2 a W-cycle. One that is hardly
@@ -35,7 +22,8 @@ struct CycleParameters {
     int coarse_visits = 2;
 };
 
-/// The multigrid solver over the levels of tracked elements. Patterns, transfers and the order of
+/// The paper's multigrid solver over the levels of tracked elements, smoothed by Gauss-Seidel over
+/// the unknowns. Patterns, transfers and the order of
 /// the smoother are made once; the numbers are refreshed whenever the metric has changed.
 class Multigrid {
 public:
@@ -46,8 +34,9 @@ public:
     Multigrid(const Multigrid&) = delete;
     Multigrid& operator=(const Multigrid&) = delete;
 
-    /// Takes the finest level's element matrices and makes every level's matrix from them.
-    void refresh(const std::vector<ElementMatrix>& finest);
+    /// Takes the finest level's element matrices, after setting the rows and columns of frozen
+    /// unknowns to zero, and makes every level's matrix from them.
+    void refresh(std::vector<ElementMatrix>& finest);
 
     /// The finest level's frozen unknowns; more may be frozen before a refresh.
     std::vector<std::uint8_t>& frozen() { return frozen_.back(); }
@@ -61,13 +50,10 @@ public:
 
 private:
     struct LevelData {
-        LevelData(const TrackedElements& elements, std::size_t level, Smoothing smoothing);
-
-        void smooth_before(const Field& b, Field& solution) const;
-        void smooth_after(const Field& b, Field& solution) const;
+        LevelData(const TrackedElements& elements, std::size_t level);
 
         LevelMatrix matrix;
-        std::variant<GaussSeidel, ElementSmoother> smoother;
+        GaussSeidel smoother;
         Groups children;            ///< of this level's elements, in the next finer one
         SparseMatrix prolongation;  ///< from the next coarser level; empty at level 0
         SparseMatrix restriction;   ///< its transpose

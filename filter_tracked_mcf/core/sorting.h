@@ -32,6 +32,11 @@ public:
         return {items_.data() + begin_[group], items_.data() + begin_[group + 1]};
     }
 
+    /// The members of all groups, one group after the other, and where each group begins, and the
+    /// end.
+    const std::int32_t* items() const { return items_.data(); }
+    const std::int64_t* begins() const { return begin_.data(); }
+
 private:
     std::vector<std::int64_t> begin_;
     std::vector<std::int32_t> items_;

@@ -30,7 +30,7 @@ public:
           cells_per_side_(longest_side(mesh) / grid_.cell_size),
           elements_(build_tracked_elements(mesh, grid_, Cubature::ThreePoints, separate_sheets)),
           stabilization_(elements_),
-          multigrid_(elements_, no_unknowns(elements_), kPreconditioner) {}
+          multigrid_(elements_, no_unknowns(elements_)) {}
 
     void assemble(double step_size) {
         step_size_ = step_size * cells_per_side_ * cells_per_side_;
@@ -39,12 +39,14 @@ public:
     }
 
     Convergence solve(const FlowParameters& parameters) {
+        // The multigrid works with these matrices until the solve is over.
         std::vector<ElementMatrix> matrices = systems_.matrices;
         stabilization_.add(stabilization_of(parameters), step_size_, matrices);
         multigrid_.refresh(matrices);
-        multigrid_.finest().assemble(systems_.right_sides, right_side_);
+        multigrid_.assemble(systems_.right_sides, right_side_);
+        Coefficients solution;
         return conjugate_gradients_.solve(multigrid_, right_side_, parameters.tolerance,
-                                          kMaximumSolverIterations, solution_);
+                                          kMaximumSolverIterations, solution);
     }
 
     std::int32_t unknown_count() const { return elements_.finest().unknown_count(); }
@@ -54,12 +56,11 @@ private:
     double cells_per_side_;
     TrackedElements elements_;
     Stabilization stabilization_;
-    Multigrid multigrid_;
+    ElementMultigrid multigrid_;
     double step_size_ = 0;
     ElementSystems systems_;
     ConjugateGradients conjugate_gradients_;
     Field right_side_;
-    Coefficients solution_;
 };
 
 void run(const Options& options) {

@@ -6,6 +6,7 @@
 #include <memory>
 #include <type_traits>
 
+#include "filter_tracked_mcf/core/conjugate_gradients.h"
 #include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/evolve.h"
 #include "filter_tracked_mcf/core/flow.h"

@@ -15,16 +15,7 @@ namespace {
 
 TEST(LevelMatrix, IsTheSumOfItsElementMatrices) {
     const System system(shapes::bumpy_sphere(6), 3, 0.5F);
-    const Level& finest = system.elements.finest();
-    Dense expected = Dense::Zero(finest.unknown_count(), finest.unknown_count());
-    for (std::int32_t element = 0; element < finest.element_count(); ++element) {
-        for (int i = 0; i < 8; ++i) {
-            for (int j = 0; j < 8; ++j) {
-                expected(finest.unknowns[element][i], finest.unknowns[element][j]) +=
-                    system.systems.matrices[element].entry[i][j];
-            }
-        }
-    }
+    const Dense expected = assembled(system);
     const Dense matrix = dense(system.multigrid.finest().matrix());
     EXPECT_LT((matrix - expected).norm(), 1e-6 * expected.norm());
     EXPECT_LT((matrix - matrix.transpose()).norm(), 1e-6 * matrix.norm());
@@ -62,8 +53,7 @@ TEST(Hierarchy, ParentsElementMatrixIsTheSumOverItsChildren) {
     const Level& fine = system.elements.levels[4];
     const std::int32_t parents = system.elements.levels[3].element_count();
     std::vector<ElementMatrix> coarse(static_cast<std::size_t>(parents));
-    coarsen_element_matrices(fine, Groups(fine.parents, parents), system.frozen[4],
-                             system.systems.matrices, coarse);
+    coarsen_element_matrices(fine, Groups(fine.parents, parents), system.systems.matrices, coarse);
 
     using Matrix8 = Eigen::Matrix<float, 8, 8, Eigen::RowMajor>;
     std::vector<Matrix8> expected(static_cast<std::size_t>(parents), Matrix8::Zero());
@@ -111,10 +101,13 @@ TEST(GaussSeidel, IsAForwardSubstitution) {
 TEST(CoarseSolver, SolvesASingularSystemInTheLeastSquaresSense) {
     // A flat patch in a grid plane: the four functions off the plane have empty rows.
     const System system(shapes::square(4), 1, 0.5F);
-    const LevelMatrix& coarsest = system.multigrid.matrix(0);
+    std::vector<ElementMatrix> coarsest(1);
+    coarsen_element_matrices(system.elements.levels[1],
+                             Groups(system.elements.levels[1].parents, 1), system.systems.matrices,
+                             coarsest);
     CoarseSolver solver(system.elements.levels[0]);
     solver.factorise(coarsest);
-    const Dense a = dense(coarsest.matrix());
+    const Dense a = assembled(system.elements.levels[0], coarsest);
     const Field exact = Field::Random(4, a.rows());
     const Field b = (a * exact.cast<double>().transpose()).transpose().cast<float>();
     Field x;

@@ -16,6 +16,7 @@
 #include "filter_tracked_mcf/core/disjoint_sets.h"
 #include "filter_tracked_mcf/core/flow.h"
 #include "filter_tracked_mcf/core/locked_cells.h"
+#include "filter_tracked_mcf/core/multigrid.h"
 #include "filter_tracked_mcf/core/parallel.h"
 #include "tests/support/shapes.h"
 

@@ -1,6 +1,9 @@
 #pragma once
 
+#include "filter_tracked_mcf/core/kernels/coarsen_elements.h"
+#include "filter_tracked_mcf/core/kernels/element_products.h"
 #include "filter_tracked_mcf/core/kernels/integrate_element.h"
+#include "filter_tracked_mcf/core/kernels/local_systems.h"
 
 namespace tracked_mcf {
 
@@ -15,6 +18,12 @@ namespace tracked_mcf {
 /// any, perhaps the one that needs AVX-512. The test kernel_symbols watches over it.
 struct Kernels {
     IntegrateElement* integrate_element;
+    AddElementProducts* add_element_products;
+    AddElementProductsAndDot* add_element_products_and_dot;
+    AddElementVectors* add_element_vectors;
+    CoarsenElements* coarsen_elements;
+    SumCouplings* sum_couplings;
+    InvertLocally* invert_locally;
 };
 
 }  // namespace tracked_mcf

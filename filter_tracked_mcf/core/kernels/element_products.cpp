@@ -1,0 +1,106 @@
+#include "filter_tracked_mcf/core/kernels/element_products.h"
+
+#include "filter_tracked_mcf/core/kernels/kernel_table.h"
+
+namespace tracked_mcf {
+
+namespace {
+
+/// One number for each of an element's eight unknowns.
+using Lanes = float __attribute__((vector_size(32)));
+
+/// What a field has for one unknown: x, y, z, and a zero.
+using Column = float __attribute__((vector_size(16)));
+
+struct Columns {
+    Column of_unknown[8];
+};
+
+Columns transposed(Lanes x, Lanes y, Lanes z) {
+    const Lanes zero = {};
+    const Lanes xy_even = __builtin_shufflevector(x, y, 0, 8, 1, 9, 4, 12, 5, 13);
+    const Lanes xy_odd = __builtin_shufflevector(x, y, 2, 10, 3, 11, 6, 14, 7, 15);
+    const Lanes z_even = __builtin_shufflevector(z, zero, 0, 8, 1, 9, 4, 12, 5, 13);
+    const Lanes z_odd = __builtin_shufflevector(z, zero, 2, 10, 3, 11, 6, 14, 7, 15);
+    const Lanes c04 = __builtin_shufflevector(xy_even, z_even, 0, 1, 8, 9, 4, 5, 12, 13);
+    const Lanes c15 = __builtin_shufflevector(xy_even, z_even, 2, 3, 10, 11, 6, 7, 14, 15);
+    const Lanes c26 = __builtin_shufflevector(xy_odd, z_odd, 0, 1, 8, 9, 4, 5, 12, 13);
+    const Lanes c37 = __builtin_shufflevector(xy_odd, z_odd, 2, 3, 10, 11, 6, 7, 14, 15);
+    const auto low = [](Lanes v) { return __builtin_shufflevector(v, v, 0, 1, 2, 3); };
+    const auto high = [](Lanes v) { return __builtin_shufflevector(v, v, 4, 5, 6, 7); };
+    return {{low(c04), low(c15), low(c26), low(c37), high(c04), high(c15), high(c26), high(c37)}};
+}
+
+/// M_e R_e x. The matrix being symmetric, its rows serve as its columns.
+Columns product(const ElementMatrix& matrix, const std::int32_t* unknowns, const float* x) {
+    Lanes sum_x = {};
+    Lanes sum_y = {};
+    Lanes sum_z = {};
+#pragma GCC unroll 8
+    for (int j = 0; j < 8; ++j) {
+        Lanes row;
+        __builtin_memcpy(&row, matrix.entry[j], sizeof row);
+        const float* const of_unknown = x + std::int64_t{4} * unknowns[j];
+        sum_x += row * of_unknown[0];
+        sum_y += row * of_unknown[1];
+        sum_z += row * of_unknown[2];
+    }
+    return transposed(sum_x, sum_y, sum_z);
+}
+
+Column load(const float* from) {
+    Column column;
+    __builtin_memcpy(&column, __builtin_assume_aligned(from, 16), sizeof column);
+    return column;
+}
+
+void store(const Column& column, float* to) {
+    __builtin_memcpy(__builtin_assume_aligned(to, 16), &column, sizeof column);
+}
+
+}  // namespace
+
+namespace TRACKED_MCF_KERNELS {
+
+void add_element_products(const ElementRange& range, float factor, const float* x, float* y) {
+    for (std::int32_t element = range.begin; element < range.end; ++element) {
+        const std::int32_t* const unknowns = range.unknowns + std::int64_t{8} * element;
+        const Columns products = product(range.matrices[element], unknowns, x);
+        for (int i = 0; i < 8; ++i) {
+            float* const to = y + std::int64_t{4} * unknowns[i];
+            store(load(to) + factor * products.of_unknown[i], to);
+        }
+    }
+}
+
+double add_element_products_and_dot(const ElementRange& range, const float* x, float* y) {
+    double dot = 0;
+    for (std::int32_t element = range.begin; element < range.end; ++element) {
+        const std::int32_t* const unknowns = range.unknowns + std::int64_t{8} * element;
+        const Columns products = product(range.matrices[element], unknowns, x);
+        Column of_element = {};
+        for (int i = 0; i < 8; ++i) {
+            const std::int64_t place = std::int64_t{4} * unknowns[i];
+            store(load(y + place) + products.of_unknown[i], y + place);
+            of_element += load(x + place) * products.of_unknown[i];
+        }
+        dot += of_element[0] + of_element[1] + of_element[2];
+    }
+    return dot;
+}
+
+void add_element_vectors(const ElementVectors& range, float* y) {
+    for (std::int32_t element = range.begin; element < range.end; ++element) {
+        Lanes entry[3];
+        __builtin_memcpy(entry, range.vectors[element].entry, sizeof entry);
+        const Columns columns = transposed(entry[0], entry[1], entry[2]);
+        for (int i = 0; i < 8; ++i) {
+            float* const to = y + std::int64_t{4} * range.unknowns[std::int64_t{8} * element + i];
+            store(load(to) + columns.of_unknown[i], to);
+        }
+    }
+}
+
+}  // namespace TRACKED_MCF_KERNELS
+
+}  // namespace tracked_mcf

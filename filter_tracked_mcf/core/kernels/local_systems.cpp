@@ -1,0 +1,134 @@
+#include "filter_tracked_mcf/core/kernels/local_systems.h"
+
+#include "filter_tracked_mcf/core/kernels/coupling_places.h"
+#include "filter_tracked_mcf/core/kernels/kernel_table.h"
+
+namespace tracked_mcf {
+
+namespace {
+
+/// A pivot that elimination has brought below this fraction of the diagonal is rounding: its
+/// function depends on those before it, and is left to them.
+constexpr float kDependent = 1e-5F;
+
+/// The same entry of as many elements' matrices, which are inverted side by side.
+constexpr int kElements = 16;
+using Lanes = float __attribute__((vector_size(4 * kElements)));
+
+/// Their lower triangles.
+struct Triangles {
+    Lanes entry[8][8];
+};
+
+bool is_apart(std::uint32_t apart, int i, int j) {
+    return ((apart >> kCouplingPlaces.bit[i][j]) & 1U) != 0;
+}
+
+/// The lower triangle of the assembled matrix, restricted to the unknowns of one element.
+void restrict(const CoupledElements& range, std::int32_t element, const ElementMatrix& own,
+              const Couplings* couplings, Triangles& triangles, int lane) {
+    const std::int32_t* const unknowns = range.unknowns + std::int64_t{8} * element;
+#pragma GCC unroll 8
+    for (int j = 0; j < 8; ++j) {
+        const float* const sum = couplings[unknowns[j]].sum;
+#pragma GCC unroll 8
+        for (int i = j; i < 8; ++i) {
+            // Of two corners of a cell, the one numbered first comes first.
+            triangles.entry[i][j][lane] = sum[kCouplingPlaces.place[i][j]];
+        }
+    }
+    const std::uint32_t apart = range.apart[element];
+    if (apart == 0) return;
+    for (int i = 0; i < 8; ++i) {
+        for (int j = 0; j < i; ++j) {
+            if (is_apart(apart, i, j)) triangles.entry[i][j][lane] = own.entry[i][j];
+        }
+    }
+}
+
+/// All steps of Beaton's sweep operator (1964): each solves the k-th equation for the k-th unknown
+/// and inserts that in the others. The matrices, symmetric and positive semi-definite, become minus
+/// their inverses; a row that is left out becomes zero.
+void invert(Triangles& m) {
+    Lanes least[8];
+    for (int k = 0; k < 8; ++k) least[k] = kDependent * m.entry[k][k];
+#pragma GCC unroll 8
+    for (int k = 0; k < 8; ++k) {
+        const Lanes pivot = m.entry[k][k];
+        // What is not a number must not pass for a function to leave out.
+        const Lanes inverse = pivot <= least[k] ? Lanes{} : 1 / pivot;
+        Lanes column[8];
+        Lanes factor[8];
+#pragma GCC unroll 8
+        for (int i = 0; i < 8; ++i) {
+            column[i] = i > k ? m.entry[i][k] : m.entry[k][i];
+            factor[i] = column[i] * inverse;
+        }
+#pragma GCC unroll 8
+        for (int i = 0; i < 8; ++i) {
+#pragma GCC unroll 8
+            for (int j = 0; j <= i; ++j) {
+                if (i == k || j == k) continue;
+                m.entry[i][j] -= factor[i] * column[j];
+            }
+        }
+#pragma GCC unroll 8
+        for (int i = 0; i < 8; ++i) {
+            if (i > k) m.entry[i][k] = factor[i];
+            if (i < k) m.entry[k][i] = factor[i];
+        }
+        m.entry[k][k] = -inverse;
+    }
+}
+
+void store(const Triangles& triangles, int lane, float factor, ElementMatrix& inverse) {
+#pragma GCC unroll 8
+    for (int i = 0; i < 8; ++i) {
+#pragma GCC unroll 8
+        for (int j = 0; j < 8; ++j) {
+            inverse.entry[i][j] =
+                factor * (i > j ? triangles.entry[i][j][lane] : triangles.entry[j][i][lane]);
+        }
+    }
+}
+
+}  // namespace
+
+namespace TRACKED_MCF_KERNELS {
+
+void sum_couplings(const CoupledElements& range, const ElementMatrix* matrices,
+                   Couplings* couplings) {
+    for (std::int32_t element = range.begin; element < range.end; ++element) {
+        const std::int32_t* const unknowns = range.unknowns + std::int64_t{8} * element;
+        const std::uint32_t apart = range.apart[element];
+        const ElementMatrix& matrix = matrices[element];
+#pragma GCC unroll 8
+        for (int i = 0; i < 8; ++i) {
+            float* const sum = couplings[unknowns[i]].sum;
+#pragma GCC unroll 8
+            for (int j = i; j < 8; ++j) {
+                if (apart != 0 && is_apart(apart, i, j)) continue;
+                sum[kCouplingPlaces.place[i][j]] += matrix.entry[i][j];
+            }
+        }
+    }
+}
+
+void invert_locally(const CoupledElements& range, const ElementMatrix* matrices,
+                    const Couplings* couplings, const float* shares, ElementMatrix* inverses) {
+    Triangles triangles = {};
+    for (std::int32_t first = range.begin; first < range.end; first += kElements) {
+        const int count = range.end - first < kElements ? range.end - first : kElements;
+        for (int lane = 0; lane < count; ++lane) {
+            restrict(range, first + lane, matrices[first + lane], couplings, triangles, lane);
+        }
+        invert(triangles);
+        for (int lane = 0; lane < count; ++lane) {
+            store(triangles, lane, -shares[first + lane], inverses[first + lane]);
+        }
+    }
+}
+
+}  // namespace TRACKED_MCF_KERNELS
+
+}  // namespace tracked_mcf
