@@ -19,13 +19,27 @@ struct Polygon {
     int size = 0;
     std::array<Eigen::Vector3d, kCapacity> points;  ///< in order, grid coordinates
     /// Corner of the triangle (0 to 2) that point i is, or kNone for a cut.
-    std::array<int, kCapacity> corner;
+    std::array<std::int8_t, kCapacity> corner;
     /// Edge of the triangle (e from corner e to (e + 1) % 3) in which the side from point i to the
     /// next lies, or kNone for a side that a cut made.
-    std::array<int, kCapacity> edge;
+    std::array<std::int8_t, kCapacity> edge;
+
+    // There is much room and little in it: only what is used is copied.
+    Polygon() = default;
+    Polygon(const Polygon& other) { *this = other; }
+    Polygon& operator=(const Polygon& other);
+    ~Polygon() = default;
 
     void add(const Eigen::Vector3d& point, int from_corner, int on_edge);
 };
+
+inline void Polygon::add(const Eigen::Vector3d& point, int from_corner, int on_edge) {
+    if (size == kCapacity) return;  // a sliver of rounding error: its area is nothing
+    points[size] = point;
+    corner[size] = static_cast<std::int8_t>(from_corner);
+    edge[size] = static_cast<std::int8_t>(on_edge);
+    ++size;
+}
 
 /// The polygon that is all of a triangle with these corners.
 Polygon whole_triangle(const std::array<Eigen::Vector3d, 3>& corners);
@@ -34,6 +48,11 @@ Polygon whole_triangle(const std::array<Eigen::Vector3d, 3>& corners);
 /// included. Cut points lie exactly in their plane and are the same bits for the slabs on either
 /// side, so the parts of a polygon fit together without gaps or overlaps.
 Polygon clip_to_slab(const Polygon& polygon, int axis, std::int32_t coordinate);
+
+/// The same without a copy: `polygon` itself if it lies in the slab, else `room`, where the part is
+/// put. The two must be different.
+const Polygon& clip_to_slab(const Polygon& polygon, int axis, std::int32_t coordinate,
+                            Polygon& room);
 
 /// Slabs of `axis` that a polygon meets in more than a touch: first to last, both included and in
 /// [0, cells_per_side). A polygon that lies in a grid plane belongs to the slab above it.
@@ -52,15 +71,16 @@ template <class Visit>
 void for_each_fragment(const std::array<Eigen::Vector3d, 3>& corners, std::int32_t cells_per_side,
                        Visit&& visit) {
     const Polygon triangle = whole_triangle(corners);
+    Polygon room_x, room_xy, room_xyz;
     const SlabRange xs = slabs_met(triangle, 0, cells_per_side);
     for (std::int32_t x = xs.first; x <= xs.last; ++x) {
-        const Polygon in_x = clip_to_slab(triangle, 0, x);
+        const Polygon& in_x = clip_to_slab(triangle, 0, x, room_x);
         const SlabRange ys = slabs_met(in_x, 1, cells_per_side);
         for (std::int32_t y = ys.first; y <= ys.last; ++y) {
-            const Polygon in_xy = clip_to_slab(in_x, 1, y);
+            const Polygon& in_xy = clip_to_slab(in_x, 1, y, room_xy);
             const SlabRange zs = slabs_met(in_xy, 2, cells_per_side);
             for (std::int32_t z = zs.first; z <= zs.last; ++z) {
-                visit(Cell(x, y, z), clip_to_slab(in_xy, 2, z));
+                visit(Cell(x, y, z), clip_to_slab(in_xy, 2, z, room_xyz));
             }
         }
     }
