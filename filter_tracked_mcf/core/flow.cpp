@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "filter_tracked_mcf/core/automatic_depth.h"
 #include "filter_tracked_mcf/core/errors.h"
@@ -26,10 +27,15 @@ Domain domain_of(const TriangleMesh& mesh, const Selection& selection,
     return {mesh, selection, parameters.boundary};
 }
 
-Grid grid_for(const TriangleMesh& mesh, const Domain& domain, int depth) {
+/// The surface clipped to a grid of this depth; 0 is automatic.
+ClippedSurface clip(const TriangleMesh& mesh, const Domain& domain, int depth) {
     enter_setup_phase(SetupPhase::ChooseGrid);
     const Grid cube = enclosing_grid(mesh, 0);
-    return with_depth(cube, depth == 0 ? automatic_depth(domain.surface(), cube) : depth);
+    if (depth == 0) {
+        return clip_at_automatic_depth(domain.surface(), cube, count_vertices(domain.topology()));
+    }
+    enter_setup_phase(SetupPhase::ClipTriangles);
+    return clip_to_grid(domain.surface(), with_depth(cube, depth));
 }
 
 /// In grid units. Beyond, single precision loses the mass matrix beside δ S, and with it where a
@@ -73,14 +79,18 @@ Flow::Flow(const TriangleMesh& mesh, const FlowParameters& parameters, const Gri
     : Flow(mesh, domain_of(mesh, selection, parameters), parameters, grid) {}
 
 Flow::Flow(const TriangleMesh& mesh, const Domain& domain, const FlowParameters& parameters)
-    : Flow(mesh, domain, parameters, grid_for(mesh, domain, parameters.depth)) {}
+    : Flow(mesh, domain, parameters, clip(mesh, domain, parameters.depth)) {}
 
 Flow::Flow(const TriangleMesh& mesh, const Domain& domain, const FlowParameters& parameters,
            const Grid& grid)
+    : Flow(mesh, domain, parameters, clip_to_grid(domain.surface(), grid)) {}
+
+Flow::Flow(const TriangleMesh& mesh, const Domain& domain, const FlowParameters& parameters,
+           ClippedSurface surface)
     : parameters_(parameters),
-      elements_(
-          build_tracked_elements(domain, grid, parameters.cubature, parameters.separate_sheets)),
-      grid_step_size_(to_grid_units(parameters, mesh, grid)),
+      elements_(build_tracked_elements(domain, std::move(surface), parameters.cubature,
+                                       parameters.separate_sheets)),
+      grid_step_size_(to_grid_units(parameters, mesh, elements_.grid)),
       multigrid_(elements_, locked_unknowns(elements_, parameters.boundary),
                  cycle_parameters(parameters.solver)),
       stabilization_(elements_),

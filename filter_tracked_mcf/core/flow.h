@@ -73,6 +73,8 @@ private:
     Flow(const TriangleMesh& mesh, const Domain& domain, const FlowParameters& parameters);
     Flow(const TriangleMesh& mesh, const Domain& domain, const FlowParameters& parameters,
          const Grid& grid);
+    Flow(const TriangleMesh& mesh, const Domain& domain, const FlowParameters& parameters,
+         ClippedSurface surface);
 
     bool can_move() const;
     bool holds_curve() const { return parameters_.boundary != BoundaryCondition::LockedCells; }
