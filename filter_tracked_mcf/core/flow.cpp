@@ -94,13 +94,12 @@ Flow::Flow(const TriangleMesh& mesh, const Domain& domain, const FlowParameters&
       multigrid_(elements_, locked_unknowns(elements_, parameters.boundary),
                  cycle_parameters(parameters.solver)),
       stabilization_(elements_),
-      supports_(measure_supports(elements_)),
-      vanished_parts_(elements_),
       held_curve_(elements_, parameters.boundary_spring),
       displacement_(Coefficients::Zero(elements_.finest().unknown_count(), 3)) {
     fill_report(domain);
+    if (parameters.flow == FlowKind::Conformalized) vanished_parts_.emplace(elements_);
     // With the stabilisation, functions that hardly meet the surface follow those that do.
-    if (stabilization_of(parameters) == 0) freeze_negligible(supports_, multigrid_.frozen());
+    if (stabilization_of(parameters) == 0) freeze_negligible(supports(), multigrid_.frozen());
 }
 
 void Flow::fill_report(const Domain& domain) {
@@ -177,11 +176,16 @@ void Flow::assemble(StepReport& report) {
 
 void Flow::anchor_what_has_pinched() {
     if (parameters_.flow == FlowKind::Conformalized) {
-        vanished_parts_.freeze(systems_, kVanishedArea, multigrid_.frozen());
-    } else {
-        freeze_pinched(elements_, supports_, systems_, pinched_share(parameters_.solver),
+        vanished_parts_->freeze(systems_, kVanishedArea, multigrid_.frozen());
+    } else if (!systems_.collapses.empty()) {
+        freeze_pinched(elements_, supports(), systems_, pinched_share(parameters_.solver),
                        multigrid_.frozen());
     }
+}
+
+const Supports& Flow::supports() {
+    if (!supports_) supports_ = measure_supports(elements_);
+    return *supports_;
 }
 
 void Flow::solve(StepReport& report) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "filter_tracked_mcf/core/conjugate_gradients.h"
 #include "filter_tracked_mcf/core/domain.h"
 #include "filter_tracked_mcf/core/flow_parameters.h"
@@ -80,6 +82,7 @@ private:
     bool holds_curve() const { return parameters_.boundary != BoundaryCondition::LockedCells; }
     void assemble(StepReport& report);
     void anchor_what_has_pinched();
+    const Supports& supports();
     void solve(StepReport& report);
     void solve_by_conjugate_gradients(StepReport& report);
     void solve_by_cycles(StepReport& report);
@@ -91,8 +94,8 @@ private:
     double grid_step_size_;
     Multigrid multigrid_;
     Stabilization stabilization_;
-    Supports supports_;
-    VanishedParts vanished_parts_;
+    std::optional<Supports> supports_;             ///< measured when first needed
+    std::optional<VanishedParts> vanished_parts_;  ///< of a conformalized flow
     HeldCurve held_curve_;
     Coefficients displacement_;
     Coefficients previous_;  ///< displacement before the last step
