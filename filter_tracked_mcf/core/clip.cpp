@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
 
 namespace tracked_mcf {
 
@@ -10,19 +9,6 @@ namespace {
 
 /// Which side of the plane is kept.
 enum class Keep { Above, Below };
-
-struct Extent {
-    double smallest, largest;
-};
-
-Extent extent_along(const Polygon& polygon, int axis) {
-    Extent extent{polygon.points[0][axis], polygon.points[0][axis]};
-    for (int i = 1; i < polygon.size; ++i) {
-        extent.smallest = std::min(extent.smallest, polygon.points[i][axis]);
-        extent.largest = std::max(extent.largest, polygon.points[i][axis]);
-    }
-    return extent;
-}
 
 /// Where the segment between two points on either side crosses the plane. The point below always
 /// comes first, so that both sides of the plane, and both triangles of an edge, get the same bits.
@@ -78,9 +64,8 @@ Polygon whole_triangle(const std::array<Eigen::Vector3d, 3>& corners) {
     return polygon;
 }
 
-const Polygon& clip_to_slab(const Polygon& polygon, int axis, std::int32_t coordinate,
-                            Polygon& room) {
-    const Extent extent = extent_along(polygon, axis);
+const Polygon& clip_to_slab(const Polygon& polygon, const Extent& extent, int axis,
+                            std::int32_t coordinate, Polygon& room) {
     const double lower = coordinate;
     const double upper = coordinate + 1.0;
     if (extent.smallest >= lower && extent.largest <= upper) return polygon;
@@ -98,23 +83,15 @@ const Polygon& clip_to_slab(const Polygon& polygon, int axis, std::int32_t coord
 
 Polygon clip_to_slab(const Polygon& polygon, int axis, std::int32_t coordinate) {
     Polygon room;
-    return clip_to_slab(polygon, axis, coordinate, room);
-}
-
-SlabRange slabs_met(const Polygon& polygon, int axis, std::int32_t cells_per_side) {
-    const Extent extent = extent_along(polygon, axis);
-    const auto first = static_cast<std::int32_t>(std::floor(extent.smallest));
-    const auto last = static_cast<std::int32_t>(std::ceil(extent.largest)) - 1;
-    const std::int32_t top = cells_per_side - 1;
-    return {std::clamp(first, 0, top), std::clamp(std::max(first, last), 0, top)};
+    return clip_to_slab(polygon, extent_along(polygon, axis), axis, coordinate, room);
 }
 
 Polygon clip_to_cell(const std::array<Eigen::Vector3d, 3>& corners, const Cell& cell) {
     const Polygon triangle = whole_triangle(corners);
-    Polygon in_x, in_xy, in_xyz;
-    const Polygon& x = clip_to_slab(triangle, 0, cell[0], in_x);
-    const Polygon& xy = clip_to_slab(x, 1, cell[1], in_xy);
-    return clip_to_slab(xy, 2, cell[2], in_xyz);
+    Polygon room_x, room_xy, room_xyz;
+    const Polygon& in_x = clip_to_slab(triangle, extent_along(triangle, 0), 0, cell[0], room_x);
+    const Polygon& in_xy = clip_to_slab(in_x, extent_along(in_x, 1), 1, cell[1], room_xy);
+    return clip_to_slab(in_xy, extent_along(in_xy, 2), 2, cell[2], room_xyz);
 }
 
 Eigen::Vector3d twice_vector_area(const Polygon& polygon) {

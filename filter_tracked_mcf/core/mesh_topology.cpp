@@ -42,27 +42,29 @@ void sort_by_larger_vertex(RawVector<Side>& sides) {
 
 /// All sides, those of an edge behind each other, in the order of their vertices.
 RawVector<Side> sorted_sides(const RawVector<Triangle>& triangles) {
-    auto sides = parallel_collect<Side, RawVector<Side>>(
-        static_cast<std::int64_t>(triangles.size()),
-        [&](std::int64_t begin, std::int64_t end, std::vector<Side>& out) {
-            for (auto triangle = static_cast<std::int32_t>(begin); triangle < end; ++triangle) {
-                const Triangle& t = triangles[triangle];
-                for (int side = 0; side < 3; ++side) {
-                    const auto [a, b] = std::minmax({t[side], t[(side + 1) % 3]});
-                    if (a != b) out.push_back({a, b, triangle, side});
-                }
-            }
-        });
+    // Sides that join a vertex to itself are no edges: they come last.
+    constexpr std::int32_t none = std::numeric_limits<std::int32_t>::max();
+    RawVector<Side> sides(3 * triangles.size());
+    parallel_for_rows(static_cast<std::int64_t>(triangles.size()), [&](std::int32_t triangle) {
+        const Triangle& t = triangles[triangle];
+        for (int side = 0; side < 3; ++side) {
+            const auto [a, b] = std::minmax({t[side], t[(side + 1) % 3]});
+            sides[3 * std::int64_t{triangle} + side] = {a == b ? none : a, b, triangle, side};
+        }
+    });
     sort_by(sides, [](const Side& side) { return static_cast<std::uint64_t>(side.smaller); });
+    while (!sides.empty() && sides.back().smaller == none) sides.pop_back();
     sort_by_larger_vertex(sides);
     return sides;
 }
 
 void number_edges(MeshTopology& topology) {
     constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
-    topology.edges.assign(topology.triangles.size(),
-                          {MeshTopology::kNoEdge, MeshTopology::kNoEdge, MeshTopology::kNoEdge});
     const RawVector<Side> sides = sorted_sides(topology.triangles);
+    resize(topology.edges, static_cast<std::int64_t>(topology.triangles.size()));
+    parallel_for_rows(static_cast<std::int64_t>(topology.edges.size()), [&](std::int32_t triangle) {
+        topology.edges[triangle].fill(MeshTopology::kNoEdge);
+    });
     const auto count = static_cast<std::int64_t>(sides.size());
     const auto begins_edge = [&](std::int64_t i) {
         return i == 0 || !same_edge(sides[i], sides[i - 1]);
