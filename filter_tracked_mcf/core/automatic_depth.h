@@ -1,17 +1,19 @@
 #pragma once
 
+#include "filter_tracked_mcf/core/fragments.h"
 #include "filter_tracked_mcf/core/grid.h"
 #include "filter_tracked_mcf/core/triangle_mesh.h"
 
 namespace tracked_mcf {
 
-/// The depth of `cube` (of depth 0), 1 to kMaximumDepth, whose number of unknowns is nearest the
-/// number of the mesh's referenced vertices, coincident ones counting as one. The numbers are
+/// Clips the mesh to `cube` (of depth 0) at the depth, 1 to kMaximumDepth, whose number of unknowns
+/// is nearest `vertices`, the number of different vertices that triangles use. The numbers are
 /// counted, at the depths that can decide, given that each has at least twice as many as the one
-/// before. 1 if all triangles are degenerate.
-int automatic_depth(const TriangleMesh& mesh, const Grid& cube);
+/// before. The depth is 1 if all triangles are degenerate. Throws what clip_to_grid does.
+ClippedSurface clip_at_automatic_depth(const TriangleMesh& mesh, const Grid& cube,
+                                       std::int64_t vertices);
 
-/// The same in the mesh's own enclosing grid.
+/// That depth in the mesh's own enclosing grid, coincident vertices counting as one.
 int automatic_depth(const TriangleMesh& mesh);
 
 }  // namespace tracked_mcf

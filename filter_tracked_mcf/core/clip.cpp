@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
 
 namespace tracked_mcf {
 
@@ -10,19 +9,6 @@ namespace {
 
 /// Which side of the plane is kept.
 enum class Keep { Above, Below };
-
-struct Extent {
-    double smallest, largest;
-};
-
-Extent extent_along(const Polygon& polygon, int axis) {
-    Extent extent{polygon.points[0][axis], polygon.points[0][axis]};
-    for (int i = 1; i < polygon.size; ++i) {
-        extent.smallest = std::min(extent.smallest, polygon.points[i][axis]);
-        extent.largest = std::max(extent.largest, polygon.points[i][axis]);
-    }
-    return extent;
-}
 
 /// Where the segment between two points on either side crosses the plane. The point below always
 /// comes first, so that both sides of the plane, and both triangles of an edge, get the same bits.
@@ -37,16 +23,18 @@ Eigen::Vector3d cut(const Eigen::Vector3d& a, const Eigen::Vector3d& b, int axis
 
 /// Sutherland and Hodgman's step for one plane. Points in the plane are kept by both sides and
 /// never cut again.
-Polygon clip_to_half_space(const Polygon& polygon, int axis, double plane, Keep keep) {
+template <Keep keep>
+void clip_to_half_space(const Polygon& polygon, int axis, double plane, Polygon& kept) {
     const auto height = [&](int i) {
         const double above = polygon.points[i][axis] - plane;
         return keep == Keep::Above ? above : -above;
     };
-    Polygon kept;
+    kept.size = 0;
+    const double first = height(0);
+    double here = first;
     for (int i = 0; i < polygon.size; ++i) {
         const int next = i + 1 < polygon.size ? i + 1 : 0;
-        const double here = height(i);
-        const double there = height(next);
+        const double there = next == 0 ? first : height(next);
         if (here >= 0) {
             const bool leaves_along_plane = here == 0 && there < 0;
             kept.add(polygon.points[i], polygon.corner[i],
@@ -56,18 +44,18 @@ Polygon clip_to_half_space(const Polygon& polygon, int axis, double plane, Keep 
             kept.add(cut(polygon.points[i], polygon.points[next], axis, plane), Polygon::kNone,
                      here > 0 ? Polygon::kNone : polygon.edge[i]);
         }
+        here = there;
     }
-    return kept;
 }
 
 }  // namespace
 
-void Polygon::add(const Eigen::Vector3d& point, int from_corner, int on_edge) {
-    if (size == kCapacity) return;  // a sliver of rounding error: its area is nothing
-    points[size] = point;
-    corner[size] = from_corner;
-    edge[size] = on_edge;
-    ++size;
+Polygon& Polygon::operator=(const Polygon& other) {
+    size = other.size;
+    std::copy_n(other.points.begin(), size, points.begin());
+    corner = other.corner;
+    edge = other.edge;
+    return *this;
 }
 
 Polygon whole_triangle(const std::array<Eigen::Vector3d, 3>& corners) {
@@ -76,29 +64,34 @@ Polygon whole_triangle(const std::array<Eigen::Vector3d, 3>& corners) {
     return polygon;
 }
 
-Polygon clip_to_slab(const Polygon& polygon, int axis, std::int32_t coordinate) {
-    const Extent extent = extent_along(polygon, axis);
+const Polygon& clip_to_slab(const Polygon& polygon, const Extent& extent, int axis,
+                            std::int32_t coordinate, Polygon& room) {
     const double lower = coordinate;
     const double upper = coordinate + 1.0;
     if (extent.smallest >= lower && extent.largest <= upper) return polygon;
-    if (extent.largest <= upper) return clip_to_half_space(polygon, axis, lower, Keep::Above);
-    if (extent.smallest >= lower) return clip_to_half_space(polygon, axis, upper, Keep::Below);
-    return clip_to_half_space(clip_to_half_space(polygon, axis, lower, Keep::Above), axis, upper,
-                              Keep::Below);
+    if (extent.largest <= upper) {
+        clip_to_half_space<Keep::Above>(polygon, axis, lower, room);
+    } else if (extent.smallest >= lower) {
+        clip_to_half_space<Keep::Below>(polygon, axis, upper, room);
+    } else {
+        Polygon above;
+        clip_to_half_space<Keep::Above>(polygon, axis, lower, above);
+        clip_to_half_space<Keep::Below>(above, axis, upper, room);
+    }
+    return room;
 }
 
-SlabRange slabs_met(const Polygon& polygon, int axis, std::int32_t cells_per_side) {
-    const Extent extent = extent_along(polygon, axis);
-    const auto first = static_cast<std::int32_t>(std::floor(extent.smallest));
-    const auto last = static_cast<std::int32_t>(std::ceil(extent.largest)) - 1;
-    const std::int32_t top = cells_per_side - 1;
-    return {std::clamp(first, 0, top), std::clamp(std::max(first, last), 0, top)};
+Polygon clip_to_slab(const Polygon& polygon, int axis, std::int32_t coordinate) {
+    Polygon room;
+    return clip_to_slab(polygon, extent_along(polygon, axis), axis, coordinate, room);
 }
 
 Polygon clip_to_cell(const std::array<Eigen::Vector3d, 3>& corners, const Cell& cell) {
-    Polygon polygon = whole_triangle(corners);
-    for (int axis = 0; axis < 3; ++axis) polygon = clip_to_slab(polygon, axis, cell[axis]);
-    return polygon;
+    const Polygon triangle = whole_triangle(corners);
+    Polygon room_x, room_xy, room_xyz;
+    const Polygon& in_x = clip_to_slab(triangle, extent_along(triangle, 0), 0, cell[0], room_x);
+    const Polygon& in_xy = clip_to_slab(in_x, extent_along(in_x, 1), 1, cell[1], room_xy);
+    return clip_to_slab(in_xy, extent_along(in_xy, 2), 2, cell[2], room_xyz);
 }
 
 Eigen::Vector3d twice_vector_area(const Polygon& polygon) {

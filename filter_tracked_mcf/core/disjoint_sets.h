@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -9,8 +10,7 @@
 namespace tracked_mcf {
 
 /// The numbers below a count, at first each in a set of its own, as sets are united. A set is
-/// represented by its smallest member, so nothing depends on the order of the unions. Threads may
-/// unite at once within ranges of members that no set crosses.
+/// represented by its smallest member, so nothing depends on the order of the unions.
 class DisjointSets {
 public:
     explicit DisjointSets(std::int32_t count) {
@@ -18,6 +18,12 @@ public:
         serial_for(count, [&](std::int64_t member) {
             parents_.push_back(static_cast<std::int32_t>(member));
         });
+    }
+
+    /// Begins again with this count, a small one.
+    void reset(std::int32_t count) {
+        parents_.resize(static_cast<std::size_t>(count));
+        std::iota(parents_.begin(), parents_.end(), 0);
     }
 
     /// The smallest member of the set that holds `member`.
@@ -29,7 +35,8 @@ public:
         return member;
     }
 
-    void unite(std::int32_t a, std::int32_t b) {
+    /// Whether they were not in one set before.
+    bool unite(std::int32_t a, std::int32_t b) {
         a = find(a);
         b = find(b);
         if (a < b) {
@@ -37,6 +44,7 @@ public:
         } else {
             parents_[a] = b;
         }
+        return a != b;
     }
 
     /// find() of every member.

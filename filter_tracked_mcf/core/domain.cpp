@@ -2,12 +2,16 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <atomic>
+#include <cmath>
 #include <string>
 #include <utility>
 
 #include "filter_tracked_mcf/core/disjoint_sets.h"
 #include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/interruptible.h"
+#include "filter_tracked_mcf/core/marks.h"
+#include "filter_tracked_mcf/core/parallel.h"
 
 namespace tracked_mcf {
 
@@ -27,9 +31,9 @@ void check_selection(const TriangleMesh& mesh, const Selection& selection) {
 }
 
 /// The items whose flag is set, in their order.
-template <class Item>
-std::vector<Item> selected_of(const std::vector<Item>& items, const Selection& selection) {
-    std::vector<Item> selected;
+template <class Items>
+Items selected_of(const Items& items, const Selection& selection) {
+    Items selected;
     serial_for(static_cast<std::int64_t>(items.size()), [&](std::int64_t i) {
         if (selection[i] != 0) selected.push_back(items[i]);
     });
@@ -44,11 +48,26 @@ bool is_sliver(const TriangleMesh& mesh, const Triangle& t) {
         const Eigen::Vector3d edge = mesh.positions[t[(i + 1) % 3]] - mesh.positions[t[i]];
         longest = std::max(longest, edge.squaredNorm());
     }
-    return twice_vector_area(mesh, t).norm() <= thin * longest;
+    // Hardly any triangle is near the limit: most do without the root.
+    const double squared = twice_vector_area(mesh, t).squaredNorm();
+    const double limit = thin * longest;
+    if (squared > 2 * limit * limit) return false;
+    return std::sqrt(squared) <= limit;
 }
 
 bool bit(std::uint8_t mask, int i) {
     return ((mask >> i) & 1) != 0;
+}
+
+std::int64_t count_bits(const std::vector<std::uint8_t>& masks) {
+    const auto size = static_cast<std::int64_t>(masks.size());
+    return parallel_sum(size, std::int64_t{0}, [&](std::int64_t begin, std::int64_t end) {
+        std::int64_t count = 0;
+        for (std::int64_t i = begin; i < end; ++i) {
+            for (int side = 0; side < 3; ++side) count += bit(masks[i], side) ? 1 : 0;
+        }
+        return count;
+    });
 }
 
 }  // namespace
@@ -68,9 +87,7 @@ Domain::Domain(const TriangleMesh& mesh, const Selection& selection, BoundaryCon
     topology_ = topology_of(mesh);
     std::vector<std::uint8_t> boundary_sides = boundary_edges(topology_);
     if (!selection.empty()) boundary_sides = selected_of(boundary_sides, selection);
-    for_each_item(boundary_sides, [&](std::uint8_t mask) {
-        for (int side = 0; side < 3; ++side) boundary_edge_count_ += bit(mask, side) ? 1 : 0;
-    });
+    boundary_edge_count_ = count_bits(boundary_sides);
     held_edges_ = std::move(boundary_sides);
     if (boundary == BoundaryCondition::Free) held_edges_.assign(held_edges_.size(), 0);
 
@@ -118,9 +135,13 @@ void Domain::hold_seam(const MeshTopology& whole, const Selection& selection) {
 }
 
 void Domain::hold_across_slivers() {
-    for_each_item(surface().triangles, [&](const Triangle& triangle) {
-        slivers_.push_back(is_sliver(surface(), triangle) ? 1 : 0);
+    slivers_.resize(surface().triangles.size());
+    std::atomic<bool> any{false};
+    parallel_for_rows(static_cast<std::int64_t>(slivers_.size()), [&](std::int32_t triangle) {
+        slivers_[triangle] = is_sliver(surface(), surface().triangles[triangle]) ? 1 : 0;
+        if (slivers_[triangle] != 0) any = true;
     });
+    if (!any) return;
     // Edges that slivers join: if one is held, all are.
     DisjointSets joined(topology_.edge_count);
     serial_for(static_cast<std::int64_t>(slivers_.size()), [&](std::int64_t triangle) {
@@ -144,6 +165,7 @@ void Domain::hold_across_slivers() {
 
 /// What slivers hold, their neighbours hold as well; and they know no conormal.
 void Domain::leave_slivers_out() {
+    if (std::none_of(slivers_.begin(), slivers_.end(), [](auto flag) { return flag != 0; })) return;
     std::vector<std::uint8_t> held_by_others(static_cast<std::size_t>(topology_.edge_count), 0);
     for_each_side([&](std::int64_t triangle, int side, std::int32_t edge) {
         if (bit(held_edges_[triangle], side) && slivers_[triangle] == 0) held_by_others[edge] = 1;
@@ -159,21 +181,22 @@ void Domain::leave_slivers_out() {
 
 void Domain::hold_vertices(const MeshTopology& whole, const Selection& selection) {
     const std::vector<std::int32_t>& welded = topology_.welded;
-    std::vector<std::uint8_t> held(welded.size(), 0);
-    serial_for(static_cast<std::int64_t>(held_edges_.size()), [&](std::int64_t triangle) {
+    const auto count = static_cast<std::int64_t>(welded.size());
+    Marks held(count);
+    parallel_for_rows(static_cast<std::int64_t>(held_edges_.size()), [&](std::int32_t triangle) {
         for (int side = 0; side < 3; ++side) {
             if (!bit(held_edges_[triangle], side)) continue;
-            held[topology_.triangles[triangle][side]] = 1;
-            held[topology_.triangles[triangle][(side + 1) % 3]] = 1;
+            held.set(topology_.triangles[triangle][side]);
+            held.set(topology_.triangles[triangle][(side + 1) % 3]);
         }
     });
-    serial_for(static_cast<std::int64_t>(selection.size()), [&](std::int64_t triangle) {
+    parallel_for_rows(static_cast<std::int64_t>(selection.size()), [&](std::int32_t triangle) {
         if (selection[triangle] != 0) return;
-        for (const std::int32_t vertex : whole.triangles[triangle]) held[vertex] = 1;
+        for (const std::int32_t vertex : whole.triangles[triangle]) held.set(vertex);
     });
-    held_vertices_.resize(held.size());
-    serial_for(static_cast<std::int64_t>(held.size()),
-               [&](std::int64_t vertex) { held_vertices_[vertex] = held[welded[vertex]]; });
+    held_vertices_.resize(welded.size());
+    parallel_for_rows(
+        count, [&](std::int32_t vertex) { held_vertices_[vertex] = held[welded[vertex]] ? 1 : 0; });
 }
 
 bool Domain::holds_anything() const {

@@ -1,7 +1,5 @@
 #include "filter_tracked_mcf/core/fan.h"
 
-#include <Eigen/Geometry>
-
 namespace tracked_mcf {
 
 namespace {
@@ -27,10 +25,6 @@ int fan_apex(const Polygon& polygon, const std::array<Eigen::Vector3d, 3>& trian
         if (nearer(polygon.points[i], polygon.points[apex], triangle)) apex = i;
     }
     return apex;
-}
-
-double triangle_area(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
-    return 0.5 * (b - a).cross(c - a).norm();
 }
 
 }  // namespace tracked_mcf

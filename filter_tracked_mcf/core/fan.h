@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <array>
 #include <vector>
 
@@ -27,7 +28,10 @@ void for_each_node(const Polygon& polygon, const std::array<Eigen::Vector3d, 3>&
 int fan_apex(const Polygon& polygon, const std::array<Eigen::Vector3d, 3>& triangle);
 
 /// Area of a triangle.
-double triangle_area(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c);
+inline double triangle_area(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                            const Eigen::Vector3d& c) {
+    return 0.5 * (b - a).cross(c - a).norm();
+}
 
 template <class Visit>
 void for_each_node(const Polygon& polygon, const std::array<Eigen::Vector3d, 3>& triangle,

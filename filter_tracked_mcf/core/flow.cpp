@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "filter_tracked_mcf/core/automatic_depth.h"
 #include "filter_tracked_mcf/core/errors.h"
@@ -25,10 +26,15 @@ Domain domain_of(const TriangleMesh& mesh, const Selection& selection,
     return {mesh, selection, parameters.boundary};
 }
 
-Grid grid_for(const TriangleMesh& mesh, const Domain& domain, int depth) {
+/// The surface clipped to a grid of this depth; 0 is automatic.
+ClippedSurface clip(const TriangleMesh& mesh, const Domain& domain, int depth) {
     enter_setup_phase(SetupPhase::ChooseGrid);
     const Grid cube = enclosing_grid(mesh, 0);
-    return with_depth(cube, depth == 0 ? automatic_depth(domain.surface(), cube) : depth);
+    if (depth == 0) {
+        return clip_at_automatic_depth(domain.surface(), cube, count_vertices(domain.topology()));
+    }
+    enter_setup_phase(SetupPhase::ClipTriangles);
+    return clip_to_grid(domain.surface(), with_depth(cube, depth));
 }
 
 /// In grid units. Beyond, single precision loses the mass matrix beside δ S, and with it where a
@@ -67,23 +73,26 @@ Flow::Flow(const TriangleMesh& mesh, const FlowParameters& parameters, const Gri
     : Flow(mesh, domain_of(mesh, selection, parameters), parameters, grid) {}
 
 Flow::Flow(const TriangleMesh& mesh, const Domain& domain, const FlowParameters& parameters)
-    : Flow(mesh, domain, parameters, grid_for(mesh, domain, parameters.depth)) {}
+    : Flow(mesh, domain, parameters, clip(mesh, domain, parameters.depth)) {}
 
 Flow::Flow(const TriangleMesh& mesh, const Domain& domain, const FlowParameters& parameters,
            const Grid& grid)
+    : Flow(mesh, domain, parameters, clip_to_grid(domain.surface(), grid)) {}
+
+Flow::Flow(const TriangleMesh& mesh, const Domain& domain, const FlowParameters& parameters,
+           ClippedSurface surface)
     : parameters_(parameters),
-      elements_(
-          build_tracked_elements(domain, grid, parameters.cubature, parameters.separate_sheets)),
-      grid_step_size_(to_grid_units(parameters, mesh, grid)),
+      elements_(build_tracked_elements(domain, std::move(surface), parameters.cubature,
+                                       parameters.separate_sheets)),
+      grid_step_size_(to_grid_units(parameters, mesh, elements_.grid)),
       solver_(solver_for(elements_, parameters)),
       stabilization_(elements_),
-      supports_(measure_supports(elements_)),
-      vanished_parts_(elements_),
       held_curve_(elements_, parameters.boundary_spring),
       displacement_(Coefficients::Zero(elements_.finest().unknown_count(), 3)) {
     fill_report(domain);
+    if (parameters.flow == FlowKind::Conformalized) vanished_parts_.emplace(elements_);
     // With the stabilisation, functions that hardly meet the surface follow those that do.
-    if (stabilization_of(parameters) == 0) freeze_negligible(supports_, solver_->frozen());
+    if (stabilization_of(parameters) == 0) freeze_negligible(supports(), solver_->frozen());
 }
 
 void Flow::fill_report(const Domain& domain) {
@@ -156,11 +165,16 @@ void Flow::assemble(StepReport& report) {
 
 void Flow::anchor_what_has_pinched() {
     if (parameters_.flow == FlowKind::Conformalized) {
-        vanished_parts_.freeze(systems_, kVanishedArea, solver_->frozen());
-    } else {
-        freeze_pinched(elements_, supports_, systems_, pinched_share(parameters_.solver),
+        vanished_parts_->freeze(systems_, kVanishedArea, solver_->frozen());
+    } else if (!systems_.collapses.empty()) {
+        freeze_pinched(elements_, supports(), systems_, pinched_share(parameters_.solver),
                        solver_->frozen());
     }
+}
+
+const Supports& Flow::supports() {
+    if (!supports_) supports_ = measure_supports(elements_);
+    return *supports_;
 }
 
 void Flow::solve(StepReport& report) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "filter_tracked_mcf/core/domain.h"
 #include "filter_tracked_mcf/core/flow_parameters.h"
@@ -74,11 +75,14 @@ private:
     Flow(const TriangleMesh& mesh, const Domain& domain, const FlowParameters& parameters);
     Flow(const TriangleMesh& mesh, const Domain& domain, const FlowParameters& parameters,
          const Grid& grid);
+    Flow(const TriangleMesh& mesh, const Domain& domain, const FlowParameters& parameters,
+         ClippedSurface surface);
 
     bool can_move() const;
     bool holds_curve() const { return parameters_.boundary != BoundaryCondition::LockedCells; }
     void assemble(StepReport& report);
     void anchor_what_has_pinched();
+    const Supports& supports();
     void solve(StepReport& report);
     void fill_report(const Domain& domain);
 
@@ -88,8 +92,8 @@ private:
     double grid_step_size_;
     std::unique_ptr<StepSolver> solver_;
     Stabilization stabilization_;
-    Supports supports_;
-    VanishedParts vanished_parts_;
+    std::optional<Supports> supports_;             ///< measured when first needed
+    std::optional<VanishedParts> vanished_parts_;  ///< of a conformalized flow
     HeldCurve held_curve_;
     Coefficients displacement_;
     Coefficients previous_;  ///< displacement before the last step

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "filter_tracked_mcf/core/errors.h"
-#include "filter_tracked_mcf/core/interruptible.h"
+#include "filter_tracked_mcf/core/parallel.h"
 
 namespace tracked_mcf {
 
@@ -21,11 +21,17 @@ constexpr double kLargestSide = 1e60;
 constexpr double kFarthest = 1e12;
 
 Eigen::AlignedBox3d bounding_box(const TriangleMesh& mesh) {
-    Eigen::AlignedBox3d box;
-    for_each_item(mesh.triangles, [&](const Triangle& triangle) {
-        for (const std::int32_t vertex : triangle) box.extend(mesh.positions[vertex]);
+    const auto count = static_cast<std::int64_t>(mesh.triangles.size());
+    std::vector<Eigen::AlignedBox3d> boxes(static_cast<std::size_t>(block_count(count)));
+    parallel_for_blocks(count, [&](std::int64_t begin, std::int64_t end) {
+        Eigen::AlignedBox3d& box = boxes[begin / kBlockSize];
+        for (std::int64_t i = begin; i < end; ++i) {
+            for (const std::int32_t vertex : mesh.triangles[i]) box.extend(mesh.positions[vertex]);
+        }
     });
-    return box;
+    Eigen::AlignedBox3d all;
+    for (const Eigen::AlignedBox3d& box : boxes) all.extend(box);
+    return all;
 }
 
 double checked_longest_side(const Eigen::AlignedBox3d& box) {

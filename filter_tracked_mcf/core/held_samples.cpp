@@ -38,7 +38,7 @@ void add_segment(std::int32_t element, const Eigen::Vector3d& from, const Eigen:
 }  // namespace
 
 std::vector<HeldSample> sample_held_edges(const TrackedElements& elements, const GridMesh& mesh,
-                                          const std::vector<FragmentEntry>& fragments,
+                                          const RawVector<FragmentEntry>& fragments,
                                           const std::vector<std::uint8_t>& held_edges) {
     const auto sample_element = [&](std::int32_t element, std::vector<HeldSample>& out) {
         const Cell cell = cell_at(elements.finest().cells[element]);
@@ -46,7 +46,7 @@ std::vector<HeldSample> sample_held_edges(const TrackedElements& elements, const
         for (std::int64_t i = elements.fragment_begin[element];
              i < elements.fragment_begin[element + 1]; ++i) {
             const FragmentEntry& entry = fragments[i];
-            const int held = entry.edges & held_edges[entry.triangle];
+            const std::uint64_t held = entry.edges & held_edges[entry.triangle];
             if (held == 0 || entry.split_triangles == 0) continue;
             const auto corners = mesh.corners(entry.triangle);
             const Eigen::Vector3d normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);

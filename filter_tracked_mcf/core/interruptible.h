@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "filter_tracked_mcf/core/progress_meter.h"
+#include "filter_tracked_mcf/core/raw_vector.h"
 
 /// Serial work on as many items as a mesh has, during which progress is told and which can be
 /// stopped (progress_meter.h). Parallel loops are so by themselves (parallel.h).
@@ -31,8 +32,8 @@ void serial_for(std::int64_t count, const Body& body) {
 }
 
 /// Calls body(item) for every item of a vector, in order.
-template <class Item, class Body>
-void for_each_item(const std::vector<Item>& items, const Body& body) {
+template <class Item, class Allocator, class Body>
+void for_each_item(const std::vector<Item, Allocator>& items, const Body& body) {
     serial_for(static_cast<std::int64_t>(items.size()), [&](std::int64_t i) { body(items[i]); });
 }
 
@@ -53,6 +54,10 @@ private:
 
 /// items.resize(size): fresh memory is mapped and cleared as it is touched, which takes as long as
 /// a loop over it.
+template <class Item>
+void resize(RawVector<Item>& items, std::int64_t size) {
+    items.resize(static_cast<std::size_t>(size));  // neither mapped nor cleared yet
+}
 template <class Item>
 void resize(std::vector<Item>& items, std::int64_t size) {
     constexpr std::int64_t bytes_per_poll = 1 << 20;

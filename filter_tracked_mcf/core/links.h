@@ -1,7 +1,8 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
+
+#include "filter_tracked_mcf/core/raw_vector.h"
 
 namespace tracked_mcf {
 
@@ -11,7 +12,7 @@ struct Link {
     std::int32_t first, second;
 };
 
-/// Sorts links between `element_count` elements by first, then second, and keeps one of each.
-void sort_and_remove_copies(std::vector<Link>& links, std::int32_t element_count);
+/// Sorts links by first, then second, and keeps one of each.
+void sort_and_remove_copies(RawVector<Link>& links);
 
 }  // namespace tracked_mcf

@@ -1,10 +1,12 @@
 #include "filter_tracked_mcf/core/mesh_topology.h"
 
 #include <algorithm>
+#include <atomic>
 #include <limits>
 
 #include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/interruptible.h"
+#include "filter_tracked_mcf/core/marks.h"
 #include "filter_tracked_mcf/core/parallel.h"
 #include "filter_tracked_mcf/core/sorting.h"
 
@@ -12,42 +14,74 @@ namespace tracked_mcf {
 
 namespace {
 
-/// The sides of all triangles that join two different vertices, in the order of these: the key is
-/// made of the vertices, the value 3 * triangle + side.
-std::vector<KeyValue> sorted_sides(const MeshTopology& topology) {
-    const auto triangle_count = static_cast<std::int64_t>(topology.triangles.size());
-    const std::uint64_t vertex_count = topology.welded.size();
-    auto sides = parallel_collect<KeyValue>(
-        triangle_count, [&](std::int64_t begin, std::int64_t end, std::vector<KeyValue>& out) {
-            for (std::int64_t triangle = begin; triangle < end; ++triangle) {
-                const Triangle& t = topology.triangles[triangle];
-                for (int side = 0; side < 3; ++side) {
-                    const auto [a, b] = std::minmax({t[side], t[(side + 1) % 3]});
-                    if (a == b) continue;
-                    out.push_back({static_cast<std::uint64_t>(a) * vertex_count +
-                                       static_cast<std::uint64_t>(b),
-                                   static_cast<std::uint64_t>(3 * triangle + side)});
-                }
-            }
-        });
-    sort_by_key(sides);
+/// A side of a triangle that joins two different vertices.
+struct Side {
+    std::int32_t smaller, larger;  ///< vertex
+    std::int32_t triangle;
+    std::int32_t number;  ///< which of the triangle's sides
+};
+
+bool same_edge(const Side& a, const Side& b) {
+    return a.smaller == b.smaller && a.larger == b.larger;
+}
+
+/// Sorts the sides that have the same smaller vertex, a few, by the larger one.
+void sort_by_larger_vertex(RawVector<Side>& sides) {
+    const auto differs = [&](std::int64_t i) {
+        return i == 0 || sides[i].smaller != sides[i - 1].smaller;
+    };
+    parallel_for_runs(static_cast<std::int64_t>(sides.size()), differs,
+                      [&](std::int64_t begin, std::int64_t end) {
+                          for_each_run(begin, end, differs, [&](auto first, auto last) {
+                              std::sort(
+                                  sides.begin() + first, sides.begin() + last,
+                                  [](const Side& a, const Side& b) { return a.larger < b.larger; });
+                          });
+                      });
+}
+
+/// All sides, those of an edge behind each other, in the order of their vertices.
+RawVector<Side> sorted_sides(const RawVector<Triangle>& triangles) {
+    // Sides that join a vertex to itself are no edges: they come last.
+    constexpr std::int32_t none = std::numeric_limits<std::int32_t>::max();
+    RawVector<Side> sides(3 * triangles.size());
+    parallel_for_rows(static_cast<std::int64_t>(triangles.size()), [&](std::int32_t triangle) {
+        const Triangle& t = triangles[triangle];
+        for (int side = 0; side < 3; ++side) {
+            const auto [a, b] = std::minmax({t[side], t[(side + 1) % 3]});
+            sides[3 * std::int64_t{triangle} + side] = {a == b ? none : a, b, triangle, side};
+        }
+    });
+    sort_by(sides, [](const Side& side) { return static_cast<std::uint64_t>(side.smaller); });
+    while (!sides.empty() && sides.back().smaller == none) sides.pop_back();
+    sort_by_larger_vertex(sides);
     return sides;
 }
 
 void number_edges(MeshTopology& topology) {
-    constexpr std::int32_t most = std::numeric_limits<std::int32_t>::max();
-    topology.edges.assign(topology.triangles.size(),
-                          {MeshTopology::kNoEdge, MeshTopology::kNoEdge, MeshTopology::kNoEdge});
-    const std::vector<KeyValue> sides = sorted_sides(topology);
-    serial_for(static_cast<std::int64_t>(sides.size()), [&](std::int64_t i) {
-        if (i == 0 || sides[i].key != sides[i - 1].key) {
-            if (topology.edge_count == most) {
-                throw InvalidMesh("The mesh has more than 2147483647 edges; simplify it first.");
-            }
-            ++topology.edge_count;
-        }
-        topology.edges[sides[i].value / 3][sides[i].value % 3] = topology.edge_count - 1;
+    constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
+    const RawVector<Side> sides = sorted_sides(topology.triangles);
+    resize(topology.edges, static_cast<std::int64_t>(topology.triangles.size()));
+    parallel_for_rows(static_cast<std::int64_t>(topology.edges.size()), [&](std::int32_t triangle) {
+        topology.edges[triangle].fill(MeshTopology::kNoEdge);
     });
+    const auto count = static_cast<std::int64_t>(sides.size());
+    const auto begins_edge = [&](std::int64_t i) {
+        return i == 0 || !same_edge(sides[i], sides[i - 1]);
+    };
+    const std::int64_t edge_count = number_blocks(
+        count, begins_edge, [&](std::int64_t begin, std::int64_t end, std::int64_t edges_before) {
+            std::int64_t edge = edges_before - 1;
+            for (std::int64_t i = begin; i < end; ++i) {
+                edge += begins_edge(i) ? 1 : 0;
+                topology.edges[sides[i].triangle][sides[i].number] =
+                    static_cast<std::int32_t>(edge);
+            }
+        });
+    if (edge_count > most) {
+        throw InvalidMesh("The mesh has more than 2147483647 edges; simplify it first.");
+    }
+    topology.edge_count = static_cast<std::int32_t>(edge_count);
 }
 
 bool has_equal_vertices(const Triangle& t) {
@@ -59,37 +93,51 @@ bool has_equal_vertices(const Triangle& t) {
 MeshTopology topology_of(const TriangleMesh& mesh) {
     MeshTopology topology;
     topology.welded = weld_coincident_vertices(mesh);
-    topology.triangles.reserve(mesh.triangles.size());
-    for_each_item(mesh.triangles, [&](const Triangle& t) {
-        const std::vector<std::int32_t>& welded = topology.welded;
-        topology.triangles.push_back({welded[t[0]], welded[t[1]], welded[t[2]]});
+    const auto count = static_cast<std::int64_t>(mesh.triangles.size());
+    resize(topology.triangles, count);
+    parallel_for_rows(count, [&](std::int32_t triangle) {
+        for (int i = 0; i < 3; ++i) {
+            topology.triangles[triangle][i] = topology.welded[mesh.triangles[triangle][i]];
+        }
     });
     number_edges(topology);
     return topology;
 }
 
+std::int64_t count_vertices(const MeshTopology& topology) {
+    Marks used(static_cast<std::int64_t>(topology.welded.size()));
+    parallel_for_rows(static_cast<std::int64_t>(topology.triangles.size()),
+                      [&](std::int32_t triangle) {
+                          for (const std::int32_t vertex : topology.triangles[triangle])
+                              used.set(vertex);
+                      });
+    return used.count();
+}
+
 std::vector<std::uint8_t> boundary_edges(const MeshTopology& topology) {
-    // Of every edge the third vertex of its triangles, as long as they agree on it.
-    constexpr std::int32_t none_yet = -1;
-    constexpr std::int32_t several = -2;
-    std::vector<std::int32_t> opposite(static_cast<std::size_t>(topology.edge_count), none_yet);
     const auto triangle_count = static_cast<std::int64_t>(topology.triangles.size());
-    serial_for(triangle_count, [&](std::int64_t triangle) {
-        const Triangle& t = topology.triangles[triangle];
-        if (has_equal_vertices(t)) return;
-        for (int side = 0; side < 3; ++side) {
-            std::int32_t& third = opposite[topology.edges[triangle][side]];
-            const std::int32_t here = t[(side + 2) % 3];
-            third = third == none_yet || third == here ? here : several;
-        }
+    const auto for_each_side = [&](const auto& visit) {
+        parallel_for_rows(triangle_count, [&](std::int32_t triangle) {
+            const Triangle& t = topology.triangles[triangle];
+            if (has_equal_vertices(t)) return;
+            for (int side = 0; side < 3; ++side) {
+                visit(triangle, side, topology.edges[triangle][side], t[(side + 2) % 3]);
+            }
+        });
+    };
+    // Of every edge the third vertex of one of its triangles, whichever; then, whether others have
+    // another.
+    std::vector<std::atomic<std::int32_t>> opposite(static_cast<std::size_t>(topology.edge_count));
+    for_each_side([&](std::int32_t, int, std::int32_t edge, std::int32_t third) {
+        opposite[edge].store(third, std::memory_order_relaxed);
+    });
+    Marks inside(topology.edge_count);
+    for_each_side([&](std::int32_t, int, std::int32_t edge, std::int32_t third) {
+        if (opposite[edge].load(std::memory_order_relaxed) != third) inside.set(edge);
     });
     std::vector<std::uint8_t> boundary(topology.triangles.size(), 0);
-    serial_for(triangle_count, [&](std::int64_t triangle) {
-        if (has_equal_vertices(topology.triangles[triangle])) return;
-        for (int side = 0; side < 3; ++side) {
-            if (opposite[topology.edges[triangle][side]] == several) continue;
-            boundary[triangle] |= static_cast<std::uint8_t>(1 << side);
-        }
+    for_each_side([&](std::int32_t triangle, int side, std::int32_t edge, std::int32_t) {
+        if (!inside[edge]) boundary[triangle] |= static_cast<std::uint8_t>(1 << side);
     });
     return boundary;
 }

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "filter_tracked_mcf/core/bspline.h"
-#include "filter_tracked_mcf/core/disjoint_sets.h"
+#include "filter_tracked_mcf/core/concurrent_sets.h"
 #include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/interruptible.h"
 #include "filter_tracked_mcf/core/parallel.h"
@@ -14,19 +14,6 @@
 namespace tracked_mcf {
 
 namespace {
-
-/// Cells of the next coarser level, and of every cell its place among them.
-std::vector<MortonCode> coarsen(const std::vector<MortonCode>& cells,
-                                std::vector<std::int32_t>& parents) {
-    std::vector<MortonCode> coarse;
-    parents.resize(cells.size());
-    serial_for(static_cast<std::int64_t>(cells.size()), [&](std::int64_t element) {
-        const MortonCode parent = parent_of(cells[element]);
-        if (coarse.empty() || coarse.back() != parent) coarse.push_back(parent);
-        parents[element] = static_cast<std::int32_t>(coarse.size()) - 1;
-    });
-    return coarse;
-}
 
 void check_size(const Level& level) {
     // Corners of elements, eight each, are numbered with 32 bits.
@@ -37,37 +24,53 @@ void check_size(const Level& level) {
     }
 }
 
-/// Every element's corners, each with the place that its unknown's number has to go to.
-std::vector<KeyValue> list_corners(const Level& level) {
-    std::vector<KeyValue> corners;
-    resize(corners, 8 * std::int64_t{level.element_count()});
-    parallel_for_blocks(level.element_count(), [&](std::int64_t begin, std::int64_t end) {
-        for (std::int64_t element = begin; element < end; ++element) {
-            const Cell cell = cell_at(level.cells[element]);
-            for (int corner = 0; corner < 8; ++corner) {
-                const auto place = static_cast<std::uint64_t>(8 * element + corner);
-                corners[place] = {morton_code(corner_of(cell, corner)), place};
-            }
-        }
-    });
-    return corners;
+std::int64_t place_count(const Level& level) {
+    return 8 * std::int64_t{level.element_count()};
+}
+
+/// A corner of an element: what unknowns are sorted by, and the place that the number has to go to.
+KeyValue corner_key(const Cell& cell, std::int64_t place) {
+    return {morton_code(corner_of(cell, static_cast<int>(place % 8))),
+            static_cast<std::uint64_t>(place)};
+}
+
+/// The corners in `classes` become unknowns, in the order of their keys; those with the same key
+/// one, or, if there are `several` unknowns at a corner, one each.
+void number_unknowns(Level& level, RawVector<KeyValue>& classes, bool several) {
+    sort_by_key(classes);
+    const auto begins = [&](std::int64_t i) {
+        return several || i == 0 || classes[i].key != classes[i - 1].key;
+    };
+    resize(level.unknowns, level.element_count());
+    level.number_of_unknowns = static_cast<std::int32_t>(
+        number_blocks(static_cast<std::int64_t>(classes.size()), begins,
+                      [&](std::int64_t begin, std::int64_t end, std::int64_t unknown) {
+                          --unknown;
+                          for (std::int64_t i = begin; i < end; ++i) {
+                              unknown += begins(i) ? 1 : 0;
+                              level.unknowns[classes[i].value / 8][classes[i].value % 8] =
+                                  static_cast<std::int32_t>(unknown);
+                          }
+                      }));
 }
 
 /// One unknown for every corner.
 void number_unknowns(Level& level) {
     check_size(level);
-    std::vector<KeyValue> corners = list_corners(level);
-    sort_by_key(corners);
-    resize(level.unknowns, level.element_count());
-    serial_for(static_cast<std::int64_t>(corners.size()), [&](std::int64_t i) {
-        if (i == 0 || corners[i].key != corners[i - 1].key) ++level.number_of_unknowns;
-        level.unknowns[corners[i].value / 8][corners[i].value % 8] = level.unknown_count() - 1;
+    RawVector<KeyValue> corners(static_cast<std::size_t>(place_count(level)));
+    parallel_for_rows(level.element_count(), [&](std::int32_t element) {
+        const Cell cell = cell_at(level.cells[element]);
+        for (int corner = 0; corner < 8; ++corner) {
+            const std::int64_t place = 8 * std::int64_t{element} + corner;
+            corners[place] = corner_key(cell, place);
+        }
     });
+    number_unknowns(level, corners, false);
 }
 
 /// Unites the elements' corners, numbered 8 * element + corner, at all corners that the cells of
 /// two linked elements share.
-void unite_shared_corners(const Link& link, const Level& level, DisjointSets& corners) {
+void unite_shared_corners(const Link& link, const Level& level, ConcurrentSets& corners) {
     const Cell offset = cell_at(level.cells[link.second]) - cell_at(level.cells[link.first]);
     int of_first = 0;   // the bits that a shared corner has in the first cell,
     int of_second = 0;  // in the second,
@@ -85,64 +88,92 @@ void unite_shared_corners(const Link& link, const Level& level, DisjointSets& co
 }
 
 /// One unknown for every class of elements' corners that links unite.
-void number_unknowns(Level& level, const std::vector<Link>& links) {
+void number_unknowns(Level& level, const RawVector<Link>& links) {
     check_size(level);
-    DisjointSets corners(8 * level.element_count());
-    for_each_item(links, [&](const Link& link) { unite_shared_corners(link, level, corners); });
-    const std::vector<std::int32_t> class_of = std::move(corners).representatives();
+    ConcurrentSets corners(8 * level.element_count());
+    parallel_for_items(links,
+                       [&](const Link& link) { unite_shared_corners(link, level, corners); });
 
-    std::vector<KeyValue> classes;
-    const std::int64_t place_count = 8 * std::int64_t{level.element_count()};
-    serial_for(place_count, [&](std::int64_t place) {
-        if (class_of[place] != place) return;
-        const int corner = static_cast<int>(place % 8);
-        classes.push_back({morton_code(corner_of(cell_at(level.cells[place / 8]), corner)),
-                           static_cast<std::uint64_t>(place)});
+    auto classes = parallel_collect<KeyValue, RawVector<KeyValue>>(
+        place_count(level), [&](std::int64_t begin, std::int64_t end, std::vector<KeyValue>& out) {
+            for (auto place = static_cast<std::int32_t>(begin); place < end; ++place) {
+                if (corners.find(place) != place) continue;
+                out.push_back(corner_key(cell_at(level.cells[place / 8]), place));
+            }
+        });
+    number_unknowns(level, classes, true);
+    // Of every class only the first corner has its number yet.
+    parallel_for_rows(level.element_count(), [&](std::int32_t element) {
+        for (int corner = 0; corner < 8; ++corner) {
+            const std::int32_t place = 8 * element + corner;
+            const std::int32_t first = corners.find(place);
+            if (first == place) continue;
+            level.unknowns[element][corner] = level.unknowns[first / 8][first % 8];
+        }
     });
-    sort_by_key(classes);
-    resize(level.unknowns, level.element_count());
-    for_each_item(classes, [&](const KeyValue& of_class) {
-        level.unknowns[of_class.value / 8][of_class.value % 8] = level.unknown_count();
-        ++level.number_of_unknowns;
+}
+
+/// The first of every group of elements, as `first` tells, gets a number, which becomes the parent
+/// of all of the group. Returns the parents' cells.
+template <class First>
+std::vector<MortonCode> make_parents(const std::vector<MortonCode>& cells, const First& first,
+                                     std::vector<std::int32_t>& parents) {
+    const auto count = static_cast<std::int64_t>(cells.size());
+    const auto is_first = [&](std::int64_t i) { return first(static_cast<std::int32_t>(i)) == i; };
+    parents.resize(cells.size());
+    RawVector<MortonCode> coarse(cells.size());
+    const std::int64_t parent_count = number_blocks(
+        count, is_first, [&](std::int64_t begin, std::int64_t end, std::int64_t parent) {
+            for (std::int64_t i = begin; i < end; ++i) {
+                if (!is_first(i)) continue;
+                coarse[parent] = parent_of(cells[i]);
+                parents[i] = static_cast<std::int32_t>(parent++);
+            }
+        });
+    parallel_for_rows(count, [&](std::int32_t i) {
+        if (!is_first(i)) parents[i] = parents[first(i)];
     });
-    serial_for(place_count, [&](std::int64_t place) {
-        const std::int32_t first = class_of[place];
-        level.unknowns[place / 8][place % 8] = level.unknowns[first / 8][first % 8];
-    });
+    return {coarse.begin(), coarse.begin() + parent_count};
 }
 
 /// Cells of the elements of the next coarser level: of each class of linked elements with the same
 /// parent cell. And of every element its place among them.
-std::vector<MortonCode> coarsen(const std::vector<MortonCode>& cells,
-                                const std::vector<Link>& links,
+std::vector<MortonCode> coarsen(const std::vector<MortonCode>& cells, const RawVector<Link>& links,
                                 std::vector<std::int32_t>& parents) {
-    const auto count = static_cast<std::int32_t>(cells.size());
-    DisjointSets siblings(count);
-    for_each_item(links, [&](const Link& link) {
+    ConcurrentSets siblings(static_cast<std::int32_t>(cells.size()));
+    parallel_for_items(links, [&](const Link& link) {
         if (parent_of(cells[link.first]) == parent_of(cells[link.second])) {
             siblings.unite(link.first, link.second);
         }
     });
-    parents = std::move(siblings).representatives();
-    std::vector<MortonCode> coarse;
-    serial_for(count, [&](std::int64_t element) {
-        const std::int32_t first = parents[element];
-        if (first == element) coarse.push_back(parent_of(cells[element]));
-        parents[element] =
-            first == element ? static_cast<std::int32_t>(coarse.size()) - 1 : parents[first];
-    });
-    return coarse;
+    return make_parents(
+        cells, [&](std::int32_t element) { return siblings.find(element); }, parents);
+}
+
+/// The same for the elements, one in each cell, of a grid without separated sheets.
+std::vector<MortonCode> coarsen(const std::vector<MortonCode>& cells,
+                                std::vector<std::int32_t>& parents) {
+    const auto first_sibling = [&](std::int32_t element) {
+        while (element > 0 && parent_of(cells[element - 1]) == parent_of(cells[element])) {
+            --element;
+        }
+        return element;
+    };
+    return make_parents(cells, first_sibling, parents);
 }
 
 /// The links between the elements of the next coarser level.
-std::vector<Link> coarsen(const std::vector<Link>& links, const std::vector<std::int32_t>& parents,
-                          std::int32_t parent_count) {
-    std::vector<Link> coarse;
-    for_each_item(links, [&](const Link& link) {
-        const auto [first, second] = std::minmax(parents[link.first], parents[link.second]);
-        if (first != second) coarse.push_back({first, second});
-    });
-    sort_and_remove_copies(coarse, parent_count);
+RawVector<Link> coarsen(const RawVector<Link>& links, const std::vector<std::int32_t>& parents) {
+    auto coarse = parallel_collect<Link, RawVector<Link>>(
+        static_cast<std::int64_t>(links.size()),
+        [&](std::int64_t begin, std::int64_t end, std::vector<Link>& out) {
+            for (std::int64_t i = begin; i < end; ++i) {
+                const auto [first, second] =
+                    std::minmax(parents[links[i].first], parents[links[i].second]);
+                if (first != second) out.push_back({first, second});
+            }
+        });
+    sort_and_remove_copies(coarse);
     return coarse;
 }
 
@@ -159,7 +190,7 @@ std::vector<Level> build_levels(std::vector<MortonCode> finest_cells, int depth)
     return levels;
 }
 
-std::vector<Level> build_levels(std::vector<MortonCode> finest_cells, std::vector<Link> links,
+std::vector<Level> build_levels(std::vector<MortonCode> finest_cells, RawVector<Link> links,
                                 int depth) {
     std::vector<Level> levels(static_cast<std::size_t>(depth) + 1);
     levels[depth].cells = std::move(finest_cells);
@@ -168,7 +199,7 @@ std::vector<Level> build_levels(std::vector<MortonCode> finest_cells, std::vecto
         number_unknowns(levels[l], links);
         if (l == 0) break;
         levels[l - 1].cells = coarsen(levels[l].cells, links, levels[l].parents);
-        links = coarsen(links, levels[l].parents, levels[l - 1].element_count());
+        links = coarsen(links, levels[l].parents);
     }
     return levels;
 }
@@ -185,12 +216,20 @@ std::int64_t count_cells(const Level& level) {
     return count;
 }
 
-std::int64_t count_unknowns(std::vector<MortonCode> cells, int depth) {
-    Level level;
-    level.depth = depth;
-    level.cells = std::move(cells);
-    number_unknowns(level);
-    return level.unknown_count();
+std::int64_t count_unknowns(const std::vector<MortonCode>& cells) {
+    RawVector<MortonCode> corners(8 * cells.size());
+    parallel_for_blocks(static_cast<std::int64_t>(cells.size()),
+                        [&](std::int64_t begin, std::int64_t end) {
+                            for (std::int64_t i = begin; i < end; ++i) {
+                                const Cell cell = cell_at(cells[i]);
+                                for (int corner = 0; corner < 8; ++corner) {
+                                    corners[8 * i + corner] = morton_code(corner_of(cell, corner));
+                                }
+                            }
+                        });
+    sort_by(corners, [](MortonCode corner) { return corner; });
+    return parallel_count(static_cast<std::int64_t>(corners.size()),
+                          [&](std::int64_t i) { return i == 0 || corners[i] != corners[i - 1]; });
 }
 
 }  // namespace tracked_mcf

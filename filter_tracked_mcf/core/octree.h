@@ -39,7 +39,7 @@ std::vector<Level> build_levels(std::vector<MortonCode> finest_cells, int depth)
 /// links between them. An element of a coarser level is what of the surface is connected inside its
 /// cell, so level 0 has one for each connected part of the surface. A coarse function's part holds
 /// the parts of finer functions that lie in it completely, so the levels nest exactly.
-std::vector<Level> build_levels(std::vector<MortonCode> finest_cells, std::vector<Link> links,
+std::vector<Level> build_levels(std::vector<MortonCode> finest_cells, RawVector<Link> links,
                                 int depth);
 
 /// The corner of a cell (numbered as in bspline.h), grid coordinates.
@@ -48,7 +48,7 @@ Cell corner_of(const Cell& cell, int corner);
 /// Number of different cells of a level.
 std::int64_t count_cells(const Level& level);
 
-/// Number of unknowns of a level with these cells (increasing, without repetition) at `depth`.
-std::int64_t count_unknowns(std::vector<MortonCode> cells, int depth);
+/// Number of unknowns of a level with these cells (increasing, without repetition).
+std::int64_t count_unknowns(const std::vector<MortonCode>& cells);
 
 }  // namespace tracked_mcf

@@ -128,74 +128,104 @@ bool share_plane(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
     return false;
 }
 
+/// A fragment in the order of triangles.
+struct PlacedFragment {
+    std::int32_t triangle, element;
+    std::uint8_t corners, edges;  ///< as in FragmentEntry
+};
+
+RawVector<PlacedFragment> by_triangle(const RawVector<FragmentEntry>& fragments,
+                                      const FinestElements& elements) {
+    RawVector<PlacedFragment> placed(fragments.size());
+    const auto place = [&](std::int64_t i, std::int64_t element) {
+        const FragmentEntry& fragment = fragments[i];
+        placed[fragment.place] = {fragment.triangle, static_cast<std::int32_t>(element),
+                                  static_cast<std::uint8_t>(fragment.corners),
+                                  static_cast<std::uint8_t>(fragment.edges)};
+    };
+    const auto count = static_cast<std::int64_t>(elements.cells.size());
+    parallel_for_blocks(count, [&](std::int64_t begin, std::int64_t end) {
+        for (std::int64_t element = begin; element < end; ++element) {
+            for (std::int64_t i = elements.fragment_begin[element];
+                 i < elements.fragment_begin[element + 1]; ++i) {
+                place(i, element);
+            }
+        }
+    });
+    return placed;
+}
+
+/// Whether a fragment is the first of its triangle.
+struct BeginsTriangle {
+    const RawVector<PlacedFragment>& fragments;
+
+    bool operator()(std::int64_t i) const {
+        return i == 0 || fragments[i].triangle != fragments[i - 1].triangle;
+    }
+};
+
 /// Finds pieces and has them linked.
 class LinkFinder {
 public:
     LinkFinder(const GridMesh& mesh, const MeshTopology& topology,
-               const std::vector<FragmentEntry>& fragments, const FinestElements& elements)
-        : mesh_(mesh), topology_(topology), fragments_(fragments), elements_(elements) {
-        resize(element_of_, static_cast<std::int64_t>(fragments.size()));
-        const auto count = static_cast<std::int64_t>(elements.cells.size());
-        parallel_for_blocks(count, [&](std::int64_t begin, std::int64_t end) {
-            for (std::int64_t element = begin; element < end; ++element) {
-                std::fill(element_of_.begin() + elements.fragment_begin[element],
-                          element_of_.begin() + elements.fragment_begin[element + 1],
-                          static_cast<std::int32_t>(element));
-            }
-        });
-        std::vector<std::int32_t> triangle_of;
-        triangle_of.reserve(fragments.size());
-        for_each_item(fragments, [&](const FragmentEntry& fragment) {
-            triangle_of.push_back(fragment.triangle);
-        });
-        fragments_of_ = Groups(triangle_of, static_cast<std::int32_t>(topology.triangles.size()));
-    }
+               const RawVector<FragmentEntry>& fragments, const FinestElements& elements)
+        : mesh_(mesh),
+          topology_(topology),
+          elements_(elements),
+          fragments_(by_triangle(fragments, elements)) {}
 
     /// Links made by triangles.
-    std::vector<Link> through_triangles() const {
-        return parallel_collect<Link>(
-            triangle_count(), [&](std::int64_t begin, std::int64_t end, std::vector<Link>& out) {
-                LinkCollector collector(out);
-                std::vector<Piece> pieces;
-                Pacer pacer;
-                for (auto triangle = static_cast<std::int32_t>(begin); triangle < end; ++triangle) {
-                    const Groups::Members members = fragments_of_.members(triangle);
-                    if (members.end() - members.begin() < 2) continue;
-                    pieces.clear();
-                    for (const std::int32_t fragment : members) {
-                        pieces.push_back(piece_of(element_of_[fragment]));
-                    }
-                    collector.link_touching(pieces);
-                    pacer.did(kItemsPerPiece * static_cast<std::int64_t>(pieces.size()));
-                }
-            });
-    }
-
-    /// Links made by edges and vertices that lie in grid planes.
-    std::vector<Link> through_edges_and_vertices() const {
-        const std::vector<KeyValue> pieces_of = sorted_pieces();
-        std::vector<Link> links;
-        LinkCollector collector(links);
-        std::vector<Piece> pieces;
-        Pacer pacer;
-        for (std::size_t begin = 0, end = 0; begin < pieces_of.size(); begin = end) {
+    RawVector<Link> through_triangles() const {
+        const auto visit = [this](LinkCollector& collector, std::vector<Piece>& pieces,
+                                  std::int64_t first, std::int64_t last) {
+            if (last - first < 2) return;
             pieces.clear();
-            for (; end < pieces_of.size() && pieces_of[end].key == pieces_of[begin].key; ++end) {
-                pieces.push_back(piece_of(static_cast<std::int32_t>(pieces_of[end].value)));
+            for (std::int64_t i = first; i < last; ++i) {
+                pieces.push_back(piece_of(fragments_[i].element));
             }
             sort_and_remove_copies(pieces);
             collector.link_touching(pieces);
-            pacer.did(kItemsPerPiece * static_cast<std::int64_t>(pieces.size()));
-        }
-        return links;
+        };
+        return collect_links(static_cast<std::int64_t>(fragments_.size()),
+                             BeginsTriangle{fragments_}, visit);
+    }
+
+    /// Links made by edges and vertices that lie in grid planes.
+    RawVector<Link> through_edges_and_vertices() const {
+        const RawVector<KeyValue> pieces_of = sorted_pieces();
+        const auto visit = [&](LinkCollector& collector, std::vector<Piece>& pieces,
+                               std::int64_t first, std::int64_t last) {
+            pieces.clear();
+            for (std::int64_t i = first; i < last; ++i) {
+                pieces.push_back(piece_of(static_cast<std::int32_t>(pieces_of[i].value)));
+            }
+            sort_and_remove_copies(pieces);
+            collector.link_touching(pieces);
+        };
+        const auto begins = [&](std::int64_t i) {
+            return i == 0 || pieces_of[i].key != pieces_of[i - 1].key;
+        };
+        return collect_links(static_cast<std::int64_t>(pieces_of.size()), begins, visit);
     }
 
 private:
     /// Light items that looking for a piece's links takes as long as.
     static constexpr std::int64_t kItemsPerPiece = 32;
 
-    std::int64_t triangle_count() const {
-        return static_cast<std::int64_t>(topology_.triangles.size());
+    /// What visit(collector, room, first, last) collects for every run of items, in parallel.
+    template <class Begins, class Visit>
+    static RawVector<Link> collect_links(std::int64_t count, const Begins& begins,
+                                         const Visit& visit) {
+        return parallel_collect_runs<Link, RawVector<Link>>(
+            count, begins, [&](std::int64_t begin, std::int64_t end, std::vector<Link>& out) {
+                LinkCollector collector(out);
+                std::vector<Piece> pieces;
+                Pacer pacer;
+                for_each_run(begin, end, begins, [&](std::int64_t first, std::int64_t last) {
+                    visit(collector, pieces, first, last);
+                    pacer.did(kItemsPerPiece * (last - first));
+                });
+            });
     }
 
     Piece piece_of(std::int32_t element) const {
@@ -212,56 +242,59 @@ private:
 
     /// Of every edge (key: its number) and vertex (key: after all edges) in a grid plane, the
     /// elements it has pieces in, sorted by key.
-    std::vector<KeyValue> sorted_pieces() const {
-        auto pieces = parallel_collect<KeyValue>(
-            triangle_count(),
+    RawVector<KeyValue> sorted_pieces() const {
+        const BeginsTriangle begins{fragments_};
+        auto pieces = parallel_collect_runs<KeyValue, RawVector<KeyValue>>(
+            static_cast<std::int64_t>(fragments_.size()), begins,
             [&](std::int64_t begin, std::int64_t end, std::vector<KeyValue>& out) {
-                for (auto triangle = static_cast<std::int32_t>(begin); triangle < end; ++triangle) {
-                    add_pieces_in_planes(triangle, out);
-                }
+                for_each_run(begin, end, begins, [&](std::int64_t first, std::int64_t last) {
+                    add_pieces_in_planes(first, last, out);
+                });
             });
         sort_by_key(pieces);
         return pieces;
     }
 
-    void add_pieces_in_planes(std::int32_t triangle, std::vector<KeyValue>& out) const {
+    /// Of a triangle with the fragments from first to last.
+    void add_pieces_in_planes(std::int64_t first, std::int64_t last,
+                              std::vector<KeyValue>& out) const {
+        const std::int32_t triangle = fragments_[first].triangle;
         const auto corners = mesh_.corners(triangle);
-        const auto add_pieces = [&](std::int64_t key, std::uint8_t FragmentEntry::*parts, int i) {
-            for (const std::int32_t fragment : fragments_of_.members(triangle)) {
+        const auto add_pieces = [&](std::int64_t key, std::uint8_t PlacedFragment::*parts, int i) {
+            for (std::int64_t fragment = first; fragment < last; ++fragment) {
                 if (((fragments_[fragment].*parts >> i) & 1) == 0) continue;
                 out.push_back({static_cast<std::uint64_t>(key),
-                               static_cast<std::uint64_t>(element_of_[fragment])});
+                               static_cast<std::uint64_t>(fragments_[fragment].element)});
             }
         };
         for (int i = 0; i < 3; ++i) {
             if (planes_at(corners[i]) == 0) continue;
             const std::int64_t vertex = topology_.triangles[triangle][i];
-            add_pieces(topology_.edge_count + vertex, &FragmentEntry::corners, i);
+            add_pieces(topology_.edge_count + vertex, &PlacedFragment::corners, i);
             const std::int32_t edge = topology_.edges[triangle][i];
             if (edge == MeshTopology::kNoEdge || !share_plane(corners[i], corners[(i + 1) % 3])) {
                 continue;
             }
-            add_pieces(edge, &FragmentEntry::edges, i);
+            add_pieces(edge, &PlacedFragment::edges, i);
         }
     }
 
     const GridMesh& mesh_;
     const MeshTopology& topology_;
-    const std::vector<FragmentEntry>& fragments_;
     const FinestElements& elements_;
-    std::vector<std::int32_t> element_of_;  ///< of every fragment
-    Groups fragments_of_;                   ///< of every triangle
+    RawVector<PlacedFragment> fragments_;
 };
 
 }  // namespace
 
-std::vector<Link> find_links(const GridMesh& mesh, const MeshTopology& topology,
-                             const std::vector<FragmentEntry>& fragments,
-                             const FinestElements& elements) {
+RawVector<Link> find_links(const GridMesh& mesh, const MeshTopology& topology,
+                           const RawVector<FragmentEntry>& fragments,
+                           const FinestElements& elements) {
     const LinkFinder finder(mesh, topology, fragments, elements);
-    std::vector<Link> links = finder.through_triangles();
-    append(finder.through_edges_and_vertices(), links);
-    sort_and_remove_copies(links, static_cast<std::int32_t>(elements.cells.size()));
+    RawVector<Link> links = finder.through_triangles();
+    const RawVector<Link> others = finder.through_edges_and_vertices();
+    links.insert(links.end(), others.begin(), others.end());
+    sort_and_remove_copies(links);
     return links;
 }
 

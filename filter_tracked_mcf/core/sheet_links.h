@@ -15,8 +15,8 @@ namespace tracked_mcf {
 /// two touching cells are connected inside every support that has both cells. Edges and vertices
 /// matter where they lie in a grid plane: their triangles may then be in different cells, and no
 /// triangle in both.
-std::vector<Link> find_links(const GridMesh& mesh, const MeshTopology& topology,
-                             const std::vector<FragmentEntry>& fragments,
-                             const FinestElements& elements);
+RawVector<Link> find_links(const GridMesh& mesh, const MeshTopology& topology,
+                           const RawVector<FragmentEntry>& fragments,
+                           const FinestElements& elements);
 
 }  // namespace tracked_mcf

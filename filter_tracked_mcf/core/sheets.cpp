@@ -1,12 +1,9 @@
 #include "filter_tracked_mcf/core/sheets.h"
 
 #include <algorithm>
-#include <limits>
-#include <tuple>
 #include <utility>
 
 #include "filter_tracked_mcf/core/disjoint_sets.h"
-#include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/interruptible.h"
 #include "filter_tracked_mcf/core/parallel.h"
 
@@ -14,118 +11,118 @@ namespace tracked_mcf {
 
 namespace {
 
-/// Joins the fragments of one cell after the other.
-class FragmentJoiner {
+/// Elements begin at the fragments i that begins(i) says, and at the first.
+template <class Begins>
+FinestElements group_fragments(const RawVector<FragmentEntry>& fragments, const Begins& begins) {
+    const auto count = static_cast<std::int64_t>(fragments.size());
+    FinestElements elements;
+    elements.fragment_begin = parallel_collect<std::int64_t>(
+        count, [&](std::int64_t begin, std::int64_t end, std::vector<std::int64_t>& out) {
+            for (std::int64_t i = begin; i < end; ++i) {
+                if (i == 0 || begins(i)) out.push_back(i);
+            }
+        });
+    const auto element_count = static_cast<std::int64_t>(elements.fragment_begin.size());
+    elements.cells.resize(elements.fragment_begin.size());
+    parallel_for_rows(element_count, [&](std::int32_t element) {
+        elements.cells[element] = fragments[elements.fragment_begin[element]].cell;
+    });
+    elements.fragment_begin.push_back(count);
+    return elements;
+}
+
+/// Finds the sheets of one cell after the other.
+class SheetFinder {
 public:
-    FragmentJoiner(const MeshTopology& topology, const std::vector<FragmentEntry>& fragments,
-                   DisjointSets& sheets)
+    SheetFinder(const MeshTopology& topology, RawVector<FragmentEntry>& fragments)
         : topology_(topology),
           fragments_(fragments),
-          sheets_(sheets),
           last_with_vertex_(topology.welded.size(), kNone),
           last_with_edge_(static_cast<std::size_t>(topology.edge_count), kNone) {}
 
-    /// Joins the fragments from begin to end, all those of a cell.
-    void join(std::int32_t begin, std::int32_t end) {
-        for (std::int32_t i = begin; i < end; ++i) {
-            const FragmentEntry& fragment = fragments_[i];
-            const Triangle& vertices = topology_.triangles[fragment.triangle];
-            const auto& edges = topology_.edges[fragment.triangle];
-            for (int k = 0; k < 3; ++k) {
-                if (((fragment.corners >> k) & 1) != 0) {
-                    join(last_with_vertex_[vertices[k]], i, begin, end);
-                }
-                if (((fragment.edges >> k) & 1) != 0 && edges[k] != MeshTopology::kNoEdge) {
-                    join(last_with_edge_[edges[k]], i, begin, end);
-                }
-            }
+    /// Sorts the fragments from begin to end, all those of a cell, by sheet, and sets in
+    /// `begins_sheet` the first of each.
+    void separate(std::int64_t begin, std::int64_t end, std::vector<std::uint8_t>& begins_sheet) {
+        begins_sheet[begin] = 1;
+        if (are_one_sheet(static_cast<std::int32_t>(begin), static_cast<std::int32_t>(end))) return;
+        labelled_.clear();
+        for (std::int64_t i = begin; i < end; ++i) {
+            const std::int32_t sheet = sheets_.find(static_cast<std::int32_t>(i - begin));
+            labelled_.emplace_back(sheet, fragments_[i]);
+        }
+        std::stable_sort(labelled_.begin(), labelled_.end(),
+                         [](const auto& a, const auto& b) { return a.first < b.first; });
+        for (std::int64_t i = begin; i < end; ++i) {
+            const auto& [sheet, fragment] = labelled_[i - begin];
+            fragments_[i] = fragment;
+            if (i > begin) begins_sheet[i] = sheet != labelled_[i - begin - 1].first ? 1 : 0;
         }
     }
 
 private:
     static constexpr std::int32_t kNone = -1;
 
+    /// Joins the fragments from begin to end until they are one sheet, or all is joined.
+    bool are_one_sheet(std::int32_t begin, std::int32_t end) {
+        sheets_.reset(end - begin);
+        std::int32_t sheet_count = end - begin;
+        for (std::int32_t i = begin; i < end; ++i) {
+            if (sheet_count == 1) return true;
+            const FragmentEntry& fragment = fragments_[i];
+            const Triangle& vertices = topology_.triangles[fragment.triangle];
+            const auto& edges = topology_.edges[fragment.triangle];
+            for (int k = 0; k < 3; ++k) {
+                if (((fragment.corners >> k) & 1) != 0) {
+                    sheet_count -= join(last_with_vertex_[vertices[k]], i, begin, end);
+                }
+                if (((fragment.edges >> k) & 1) != 0 && edges[k] != MeshTopology::kNoEdge) {
+                    sheet_count -= join(last_with_edge_[edges[k]], i, begin, end);
+                }
+            }
+        }
+        return sheet_count == 1;
+    }
+
     /// Joins a fragment to the last one that had the same vertex or edge, if that was in this cell.
-    void join(std::int32_t& last, std::int32_t fragment, std::int32_t cell_begin,
-              std::int32_t cell_end) {
-        if (last >= cell_begin && last < cell_end) sheets_.unite(last, fragment);
-        last = fragment;
+    /// Returns how many sheets fewer there are.
+    int join(std::int32_t& last, std::int32_t fragment, std::int32_t cell_begin,
+             std::int32_t cell_end) {
+        const std::int32_t other = std::exchange(last, fragment);
+        if (other < cell_begin || other >= cell_end) return 0;
+        return sheets_.unite(other - cell_begin, fragment - cell_begin) ? 1 : 0;
     }
 
     const MeshTopology& topology_;
-    const std::vector<FragmentEntry>& fragments_;
-    DisjointSets& sheets_;
+    RawVector<FragmentEntry>& fragments_;
+    DisjointSets sheets_{0};  ///< of the cell's fragments, numbered from 0
     std::vector<std::int32_t> last_with_vertex_;
     std::vector<std::int32_t> last_with_edge_;
+    std::vector<std::pair<std::int32_t, FragmentEntry>> labelled_;
 };
 
-/// Of every fragment the first fragment of its sheet.
-std::vector<std::int32_t> find_sheets(const MeshTopology& topology,
-                                      const std::vector<FragmentEntry>& fragments,
-                                      const FinestElements& cells) {
-    DisjointSets sheets(static_cast<std::int32_t>(fragments.size()));
-    const auto count = static_cast<std::int64_t>(cells.cells.size());
+}  // namespace
+
+FinestElements one_element_per_cell(const RawVector<FragmentEntry>& fragments) {
+    return group_fragments(
+        fragments, [&](std::int64_t i) { return fragments[i].cell != fragments[i - 1].cell; });
+}
+
+FinestElements separate_sheets(const MeshTopology& topology, RawVector<FragmentEntry>& fragments) {
+    const FinestElements cells = one_element_per_cell(fragments);
+    std::vector<std::uint8_t> begins_sheet(fragments.size(), 0);
     parallel_for_blocks_with(
-        count, [&] { return FragmentJoiner(topology, fragments, sheets); },
-        [&](FragmentJoiner& joiner, std::int64_t begin, std::int64_t end) {
+        static_cast<std::int64_t>(cells.cells.size()),
+        [&] { return SheetFinder(topology, fragments); },
+        [&](SheetFinder& finder, std::int64_t begin, std::int64_t end) {
             Pacer pacer;
             for (std::int64_t cell = begin; cell < end; ++cell) {
                 const std::int64_t first = cells.fragment_begin[cell];
                 const std::int64_t last = cells.fragment_begin[cell + 1];
-                joiner.join(static_cast<std::int32_t>(first), static_cast<std::int32_t>(last));
+                finder.separate(first, last, begins_sheet);
                 pacer.did(last - first);
             }
         });
-    return std::move(sheets).representatives();
-}
-
-/// Sorts the fragments from begin to end, those of a cell, by sheet.
-void sort_by_sheet(std::vector<FragmentEntry>& fragments, std::vector<std::int32_t>& sheets,
-                   std::int64_t begin, std::int64_t end) {
-    if (std::is_sorted(sheets.begin() + begin, sheets.begin() + end)) return;
-    std::vector<std::pair<std::int32_t, FragmentEntry>> labelled;
-    for (std::int64_t i = begin; i < end; ++i) labelled.emplace_back(sheets[i], fragments[i]);
-    std::stable_sort(labelled.begin(), labelled.end(),
-                     [](const auto& a, const auto& b) { return a.first < b.first; });
-    for (std::int64_t i = begin; i < end; ++i) {
-        std::tie(sheets[i], fragments[i]) = labelled[i - begin];
-    }
-}
-
-/// Consecutive fragments i with the same label(i) become one element.
-template <class Label>
-FinestElements group_fragments(const std::vector<FragmentEntry>& fragments, const Label& label) {
-    FinestElements elements;
-    serial_for(static_cast<std::int64_t>(fragments.size()), [&](std::int64_t i) {
-        if (i > 0 && label(i) == label(i - 1)) return;
-        elements.cells.push_back(fragments[i].cell);
-        elements.fragment_begin.push_back(i);
-    });
-    elements.fragment_begin.push_back(static_cast<std::int64_t>(fragments.size()));
-    return elements;
-}
-
-}  // namespace
-
-FinestElements one_element_per_cell(const std::vector<FragmentEntry>& fragments) {
-    return group_fragments(fragments, [&](std::int64_t i) { return fragments[i].cell; });
-}
-
-FinestElements separate_sheets(const MeshTopology& topology,
-                               std::vector<FragmentEntry>& fragments) {
-    if (fragments.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
-        throw InvalidParameter("The octree is too deep for this mesh; choose a smaller depth.");
-    }
-    const FinestElements cells = one_element_per_cell(fragments);
-    std::vector<std::int32_t> sheets = find_sheets(topology, fragments, cells);
-    const auto count = static_cast<std::int64_t>(cells.cells.size());
-    parallel_for_blocks(count, [&](std::int64_t begin, std::int64_t end) {
-        for (std::int64_t cell = begin; cell < end; ++cell) {
-            sort_by_sheet(fragments, sheets, cells.fragment_begin[cell],
-                          cells.fragment_begin[cell + 1]);
-        }
-    });
-    return group_fragments(fragments, [&](std::int64_t i) { return sheets[i]; });
+    return group_fragments(fragments, [&](std::int64_t i) { return begins_sheet[i] != 0; });
 }
 
 }  // namespace tracked_mcf

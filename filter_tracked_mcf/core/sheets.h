@@ -15,14 +15,13 @@ struct FinestElements {
     std::vector<std::int64_t> fragment_begin;  ///< of every element, and the end
 };
 
-/// All that lies in a cell is one element, as in the paper. `fragments` as list_fragments returns
-/// them.
-FinestElements one_element_per_cell(const std::vector<FragmentEntry>& fragments);
+/// All that lies in a cell is one element, as in the paper. `fragments` as in ClippedSurface.
+FinestElements one_element_per_cell(const RawVector<FragmentEntry>& fragments);
 
 /// Every connected part of the surface in a cell is an element: fragments belong together whose
 /// triangles share an edge of which a piece, or a vertex which, lies in the cell, its faces
 /// included. Of the elements in a cell, the one with the first fragment comes first. Puts the
-/// fragments, as list_fragments returns them, in the order of their elements.
-FinestElements separate_sheets(const MeshTopology& topology, std::vector<FragmentEntry>& fragments);
+/// fragments, which are as in ClippedSurface, in the order of their elements.
+FinestElements separate_sheets(const MeshTopology& topology, RawVector<FragmentEntry>& fragments);
 
 }  // namespace tracked_mcf

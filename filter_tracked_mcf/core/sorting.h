@@ -11,8 +11,16 @@ struct KeyValue {
     std::uint64_t value;
 };
 
-/// Sorts by key, keeping the order of equal keys (a radix sort).
-void sort_by_key(std::vector<KeyValue>& pairs);
+/// Sorts a vector by key(item), an unsigned number, keeping the order of items with equal keys: a
+/// radix sort in parallel.
+template <class Items, class Key>
+void sort_by(Items& items, const Key& key);
+
+/// Sorts a vector of items that have a `key`.
+template <class Items>
+void sort_by_key(Items& items) {
+    sort_by(items, [](const auto& item) { return item.key; });
+}
 
 /// The inverse of a map from items to groups: members(g) lists, in increasing order, the items
 /// whose group is g.
@@ -43,3 +51,5 @@ private:
 };
 
 }  // namespace tracked_mcf
+
+#include "filter_tracked_mcf/core/radix_sort.h"

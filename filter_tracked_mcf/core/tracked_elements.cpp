@@ -44,14 +44,16 @@ Eigen::Vector3f unit_normal(const std::array<Eigen::Vector3d, 3>& corners) {
 class ElementBuilder {
 public:
     ElementBuilder(TrackedElements& elements, const Domain& domain, const GridMesh& mesh,
-                   const std::vector<FragmentEntry>& entries, const std::vector<CubatureNode>& rule)
+                   const RawVector<FragmentEntry>& entries, const std::vector<CubatureNode>& rule)
         : elements_(elements),
           domain_(domain),
           mesh_(mesh),
           entries_(entries),
           rule_(rule),
           claims_(mesh.positions.size()) {
-        for (auto& vertex : claims_) vertex.store(kUnclaimed, std::memory_order_relaxed);
+        parallel_for_rows(static_cast<std::int64_t>(claims_.size()), [&](std::int32_t vertex) {
+            claims_[vertex].store(kUnclaimed, std::memory_order_relaxed);
+        });
     }
 
     void build() {
@@ -69,19 +71,26 @@ public:
 private:
     /// Every element's range of samples, known from the sizes of the fans alone.
     void lay_out() {
-        const auto samples_per_triangle = static_cast<std::int64_t>(rule_.size());
-        std::int64_t samples = 0;
-        serial_for(elements_.finest().element_count(), [&](std::int64_t element) {
-            elements_.sample_begin.push_back(samples);
+        const auto element_count = static_cast<std::int64_t>(elements_.finest().cells.size());
+        const auto entry_count = static_cast<std::int64_t>(entries_.size());
+        const auto split_triangles = [&](std::int64_t element) {
+            std::int64_t count = 0;
             for (std::int64_t i = elements_.fragment_begin[element];
                  i < elements_.fragment_begin[element + 1]; ++i) {
-                samples += entries_[i].split_triangles * samples_per_triangle;
-                elements_.split_triangle_count += entries_[i].split_triangles;
-                elements_.fragment_count += entries_[i].split_triangles > 0 ? 1 : 0;
+                count += static_cast<std::int64_t>(entries_[i].split_triangles);
             }
-        });
-        elements_.sample_begin.push_back(samples);
-        resize(elements_.fragments, static_cast<std::int64_t>(entries_.size()));
+            return count;
+        };
+        const auto samples_per_triangle = static_cast<std::int64_t>(rule_.size());
+        parallel_add_up(
+            element_count,
+            [&](std::int64_t element) { return samples_per_triangle * split_triangles(element); },
+            elements_.sample_begin);
+        const std::int64_t samples = elements_.sample_begin.back();
+        elements_.split_triangle_count = samples / samples_per_triangle;
+        elements_.fragment_count = parallel_count(
+            entry_count, [&](std::int64_t i) { return entries_[i].split_triangles > 0; });
+        resize(elements_.fragments, entry_count);
         resize(elements_.samples, samples);
         elements_.held.assign(elements_.finest().cells.size(), 0);
     }
@@ -94,7 +103,10 @@ private:
             const std::int32_t triangle = entries_[i].triangle;
             note_vertices_and_holds(entries_[i], element);
             pacer.did(kItemsPerFragment);
-            if (entries_[i].split_triangles == 0) continue;
+            if (entries_[i].split_triangles == 0) {
+                elements_.fragments[i] = {};
+                continue;
+            }
             const auto corners = mesh_.corners(triangle);
             const Polygon polygon = clip_to_cell(corners, cell);
             Sample* const first_sample = next_sample;
@@ -119,7 +131,7 @@ private:
     void place_vertices() {
         const auto count = static_cast<std::int64_t>(mesh_.positions.size());
         resize(elements_.vertices, count);
-        serial_for(count, [&](std::int64_t vertex) {
+        parallel_for_rows(count, [&](std::int32_t vertex) {
             // Coincident vertices take their first one's place, so that soups stay together.
             const std::int32_t first = domain_.topology().welded[vertex];
             const std::int32_t element = claims_[first].load(std::memory_order_relaxed);
@@ -134,19 +146,19 @@ private:
     TrackedElements& elements_;
     const Domain& domain_;
     const GridMesh& mesh_;
-    const std::vector<FragmentEntry>& entries_;
+    const RawVector<FragmentEntry>& entries_;
     const std::vector<CubatureNode>& rule_;
     Claims claims_;
 };
 
 /// Decides which fragments make up which element, sorts them accordingly, and builds the levels.
 void build_octree(TrackedElements& elements, const GridMesh& mesh, const MeshTopology& topology,
-                  std::vector<FragmentEntry>& entries, bool by_sheet) {
+                  RawVector<FragmentEntry>& entries, bool by_sheet) {
     const int depth = elements.grid.depth;
     FinestElements finest =
         by_sheet ? separate_sheets(topology, entries) : one_element_per_cell(entries);
     if (by_sheet) {
-        std::vector<Link> links = find_links(mesh, topology, entries, finest);
+        RawVector<Link> links = find_links(mesh, topology, entries, finest);
         elements.levels = build_levels(std::move(finest.cells), std::move(links), depth);
     } else {
         elements.levels = build_levels(std::move(finest.cells), depth);
@@ -154,36 +166,46 @@ void build_octree(TrackedElements& elements, const GridMesh& mesh, const MeshTop
     elements.fragment_begin = std::move(finest.fragment_begin);
 }
 
+void count_vertices(TrackedElements& elements, const std::vector<std::uint8_t>& referenced) {
+    const auto count = static_cast<std::int64_t>(referenced.size());
+    elements.referenced_vertex_count =
+        parallel_count(count, [&](std::int64_t vertex) { return referenced[vertex] != 0; });
+    elements.held_vertex_count = parallel_count(count, [&](std::int64_t vertex) {
+        return referenced[vertex] != 0 && elements.vertex_held[vertex] != 0;
+    });
+}
+
 }  // namespace
 
 TrackedElements build_tracked_elements(const Domain& domain, const Grid& grid, Cubature cubature,
                                        bool separate_sheets) {
     enter_setup_phase(SetupPhase::ClipTriangles);
-    const TriangleMesh& surface = domain.surface();
-    const GridMesh grid_mesh = to_grid(surface, grid);
-    TrackedElements elements;
-    elements.grid = grid;
-    elements.degenerate_triangle_count = count_degenerate(grid_mesh);
-    if (elements.degenerate_triangle_count == static_cast<std::int64_t>(surface.triangles.size())) {
+    return build_tracked_elements(domain, clip_to_grid(domain.surface(), grid), cubature,
+                                  separate_sheets);
+}
+
+TrackedElements build_tracked_elements(const Domain& domain, ClippedSurface surface,
+                                       Cubature cubature, bool separate_sheets) {
+    const std::size_t triangle_count = domain.surface().triangles.size();
+    if (surface.degenerate_count == static_cast<std::int64_t>(triangle_count)) {
         throw InvalidMesh(
             "All faces are degenerate that are to be smoothed: none has an area, or none that "
             "shows "
             "beside the size of the mesh.");
     }
-    const std::vector<bool> referenced = referenced_vertices(surface);
-    elements.referenced_vertex_count = std::count(referenced.begin(), referenced.end(), true);
+    TrackedElements elements;
+    elements.grid = surface.grid;
+    elements.degenerate_triangle_count = surface.degenerate_count;
     elements.vertex_held = domain.held_vertices();
-    for (std::size_t vertex = 0; vertex < referenced.size(); ++vertex) {
-        elements.held_vertex_count +=
-            referenced[vertex] && elements.vertex_held[vertex] != 0 ? 1 : 0;
-    }
+    count_vertices(elements, referenced_vertices(domain.surface()));
 
-    std::vector<FragmentEntry> entries = list_fragments(grid_mesh, grid);
     enter_setup_phase(SetupPhase::BuildOctree);
-    build_octree(elements, grid_mesh, domain.topology(), entries, separate_sheets);
+    build_octree(elements, surface.mesh, domain.topology(), surface.fragments, separate_sheets);
     enter_setup_phase(SetupPhase::SampleSurface);
-    ElementBuilder(elements, domain, grid_mesh, entries, cubature_rule(cubature)).build();
-    elements.held_samples = sample_held_edges(elements, grid_mesh, entries, domain.held_edges());
+    ElementBuilder(elements, domain, surface.mesh, surface.fragments, cubature_rule(cubature))
+        .build();
+    elements.held_samples =
+        sample_held_edges(elements, surface.mesh, surface.fragments, domain.held_edges());
     return elements;
 }
 

@@ -6,8 +6,10 @@
 
 #include "filter_tracked_mcf/core/domain.h"
 #include "filter_tracked_mcf/core/flow_parameters.h"
+#include "filter_tracked_mcf/core/fragments.h"
 #include "filter_tracked_mcf/core/grid.h"
 #include "filter_tracked_mcf/core/octree.h"
+#include "filter_tracked_mcf/core/raw_vector.h"
 #include "filter_tracked_mcf/core/surface_samples.h"
 #include "filter_tracked_mcf/core/triangle_mesh.h"
 
@@ -39,12 +41,12 @@ struct TrackedElements {
     Grid grid;
     std::vector<Level> levels;  ///< coarsest first
 
-    std::vector<Fragment> fragments;           ///< sorted by finest element
-    std::vector<Sample> samples;               ///< sorted by fragment
+    RawVector<Fragment> fragments;             ///< sorted by finest element
+    RawVector<Sample> samples;                 ///< sorted by fragment
     std::vector<std::int64_t> fragment_begin;  ///< of every finest element, and the end
     std::vector<std::int64_t> sample_begin;    ///< of every finest element, and the end
 
-    std::vector<VertexPlace> vertices;      ///< of every vertex; coincident vertices share theirs
+    RawVector<VertexPlace> vertices;        ///< of every vertex; coincident vertices share theirs
     std::vector<std::uint8_t> vertex_held;  ///< of every vertex: it keeps its bits
     std::vector<std::uint8_t> held;         ///< of every finest element: a held edge meets it
     std::vector<HeldSample> held_samples;   ///< sorted by finest element
@@ -63,6 +65,10 @@ struct TrackedElements {
 /// a vertex lies outside the grid's cube.
 TrackedElements build_tracked_elements(const Domain& domain, const Grid& grid, Cubature cubature,
                                        bool separate_sheets = true);
+
+/// The same for a domain's surface that is clipped already.
+TrackedElements build_tracked_elements(const Domain& domain, ClippedSurface surface,
+                                       Cubature cubature, bool separate_sheets = true);
 
 /// The same for all of a mesh with its boundary held.
 TrackedElements build_tracked_elements(const TriangleMesh& mesh, const Grid& grid,

@@ -4,11 +4,12 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
-#include <numeric>
 #include <string>
 
 #include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/interruptible.h"
+#include "filter_tracked_mcf/core/marks.h"
+#include "filter_tracked_mcf/core/parallel.h"
 #include "filter_tracked_mcf/core/sorting.h"
 
 namespace tracked_mcf {
@@ -33,10 +34,8 @@ void check_triangle(const TriangleMesh& mesh, const Triangle& triangle) {
     }
 }
 
-/// The same for equal positions, 0 and -0 being equal, and hardly ever for others. Of no more bits
-/// than are soon sorted by.
+/// The same for equal positions, 0 and -0 being equal, and hardly ever for others.
 std::uint64_t hash_of(const Eigen::Vector3d& position) {
-    constexpr unsigned used_bits = 44;
     std::uint64_t hash = 0;
     for (const double coordinate : position) {
         const double unsigned_zero = coordinate + 0.0;
@@ -45,20 +44,49 @@ std::uint64_t hash_of(const Eigen::Vector3d& position) {
         hash = (hash ^ bits) * 0x9E3779B97F4A7C15;  // 2^64 over the golden ratio
         hash ^= hash >> 32U;
     }
-    return hash >> (64U - used_bits);
+    return hash;
 }
 
-/// The referenced vertices by the hash of their positions, those of the same one by index.
-std::vector<KeyValue> vertices_by_hash(const TriangleMesh& mesh) {
-    const std::vector<bool> referenced = referenced_vertices(mesh);
-    std::vector<KeyValue> vertices;
-    vertices.reserve(mesh.positions.size());
-    serial_for(static_cast<std::int64_t>(mesh.positions.size()), [&](std::int64_t vertex) {
-        if (!referenced[vertex]) return;
-        vertices.push_back({hash_of(mesh.positions[vertex]), static_cast<std::uint64_t>(vertex)});
-    });
-    sort_by_key(vertices);
+/// A vertex and some bits of its position's hash.
+struct HashedVertex {
+    std::uint32_t hash;
+    std::int32_t vertex;
+};
+
+/// The referenced vertices by hash, those of the same one by index. The hash has few bits, to be
+/// soon sorted by, but enough that few positions share one.
+RawVector<HashedVertex> vertices_by_hash(const TriangleMesh& mesh) {
+    const std::vector<std::uint8_t> referenced = referenced_vertices(mesh);
+    unsigned bits = 8;
+    while (bits < 30 && (std::size_t{1} << (bits - 2)) < mesh.positions.size()) ++bits;
+    auto vertices = parallel_collect<HashedVertex, RawVector<HashedVertex>>(
+        static_cast<std::int64_t>(mesh.positions.size()),
+        [&](std::int64_t begin, std::int64_t end, std::vector<HashedVertex>& out) {
+            for (auto vertex = static_cast<std::int32_t>(begin); vertex < end; ++vertex) {
+                if (referenced[vertex] == 0) continue;
+                const std::uint64_t hash = hash_of(mesh.positions[vertex]) >> (64 - bits);
+                out.push_back({static_cast<std::uint32_t>(hash), vertex});
+            }
+        });
+    sort_by(vertices, [](const HashedVertex& entry) { return std::uint64_t{entry.hash}; });
     return vertices;
+}
+
+/// Welds the vertices from first to last, which are all that have the same hash, by index.
+void weld(const TriangleMesh& mesh, const HashedVertex* first, const HashedVertex* last,
+          std::vector<std::int32_t>& different, std::vector<std::int32_t>& welded) {
+    different.clear();
+    for (; first != last; ++first) {
+        const std::int32_t vertex = first->vertex;
+        const auto same = std::find_if(different.begin(), different.end(), [&](std::int32_t other) {
+            return mesh.positions[other] == mesh.positions[vertex];
+        });
+        if (same == different.end()) {
+            different.push_back(vertex);
+        } else {
+            welded[vertex] = *same;
+        }
+    }
 }
 
 }  // namespace
@@ -78,33 +106,30 @@ void validate(const TriangleMesh& mesh) {
                   [&](const Triangle& triangle) { check_triangle(mesh, triangle); });
 }
 
-std::vector<bool> referenced_vertices(const TriangleMesh& mesh) {
-    std::vector<bool> referenced(mesh.positions.size(), false);
-    for_each_item(mesh.triangles, [&](const Triangle& triangle) {
-        for (const std::int32_t vertex : triangle) referenced[vertex] = true;
+std::vector<std::uint8_t> referenced_vertices(const TriangleMesh& mesh) {
+    Marks referenced(static_cast<std::int64_t>(mesh.positions.size()));
+    parallel_for_rows(static_cast<std::int64_t>(mesh.triangles.size()), [&](std::int32_t triangle) {
+        for (const std::int32_t vertex : mesh.triangles[triangle]) referenced.set(vertex);
     });
-    return referenced;
+    return referenced.flags();
 }
 
 std::vector<std::int32_t> weld_coincident_vertices(const TriangleMesh& mesh) {
     std::vector<std::int32_t> welded(mesh.positions.size());
-    std::iota(welded.begin(), welded.end(), 0);
-
-    std::uint64_t hash = 0;
-    std::vector<std::int32_t> firsts;  // of that hash, at different positions
-    for_each_item(vertices_by_hash(mesh), [&](const KeyValue& entry) {
-        if (entry.key != hash) firsts.clear();
-        hash = entry.key;
-        const auto vertex = static_cast<std::int32_t>(entry.value);
-        const auto first = std::find_if(firsts.begin(), firsts.end(), [&](std::int32_t other) {
-            return mesh.positions[other] == mesh.positions[vertex];
+    parallel_for_rows(static_cast<std::int64_t>(welded.size()),
+                      [&](std::int32_t vertex) { welded[vertex] = vertex; });
+    const RawVector<HashedVertex> vertices = vertices_by_hash(mesh);
+    const auto differs = [&](std::int64_t i) {
+        return i == 0 || vertices[i].hash != vertices[i - 1].hash;
+    };
+    parallel_for_runs(
+        static_cast<std::int64_t>(vertices.size()), differs,
+        [&](std::int64_t begin, std::int64_t end) {
+            std::vector<std::int32_t> different;
+            for_each_run(begin, end, differs, [&](std::int64_t first, std::int64_t last) {
+                weld(mesh, vertices.data() + first, vertices.data() + last, different, welded);
+            });
         });
-        if (first == firsts.end()) {
-            firsts.push_back(vertex);
-        } else {
-            welded[vertex] = *first;
-        }
-    });
     return welded;
 }
 

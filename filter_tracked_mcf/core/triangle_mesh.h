@@ -22,8 +22,8 @@ struct TriangleMesh {
 /// vertex that a triangle uses is finite. Unreferenced vertices are ignored, whatever they hold.
 void validate(const TriangleMesh& mesh);
 
-/// For every vertex: whether some triangle uses it.
-std::vector<bool> referenced_vertices(const TriangleMesh& mesh);
+/// For every vertex: 1 if some triangle uses it, else 0.
+std::vector<std::uint8_t> referenced_vertices(const TriangleMesh& mesh);
 
 /// For every vertex: the smallest index of a referenced vertex at exactly the same position; an
 /// unreferenced vertex is its own. A triangle soup welded this way is the mesh it came from.

@@ -78,7 +78,7 @@ void print_rings(const TriangleMesh& mesh, const std::vector<int>& rings,
                  const Reference& reference, const TriangleMesh& moved, const Slip& slip,
                  const Place& place) {
     const double unit = diagonal(mesh);
-    const std::vector<bool> referenced = referenced_vertices(mesh);
+    const std::vector<std::uint8_t> referenced = referenced_vertices(mesh);
     for (int ring = 0; ring <= kLastRing; ++ring) {
         std::vector<std::uint8_t> left_out = reference.left_out;
         for (std::size_t i = 0; i < rings.size(); ++i) {

@@ -55,7 +55,7 @@ TEST(Validate, IgnoresVerticesThatNoTriangleUses) {
     TriangleMesh mesh = shapes::geodesic_sphere(2);
     mesh.positions.emplace_back(kNaN, 0, 0);
     EXPECT_NO_THROW(validate(mesh));
-    EXPECT_EQ(referenced_vertices(mesh).back(), false);
+    EXPECT_EQ(referenced_vertices(mesh).back(), 0);
 }
 
 TEST(Weld, SoupWeldsToItsMesh) {
