@@ -66,6 +66,7 @@ void add_baseline(CLI::App& app) {
     command->add_option("--order", options->order, "of the vertices: given, rcm or morton");
     command->add_option("--relaxation", options->flow.relaxation,
                         "of what the factorisation leaves out, that goes to the diagonal");
+    command->add_option("--most-iterations", options->flow.most_iterations);
     command->add_flag("--cold", options->cold, "start from no displacement, not from the last");
     command->callback([options] { run(*options); });
 }

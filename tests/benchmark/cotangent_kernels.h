@@ -54,7 +54,7 @@ struct Block {
     UpperEntry* upper;
     LowerEntry* lower;
     const float* row_sums;
-    float* diagonal;          ///< of the matrix; of the pivots once factorised
+    const float* diagonal;    ///< of the matrix to be factorised
     float* inverse_diagonal;  ///< of the pivots
     Floats *x, *r, *z, *p, *q;
 };
@@ -65,8 +65,10 @@ struct CotangentKernels {
 
     void (*assemble)(const Assembly& assembly);
 
-    /// L D Lᵀ of the block, where entries that the matrix does not have are left out; `relaxation`
-    /// of what is left out goes to the diagonal: 0 is IC(0), 1 modified IC(0).
+    /// L D Lᵀ of the block without its positive off-diagonal entries, which obtuse triangles make:
+    /// what is left is an M-matrix, of which the incomplete factorisation always exists. Fill that
+    /// the matrix has no entry for is left out; `relaxation` of it goes to the diagonal: 0 is
+    /// IC(0), 1 modified IC(0). `diagonal` is that of the M-matrix.
     void (*factorize)(const Block& block, float relaxation);
 
     /// q = A x.

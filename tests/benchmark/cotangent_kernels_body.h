@@ -27,8 +27,9 @@ TRACKED_MCF_INLINE double dot(const WideLanes& a, const WideLanes& b) {
 /// Triangles whose square roots and divisions are done at once.
 constexpr int kBatch = 8;
 
-/// A triangle of less quality, 4√3 area / Σ edge², is as stiff as one of this.
-constexpr double kLeastQuality = 1e-6;
+/// A triangle of less quality, 4√3 area / Σ edge², is as stiff as one of this. The reference takes
+/// 1e-6, with which conjugate gradients do not converge on scans that have needles.
+constexpr double kLeastQuality = 1e-2;
 
 /// What a batch of triangles adds, by corners: to the right side, to the rows' sums, and to the
 /// entries of the edges opposite to them. Edge i is opposite to corner i.
@@ -106,18 +107,21 @@ void assemble(const Assembly& assembly) {
     }
 }
 
+/// Least pivot, in parts of the diagonal.
+constexpr float kLeastPivot = 1e-3F;
+
 void factorize(const Block& block, float relaxation) {
-    constexpr float kLeastPivot = 1e-3F;  // of the matrix's diagonal, for what has no area
     for (std::int32_t k = block.upper_begin[block.begin]; k < block.upper_begin[block.end]; ++k) {
-        block.upper[k].factor = block.upper[k].matrix;
+        const float entry = block.upper[k].matrix;
+        block.upper[k].factor = entry < 0 ? entry : 0;
     }
     for (std::int32_t i = block.begin; i < block.end; ++i) block.inverse_diagonal[i] = 0;
     for (std::int32_t i = block.begin; i < block.end; ++i) {
         // Until now it has been what elimination takes from the diagonal.
+        const float pivot = block.diagonal[i] - block.inverse_diagonal[i];
+        // Positive but for rounding and rows without area.
         const float least = kLeastPivot * block.diagonal[i];
-        const float reduced = block.diagonal[i] - block.inverse_diagonal[i];
-        const float pivot = reduced > least ? reduced : least;
-        const float inverse = pivot > 0 ? 1 / pivot : 1;
+        const float inverse = block.diagonal[i] > 0 ? 1 / (pivot > least ? pivot : least) : 1;
         block.inverse_diagonal[i] = inverse;
         const std::int32_t end = block.upper_begin[i + 1];
         const std::int32_t* fill = block.fill + block.fill_begin[i];

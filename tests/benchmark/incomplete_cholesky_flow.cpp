@@ -168,19 +168,26 @@ void IncompleteCholeskyFlow::factorize() {
         for (std::int32_t i = block.begin; i < block.end; ++i) diagonal_[i] = row_sums_[i];
         for (std::int32_t i = block.begin; i < block.end; ++i) {
             for (std::int32_t k = block.upper_begin[i]; k < block.upper_begin[i + 1]; ++k) {
-                diagonal_[i] -= upper_[k].matrix;
-                diagonal_[upper_[k].column] -= upper_[k].matrix;
+                take_from_diagonal(upper_[k].matrix, i, upper_[k].column);
             }
         }
     });
     for (std::size_t k = 0; k < pattern_.couplings.size(); ++k) {
-        const float entry = upper_[pattern_.first_coupling() + static_cast<std::int32_t>(k)].matrix;
-        diagonal_[pattern_.couplings[k].row] -= entry;
-        diagonal_[pattern_.couplings[k].column] -= entry;
+        const auto [row, column] = pattern_.couplings[k];
+        take_from_diagonal(upper_[pattern_.first_coupling() + static_cast<std::int32_t>(k)].matrix,
+                           row, column);
     }
     for_each_block([&](const Block& block, int) {
         kernels_.factorize(block, static_cast<float>(parameters_.relaxation));
     });
+}
+
+/// Positive entries are left out of what is factorised.
+void IncompleteCholeskyFlow::take_from_diagonal(float entry, std::int32_t row,
+                                                std::int32_t column) {
+    if (entry >= 0) return;
+    diagonal_[row] -= entry;
+    diagonal_[column] -= entry;
 }
 
 /// The right side in single precision, and its norm.

@@ -58,8 +58,8 @@ private:
     };
 
     void assemble();
-    void take_up_edges_between_blocks();
     void factorize();
+    void take_from_diagonal(float entry, std::int32_t row, std::int32_t column);
     void start();
     int iterate(Doubles& final_residual, double goal);
     Products forward(const Floats& alpha);
