@@ -1,6 +1,8 @@
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "filter_tracked_mcf/core/element_matrices.h"
 #include "filter_tracked_mcf/core/flow.h"
@@ -68,6 +70,39 @@ bool step(Flow& flow, int number) {
     return true;
 }
 
+/// Entries of the finest level's matrix, right of the diagonal and on it.
+std::int64_t count_matrix_entries(const Level& level) {
+    std::vector<std::vector<std::int32_t>> elements_of(level.unknown_count());
+    for (std::int32_t element = 0; element < level.element_count(); ++element) {
+        for (const std::int32_t unknown : level.unknowns[element]) {
+            elements_of[unknown].push_back(element);
+        }
+    }
+    std::int64_t count = 0;
+    std::vector<std::int32_t> counted_for(level.unknown_count(), -1);
+    for (std::int32_t row = 0; row < level.unknown_count(); ++row) {
+        for (const std::int32_t element : elements_of[row]) {
+            for (const std::int32_t column : level.unknowns[element]) {
+                count += column >= row && counted_for[column] != row ? 1 : 0;
+                counted_for[column] = row;
+            }
+        }
+    }
+    return count;
+}
+
+/// The elements' matrices alone, without what follows in a step.
+void print_assembly(const Flow& flow) {
+    ElementSystems systems;
+    for (int repetition = 0; repetition < 4; ++repetition) {
+        const ProcessStopwatch stopwatch;
+        assemble_elements(flow.elements(), flow.displacement(),
+                          {1.0F, static_cast<float>(flow.grid_step_size())}, systems);
+        // The first has to fetch memory.
+        if (repetition > 0) print_seconds("kernel", repetition, stopwatch.seconds());
+    }
+}
+
 void run(const TrackedOptions& options) {
     const FlowParameters parameters = options.parameters();
     const ThreadCountScope threads(options.threads);
@@ -87,6 +122,8 @@ void run(const TrackedOptions& options) {
     print_seconds("move", 0, stopwatch.seconds());
     print_quantity("peak_memory_bytes", 0, peak_memory_bytes());
     print_sphere_error(options.mesh, mesh.positions, options.step_size, options.steps);
+    print_quantity("matrix_entries", 0, count_matrix_entries(flow->elements().finest()));
+    print_assembly(*flow);
 }
 
 }  // namespace
