@@ -7,6 +7,7 @@
 #   demo         running the plugin without a screen and drawing pictures of surfaces
 #   tests        building and running all tests
 #   experiments  building and running tests/experiments
+#   benchmark    building and running tests/benchmark, CGAL included
 #   checks       formatting and static analysis
 #
 # Asks apt only if something is missing; with sudo unless run as root.
@@ -23,6 +24,7 @@ packages_of() {
             imagemagick python3 python3-matplotlib debootstrap ;;
         experiments) echo "$(packages_of program)" libgtest-dev libgmock-dev python3-matplotlib \
             python3-vtk9 python3-numpy xvfb xauth ;;
+        benchmark) echo "$(packages_of program)" libgtest-dev libgmock-dev libcgal-dev python3 ;;
         checks) echo clang-format clang-tidy libomp-dev git ;;
         *) echo "install_debian.sh: unknown task '$1'" >&2 && return 1 ;;
     esac
@@ -41,7 +43,7 @@ is_installed() { dpkg-query -W -f '${db:Status-Status}\n' "$1" 2> /dev/null | gr
 # without.
 has_lists() { [ -n "$(apt-get indextargets 'Created-By: Packages')" ]; }
 
-[ $# -gt 0 ] || { sed -n '2,12s/^# \{0,1\}//p' "$0" >&2 && exit 2; }
+[ $# -gt 0 ] || { sed -n '2,13s/^# \{0,1\}//p' "$0" >&2 && exit 2; }
 if ! command -v apt-get > /dev/null; then
     echo "install_debian.sh: this system has no apt-get. Install the equivalents of these Debian" \
         "packages, then go on: $(for task in "$@"; do packages_of "$task"; done)" >&2

@@ -59,39 +59,96 @@ void add_quads(Welder& welder, int n, int m, const std::function<Vector3d(int, i
     }
 }
 
-/// Splits a face of an icosahedron into frequency² triangles on the sphere.
-void add_face(Welder& welder, const Vector3d& a, const Vector3d& b, const Vector3d& c,
-              int frequency) {
-    const auto point = [&](int i, int j) -> Vector3d {
-        return (a * (frequency - i - j) + b * i + c * j).normalized();
-    };
-    for (int i = 0; i < frequency; ++i) {
-        for (int j = 0; i + j < frequency; ++j) {
-            welder.triangle(point(i, j), point(i + 1, j), point(i, j + 1));
-            if (i + j + 1 < frequency) {
-                welder.triangle(point(i + 1, j), point(i + 1, j + 1), point(i, j + 1));
+/// The icosahedron's corners, not on the unit sphere, and its faces.
+std::array<Vector3d, 12> icosahedron_corners() {
+    const double g = (1 + std::sqrt(5.0)) / 2;
+    return {Vector3d(-1, g, 0), Vector3d(1, g, 0), Vector3d(-1, -g, 0), Vector3d(1, -g, 0),
+            Vector3d(0, -1, g), Vector3d(0, 1, g), Vector3d(0, -1, -g), Vector3d(0, 1, -g),
+            Vector3d(g, 0, -1), Vector3d(g, 0, 1), Vector3d(-g, 0, -1), Vector3d(-g, 0, 1)};
+}
+constexpr std::array<Triangle, 20> kIcosahedronFaces = {
+    {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+     {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
+     {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}}};
+
+/// Splits the faces of an icosahedron into frequency² triangles each, on the sphere. Vertices that
+/// faces share are found by their place on an edge, without a search: spheres may be large.
+class GeodesicSphere {
+public:
+    explicit GeodesicSphere(int frequency)
+        : frequency_(frequency),
+          row_length_(static_cast<std::size_t>(frequency) + 1),
+          on_edge_(12 * 12 * row_length_, kNone) {
+        const auto n = static_cast<std::size_t>(frequency);
+        mesh_.positions.reserve(10 * n * n + 2);
+        mesh_.triangles.reserve(20 * n * n);
+        for (const Triangle& face : kIcosahedronFaces) add_face(face);
+    }
+    TriangleMesh mesh() && { return std::move(mesh_); }
+
+private:
+    static constexpr std::int32_t kNone = -1;
+
+    void add_face(const Triangle& face) {
+        in_face_.assign(row_length_ * row_length_, kNone);
+        for (int i = 0; i < frequency_; ++i) {
+            for (int j = 0; i + j < frequency_; ++j) {
+                // In braces, so that vertices are numbered in this order.
+                mesh_.triangles.push_back(
+                    {vertex(face, i, j), vertex(face, i + 1, j), vertex(face, i, j + 1)});
+                if (i + j + 1 == frequency_) continue;
+                mesh_.triangles.push_back(
+                    {vertex(face, i + 1, j), vertex(face, i + 1, j + 1), vertex(face, i, j + 1)});
             }
         }
     }
-}
+
+    /// The vertex of a face that is i steps from its first corner towards the second and j towards
+    /// the third; made when it is first asked for.
+    std::int32_t vertex(const Triangle& face, int i, int j) {
+        std::int32_t& in_face = in_face_[i * row_length_ + j];
+        if (in_face != kNone) return in_face;
+        std::int32_t* const shared = place_on_edge(face, i, j);
+        if (shared != nullptr && *shared != kNone) return in_face = *shared;
+        in_face = static_cast<std::int32_t>(mesh_.positions.size());
+        if (shared != nullptr) *shared = in_face;
+        mesh_.positions.emplace_back((corners_[face[0]] * (frequency_ - i - j) +
+                                      corners_[face[1]] * i + corners_[face[2]] * j)
+                                         .normalized());
+        return in_face;
+    }
+
+    /// Where the number of a vertex on a face's rim is kept; null inside.
+    std::int32_t* place_on_edge(const Triangle& face, int i, int j) {
+        const std::array<int, 3> steps = {frequency_ - i - j, i, j};
+        for (int corner = 0; corner < 3; ++corner) {
+            if (steps[corner] == frequency_) return entry(face[corner], face[corner], 0);
+        }
+        for (int opposite = 0; opposite < 3; ++opposite) {
+            if (steps[opposite] != 0) continue;
+            const int from = (opposite + 1) % 3;
+            const int to = (opposite + 2) % 3;
+            return face[from] < face[to] ? entry(face[from], face[to], steps[to])
+                                         : entry(face[to], face[from], steps[from]);
+        }
+        return nullptr;
+    }
+    std::int32_t* entry(std::int32_t first_corner, std::int32_t last_corner, int step) {
+        return &on_edge_[(std::size_t{12} * first_corner + last_corner) * row_length_ + step];
+    }
+
+    int frequency_;
+    std::size_t row_length_;  ///< vertices along an edge
+    std::array<Vector3d, 12> corners_ = icosahedron_corners();
+    std::vector<std::int32_t> on_edge_;  ///< by first and last corner and steps between them
+    std::vector<std::int32_t> in_face_;  ///< of the present face, by i and j
+    TriangleMesh mesh_;
+};
 
 }  // namespace
 
 TriangleMesh geodesic_sphere(int frequency) {
-    const double g = (1 + std::sqrt(5.0)) / 2;
-    const std::array<Vector3d, 12> corners = {
-        Vector3d(-1, g, 0), Vector3d(1, g, 0), Vector3d(-1, -g, 0), Vector3d(1, -g, 0),
-        Vector3d(0, -1, g), Vector3d(0, 1, g), Vector3d(0, -1, -g), Vector3d(0, 1, -g),
-        Vector3d(g, 0, -1), Vector3d(g, 0, 1), Vector3d(-g, 0, -1), Vector3d(-g, 0, 1)};
-    const std::array<std::array<int, 3>, 20> faces = {
-        {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
-         {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
-         {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}}};
-    Welder welder;
-    for (const auto& face : faces) {
-        add_face(welder, corners[face[0]], corners[face[1]], corners[face[2]], frequency);
-    }
-    return std::move(welder).mesh();
+    return GeodesicSphere(frequency).mesh();
 }
 
 TriangleMesh square(int n) {

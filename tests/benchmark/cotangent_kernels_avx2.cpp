@@ -1,0 +1,12 @@
+#include "tests/benchmark/cotangent_kernels.h"
+
+namespace tracked_mcf::benchmark::avx2 {
+
+namespace {
+#include "tests/benchmark/cotangent_kernels_body.h"
+}  // namespace
+
+extern const CotangentKernels kKernels;
+const CotangentKernels kKernels = {"avx2", assemble, factorize, multiply, forward, backward};
+
+}  // namespace tracked_mcf::benchmark::avx2

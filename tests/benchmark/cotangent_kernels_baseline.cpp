@@ -1,0 +1,12 @@
+#include "tests/benchmark/cotangent_kernels.h"
+
+namespace tracked_mcf::benchmark::baseline {
+
+namespace {
+#include "tests/benchmark/cotangent_kernels_body.h"
+}  // namespace
+
+extern const CotangentKernels kKernels;
+const CotangentKernels kKernels = {"baseline", assemble, factorize, multiply, forward, backward};
+
+}  // namespace tracked_mcf::benchmark::baseline

@@ -1,0 +1,138 @@
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "filter_tracked_mcf/core/element_matrices.h"
+#include "filter_tracked_mcf/core/flow.h"
+#include "filter_tracked_mcf/core/parallel.h"
+#include "filter_tracked_mcf/core/peak_memory.h"
+#include "filter_tracked_mcf/core/progress_meter.h"
+#include "filter_tracked_mcf/core/setup_phases.h"
+#include "tests/benchmark/meshes.h"
+#include "tests/benchmark/rows.h"
+#include "tests/benchmark/setup_times.h"
+#include "tests/benchmark/sphere_error.h"
+#include "tests/benchmark/subcommands.h"
+#include "tests/benchmark/tracked_options.h"
+
+namespace tracked_mcf::benchmark {
+
+namespace {
+
+/// As evolve() does, and prints how long it takes, phase by phase.
+void set_up(const TriangleMesh& mesh, const FlowParameters& parameters, std::optional<Flow>& flow) {
+    SetupTimes times;
+    const Progress progress = times.progress();
+    const ProgressMeter meter(progress);
+    const ProcessStopwatch stopwatch;
+    enter_setup_phase(SetupPhase::CheckMesh);
+    validate(mesh);
+    flow.emplace(mesh, parameters);
+    print_seconds("setup", 0, stopwatch.seconds());
+    for (const auto& [phase, seconds] : times.finish())
+        print_seconds("setup: " + phase, 0, seconds);
+}
+
+void print_sizes(const FlowReport& report) {
+    print_quantity("vertices", 0, report.vertices);
+    print_quantity("triangles", 0, report.triangles);
+    print_quantity("depth", 0, report.depth);
+    print_quantity("cells", 0, report.cells);
+    print_quantity("elements", 0, report.elements);
+    print_quantity("unknowns", 0, report.unknowns);
+    print_quantity("fragments", 0, report.fragments);
+    print_quantity("samples", 0, report.samples);
+}
+
+/// Of the structures that a step goes through, by what they hold now.
+void print_bytes(const Flow& flow) {
+    const TrackedElements& elements = flow.elements();
+    const auto bytes_of = [](const auto& values) { return values.size() * sizeof(values[0]); };
+    const auto element_count = static_cast<std::size_t>(elements.finest().element_count());
+    print_quantity("sample_bytes", 0, bytes_of(elements.samples));
+    print_quantity("fragment_bytes", 0, bytes_of(elements.fragments));
+    print_quantity("element_system_bytes", 0,
+                   element_count * (sizeof(ElementMatrix) + sizeof(ElementVector)));
+    print_quantity("coefficient_bytes", 0, 3 * sizeof(double) * flow.displacement().rows());
+}
+
+bool step(Flow& flow, int number) {
+    const ProcessStopwatch stopwatch;
+    if (!flow.step()) return false;
+    print_seconds("step", number, stopwatch.seconds());
+    const StepReport& report = flow.report().steps.back();
+    print_quantity("assemble_seconds", number, report.assemble_seconds);
+    print_quantity("solve_seconds", number, report.solve_seconds);
+    print_quantity("iterations", number, report.solver_iterations);
+    print_quantity("relative_residual", number, report.relative_residual);
+    return true;
+}
+
+/// Entries of the finest level's matrix, right of the diagonal and on it.
+std::int64_t count_matrix_entries(const Level& level) {
+    std::vector<std::vector<std::int32_t>> elements_of(level.unknown_count());
+    for (std::int32_t element = 0; element < level.element_count(); ++element) {
+        for (const std::int32_t unknown : level.unknowns[element]) {
+            elements_of[unknown].push_back(element);
+        }
+    }
+    std::int64_t count = 0;
+    std::vector<std::int32_t> counted_for(level.unknown_count(), -1);
+    for (std::int32_t row = 0; row < level.unknown_count(); ++row) {
+        for (const std::int32_t element : elements_of[row]) {
+            for (const std::int32_t column : level.unknowns[element]) {
+                count += column >= row && counted_for[column] != row ? 1 : 0;
+                counted_for[column] = row;
+            }
+        }
+    }
+    return count;
+}
+
+/// The elements' matrices alone, without what follows in a step.
+void print_assembly(const Flow& flow) {
+    ElementSystems systems;
+    for (int repetition = 0; repetition < 4; ++repetition) {
+        const ProcessStopwatch stopwatch;
+        assemble_elements(flow.elements(), flow.displacement(),
+                          {1.0F, static_cast<float>(flow.grid_step_size())}, systems);
+        // The first has to fetch memory.
+        if (repetition > 0) print_seconds("kernel", repetition, stopwatch.seconds());
+    }
+}
+
+void run(const TrackedOptions& options) {
+    const FlowParameters parameters = options.parameters();
+    const ThreadCountScope threads(options.threads);
+    TriangleMesh mesh = named_mesh(options.mesh);
+    print_header();
+    print_quantity("mesh_memory_bytes", 0, peak_memory_bytes());
+    std::optional<Flow> flow;
+    set_up(mesh, parameters, flow);
+    print_quantity("setup_memory_bytes", 0, peak_memory_bytes());
+    print_sizes(flow->report());
+    print_bytes(*flow);
+    for (int number = 1; number <= options.steps; ++number) {
+        if (!step(*flow, number)) return;
+    }
+    const ProcessStopwatch stopwatch;
+    flow->move_vertices(mesh);
+    print_seconds("move", 0, stopwatch.seconds());
+    print_quantity("peak_memory_bytes", 0, peak_memory_bytes());
+    print_sphere_error(options.mesh, mesh.positions, options.step_size, options.steps);
+    print_quantity("matrix_entries", 0, count_matrix_entries(flow->elements().finest()));
+    print_assembly(*flow);
+}
+
+}  // namespace
+
+void add_flow(CLI::App& app) {
+    const auto options = std::make_shared<TrackedOptions>();
+    CLI::App* command = app.add_subcommand("flow", "Our flow: set-up by phase, then steps.");
+    add_options(*command, *options);
+    command->callback([options] { run(*options); });
+}
+
+}  // namespace tracked_mcf::benchmark

@@ -1,0 +1,337 @@
+"""The results page: tables and verdicts, from figures alone."""
+
+import machine
+from measurements import (BASELINE_INSTRUCTIONS, CGAL, IC, MIC, OTHER_BINARY, OURS, REBUILT, TRIAD)
+
+PROTOTYPE_NANOSECONDS = 41  # of assembly a sample
+
+BYTES_OF_ITERATION = 252  # of IC(0)-CG, for a vertex
+
+
+def digits(value, unit=""):
+    if value is None:
+        return "-"
+    text = f"{value:.3g}" if abs(value) < 1000 else f"{value:.0f}"
+    return f"{text} {unit}".rstrip()
+
+
+def ratio(a, b):
+    return a / b if a is not None and b else None
+
+
+class Page:
+    """`main` is the mesh of the targets, `middle` the step size of most tables."""
+
+    def __init__(self, measurements, build, main, step_sizes, middle):
+        self._of = measurements
+        self._build = build
+        self._main = main
+        self._step_sizes = step_sizes
+        self._middle = middle
+        self._lines = []
+
+    def text(self):
+        self._say("# Results of the benchmark\n")
+        self._say("Made by `run_benchmark.py` alone; [README.md](README.md) says what is measured and "
+                  "how the peers are tuned. To reproduce:\n")
+        self._say("```sh\nexternal/install_debian.sh benchmark && external/cgal_meshes.sh "
+                  "build/cgal-meshes\ncmake -S . -B build -DTRACKED_MCF_PLUGIN=OFF "
+                  "-DTRACKED_MCF_BENCHMARK=ON\ncmake --build build -j --target "
+                  "tracked_mcf_benchmark\ntests/benchmark/run_benchmark.py\n```\n")
+        self._say(f"Unless said otherwise: medians; the noisy {self._main}; one thread; seconds of "
+                  "processor time, of all threads, which other work on the machine hardly changes.\n")
+        self._machine()
+        self._verdicts()
+        self._steps()
+        self._setup()
+        self._rebuilt()
+        self._threads()
+        self._instructions()
+        self._accuracy()
+        self._scale()
+        self._floors()
+        self._other_meshes()
+        return "\n".join(self._lines)
+
+    # What was measured.
+
+    def _ours(self, quantity, step_size=None, **more):
+        case = {"peer": OURS, "mesh": self._main, "threads": 1, **more}
+        return self._of.median(quantity, step_size=step_size or self._middle, **case)
+
+    def _step(self, peer, step_size, **more):
+        case = {"peer": peer, "mesh": self._main, "threads": 1, "step_size": step_size, **more}
+        return self._of.median("step_cpu_seconds", **case)
+
+    def _phase(self, phase, **case):
+        """Processor seconds of a part of the step, of which only wall seconds are measured: the same
+        share of the step's."""
+        wall, whole, cpu = (self._of.median(f"{what}_seconds", **case)
+                            for what in (phase, "step", "step_cpu"))
+        return ratio(wall, whole) * cpu if wall is not None else None
+
+    def _bandwidth(self, threads=1):
+        return self._of.median("best_bytes_per_second", peer=TRIAD, threads=threads)
+
+    # How it is said.
+
+    def _say(self, line=""):
+        self._lines.append(line)
+
+    def _title(self, title, remark=""):
+        self._say(f"## {title}\n")
+        if remark:
+            self._say(f"{remark}\n")
+
+    def _table(self, headers, rows):
+        self._say(f"| {' | '.join(headers)} |")
+        self._say(f"|{'---|' * len(headers)}")
+        for row in rows:
+            self._say(f"| {' | '.join(row)} |")
+        self._say()
+
+    # The sections.
+
+    def _machine(self):
+        self._title("Machine")
+        rows = machine.table(self._build)
+        for threads in (1, 2):
+            median = self._of.median("median_bytes_per_second", peer=TRIAD, threads=threads)
+            rows.append([f"memory bandwidth, {threads} thread{'s' if threads > 1 else ''} (triad, best, "
+                         "median)", f"{digits(ratio(self._bandwidth(threads), 1e9))}, "
+                         f"{digits(ratio(median, 1e9))} GB/s"])
+        self._table(["what", "is"], rows)
+
+    def _verdicts(self):
+        self._title("Targets")
+        rows = []
+
+        def target(number, what, measured, limit, at_least=False, unit=""):
+            met = "not measured" if measured is None else (
+                "met" if (measured >= limit if at_least else measured <= limit) else "**not met**")
+            rows.append([number, what, digits(measured, unit),
+                         f"at {'least' if at_least else 'most'} {digits(limit, unit)}", met])
+
+        small, middle, large = self._step_sizes
+        for number, step_size, limit in (("1", middle, 0.5), ("1", large, 0.2), ("2", small, 1.5)):
+            target(number, f"step at δ = {step_size:g}, of {IC}'s",
+                   ratio(self._step(OURS, step_size), self._step(IC, step_size)), limit)
+        nanoseconds = ratio(self._ours("kernel_cpu_seconds"), self._ours("samples"))
+        target("3", "elements' matrices, a sample", nanoseconds and 1e9 * nanoseconds,
+               PROTOTYPE_NANOSECONDS / 3, unit="ns")
+        setup = self._ours("setup_cpu_seconds")
+        microseconds = ratio(setup, self._ours("triangles"))
+        target("4", "set-up, a triangle", microseconds and 1e6 * microseconds, 1.2, unit="µs")
+        target("4", f"set-up, in steps of δ = {middle:g}", ratio(setup, self._step(OURS, middle)), 8)
+        target("4", "rebuilt at every step, of tracked",
+               ratio(self._step(REBUILT, middle), self._step(OURS, middle)), 7, at_least=True)
+        for what in ("setup", "step"):
+            one, two = (self._ours(f"{what}_seconds", threads=threads) for threads in (1, 2))
+            target("5", f"two threads, {what}: times faster", ratio(one, two), 1.7, at_least=True)
+            one, two = (self._ours(f"{what}_cpu_seconds", threads=threads) for threads in (1, 2))
+            target("5", f"two threads, {what}: processor time, of one's", ratio(two, one), 1.15)
+        target("6", "memory", ratio(self._ours("peak_memory_bytes"), 1e6), 700, unit="MB")
+        target("6", "memory, bunny_scan_871k, depth 9",
+               ratio(self._ours("peak_memory_bytes", mesh="bunny_scan_871k, depth 9"), 1e9), 1.6,
+               unit="GB")
+        for what, spread in (("step", self._spread("step_cpu_seconds")),
+                             ("memory", self._spread("peak_memory_bytes"))):
+            target("7", f"{what} for an unknown, largest of smallest", spread, 1.25)
+        largest = self._of.values("peak_memory_bytes", peer=OURS)
+        target("7", "memory of the largest run", max(largest) / 1e9 if largest else None, 20,
+               unit="GB")
+        target("9", "speed of the chosen instructions, of the other binary's",
+               ratio(self._step(OTHER_BINARY, middle), self._step(OURS, middle)), 0.9, at_least=True)
+        target("9", "forced baseline instructions: radius off by, of the displacement",
+               self._instruction_difference(), 1e-5)
+        target("10", f"CGAL, of ours, δ = {middle:g}",
+               ratio(self._step(CGAL, middle), self._step(OURS, middle)), 20, at_least=True)
+        self._table(["issue's item", "what", "measured", "target", "verdict"], rows)
+        self._say("Item 8 is the table of floors below; the rest of item 3 is in the tests.\n")
+
+    def _steps(self):
+        self._title("Steps", "Processor seconds of a step (and wall seconds), iterations, memory. "
+                    f"{MIC} is the same peer with what its factorisation leaves out put on the "
+                    "diagonal: stronger on good triangles, useless on bad ones.")
+        rows = []
+        for step_size in self._step_sizes:
+            reference = self._step(IC, step_size)
+            for peer in (OURS, IC, MIC, CGAL):
+                case = {"peer": peer, "mesh": self._main, "threads": 1, "step_size": step_size}
+                cpu = self._of.median("step_cpu_seconds", **case)
+                if cpu is None:
+                    continue
+                rows.append([
+                    f"{step_size:g}", peer,
+                    f"{digits(cpu)} ({digits(self._of.median('step_seconds', **case))})",
+                    digits(self._of.median("iterations", **case)),
+                    digits(self._of.median("setup_cpu_seconds", **case)),
+                    digits(ratio(self._of.median("peak_memory_bytes", **case), 1e6), "MB"),
+                    digits(ratio(cpu, reference)), digits(ratio(cpu, self._step(OURS, step_size)))])
+        self._table(["δ", "peer", "step", "iterations", "set-up", "memory", f"of {IC}", "of ours"],
+                    rows)
+        self._say("By phase:\n")
+        rows = []
+        for step_size in self._step_sizes:
+            for peer in (OURS, IC, MIC):
+                case = {"peer": peer, "mesh": self._main, "threads": 1, "step_size": step_size}
+                rows.append([f"{step_size:g}", peer, *(
+                    digits(self._phase(phase, **case))
+                    for phase in ("assemble", "factorize", "solve"))])
+        self._table(["δ", "peer", "assemble", "factorise", "solve"], rows)
+
+    def _setup(self):
+        self._title("Set-up", "Ours, by phase.")
+        case = {"peer": OURS, "mesh": self._main, "step_size": self._middle}
+        triangles = self._ours("triangles")
+        rows = []
+        for name in self._of.quantities("setup", **case):
+            if not name.endswith("_cpu_seconds"):
+                continue
+            wall = name.replace("_cpu_seconds", "_seconds")
+            one = self._of.median(name, threads=1, **case)
+            rows.append([name[:-len("_cpu_seconds")].replace("setup: ", "").replace("setup", "all"),
+                         digits(one), digits(self._of.median(wall, threads=1, **case)),
+                         digits(self._of.median(wall, threads=2, **case)),
+                         digits(1e6 * one / triangles, "µs")])
+        self._table(["phase", "processor seconds", "wall", "wall, two threads", "a triangle"], rows)
+
+    def _rebuilt(self):
+        self._title("Tracked against rebuilt", "The non-tracked octree is set up anew from the evolved "
+                    "mesh before every step. Wall seconds by phase.")
+        rows = []
+        for peer in (OURS, REBUILT):
+            case = {"peer": peer, "mesh": self._main, "threads": 1, "step_size": self._middle}
+            setup = self._of.median("setup_seconds", **case) if peer == REBUILT else None
+            rows.append([{OURS: "tracked"}.get(peer, peer), digits(setup), *(
+                digits(self._of.median(f"{phase}_seconds", **case))
+                for phase in ("assemble", "solve", "move", "step"))])
+        self._table(["", "set-up", "assemble", "solve", "move vertices", "whole step"], rows)
+
+    def _threads(self):
+        self._title("Threads", f"δ = {self._middle:g}. Wall seconds mean something only if nothing else "
+                    "runs.")
+        rows = []
+        for peer in (OURS, IC):
+            for what in ("setup", "step"):
+                figures = [self._ours(f"{what}{kind}_seconds", peer=peer, threads=threads)
+                           for kind in ("", "_cpu") for threads in (1, 2)]
+                rows.append([peer, what, *map(digits, figures), digits(ratio(*figures[:2]))])
+        self._table(["peer", "what", "wall, 1 thread", "wall, 2", "processor, 1", "processor, 2",
+                     "times faster"], rows)
+
+    def _instruction_difference(self):
+        """Of the mean radius, relative to how far the sphere has shrunk."""
+        chosen, forced = (self._ours("mean_radius_error", peer=peer)
+                          for peer in (OURS, BASELINE_INSTRUCTIONS))
+        if chosen is None or forced is None:
+            return None
+        return abs(chosen - forced) / (2 * 4 * self._middle / 0.5)
+
+    def _instructions(self):
+        self._title("Instructions", "Forced by `TRACKED_MCF_INSTRUCTIONS=baseline`; the other binary is "
+                    "that of `--binary`, such as one built with `-march=native`.")
+        self._table(["", "step", "elements' matrices", "mean radius error"], [
+            [peer, digits(self._step(peer, self._middle)),
+             digits(self._ours("kernel_cpu_seconds", peer=peer)),
+             digits(self._ours("mean_radius_error", peer=peer))]
+            for peer in (OURS, BASELINE_INSTRUCTIONS, OTHER_BINARY)])
+
+    def _accuracy(self):
+        self._title("Geometric error at equal time", "Spheres of radius 0.5 without noise after steps of "
+                    f"δ = {self._middle:g}, against the exact radius of semi-implicit steps. Seconds are "
+                    "those of set-up and all steps.")
+        rows = []
+        for mesh in self._of.meshes():
+            if "without noise" not in mesh:
+                continue
+            for peer in (OURS, IC, CGAL):
+                case = {"peer": peer, "mesh": mesh}
+                steps = self._of.values("step_cpu_seconds", **case)
+                if steps:
+                    rows.append([mesh, peer, digits(self._of.median("mean_radius_error", **case)),
+                                 digits(self._of.median("worst_radius_error", **case)),
+                                 digits(self._of.median("setup_cpu_seconds", **case) + sum(steps))])
+        self._table(["mesh", "peer", "mean radius off by", "worst vertex", "seconds"], rows)
+
+    def _scaled(self):
+        return [mesh for mesh in self._of.meshes(peer=OURS) if mesh.endswith(", scaled")]
+
+    def _per_unknown(self, quantity, mesh):
+        return ratio(self._of.median(quantity, peer=OURS, mesh=mesh),
+                     self._of.median("unknowns", peer=OURS, mesh=mesh))
+
+    def _spread(self, quantity):
+        values = [self._per_unknown(quantity, mesh) for mesh in self._scaled()]
+        values = [value for value in values if value is not None]
+        return max(values) / min(values) if len(values) > 1 else None
+
+    def _scale(self):
+        self._title("Scale", "δ is the same in squared cells at every size, so the solver's work is, "
+                    "too. Where the automatic depth changes, the unknowns for a vertex do.")
+        rows = []
+        for mesh in self._scaled():
+            case = {"peer": OURS, "mesh": mesh}
+            rows.append([
+                mesh.replace(", scaled", ""), digits(self._of.median("depth", **case)),
+                digits(self._of.median("unknowns", **case)),
+                digits(self._of.median("step_cpu_seconds", **case)),
+                digits(1e6 * self._per_unknown("step_cpu_seconds", mesh), "µs"),
+                digits(1e6 * self._per_unknown("setup_cpu_seconds", mesh), "µs"),
+                digits(self._per_unknown("peak_memory_bytes", mesh)),
+                digits(self._of.median("peak_memory_bytes", **case) / 1e9, "GB"),
+                digits(self._of.median("iterations", **case))])
+        self._table(["mesh", "depth", "unknowns", "step", "an unknown", "set-up, an unknown",
+                     "bytes an unknown", "memory", "iterations"], rows)
+
+    def _floors(self):
+        self._title("Floors", "What a step must at least move, over the best bandwidth that the triad "
+                    "reached. Assembly: samples, fragments and coefficients read, elements' matrices and "
+                    "right sides written. Solver: of the finest matrix the symmetric half in single "
+                    "precision without indices, three times an iteration (product, sweep before with the "
+                    "residual, sweep after) and once more at either end, and a third more for coarser "
+                    "levels. "
+                    f"{IC}: {BYTES_OF_ITERATION} bytes a vertex and iteration, matrix, factor and five "
+                    "vectors.")
+        bandwidth = self._bandwidth()
+        rows = []
+
+        def floor(step_size, peer, phase, moved):
+            seconds = self._phase(phase, peer=peer, mesh=self._main, threads=1, step_size=step_size)
+            if None not in (bandwidth, seconds):
+                rows.append([f"{step_size:g}", f"{peer}, {phase}", digits(moved / 1e6, "MB"),
+                             digits(moved / bandwidth), digits(seconds),
+                             digits(seconds * bandwidth / moved)])
+
+        for step_size in self._step_sizes:
+            case = {"mesh": self._main, "threads": 1, "step_size": step_size}
+            vertices, iterations = (self._of.median(quantity, peer=IC, **case)
+                                    for quantity in ("vertices", "iterations"))
+            own = [self._of.median(quantity, peer=OURS, **case) for quantity in (
+                "sample_bytes", "fragment_bytes", "element_system_bytes", "coefficient_bytes")]
+            entries, own_iterations = (self._of.median(quantity, peer=OURS, **case)
+                                       for quantity in ("matrix_entries", "iterations"))
+            if None not in (vertices, iterations, entries, own_iterations, *own):
+                floor(step_size, OURS, "assemble", sum(own))
+                floor(step_size, OURS, "solve", 4 * entries * (3 * own_iterations + 2) * 4 / 3)
+                floor(step_size, IC, "solve", BYTES_OF_ITERATION * vertices * iterations)
+        self._table(["δ", "phase", "bytes", "floor", "measured", "times the floor"], rows)
+
+    def _other_meshes(self):
+        self._title("Other meshes", f"{IC} stops after 1000 iterations.")
+        rows = []
+        for mesh in self._of.meshes():
+            if mesh == "" or mesh.startswith("sphere"):
+                continue
+            for step_size in self._step_sizes:
+                for peer in (OURS, IC):
+                    case = {"peer": peer, "mesh": mesh, "step_size": step_size}
+                    cpu = self._of.median("step_cpu_seconds", **case)
+                    if cpu is not None:
+                        rows.append([
+                            mesh, f"{step_size:g}", peer, digits(cpu),
+                            digits(self._of.median("iterations", **case)),
+                            digits(self._of.median("setup_cpu_seconds", **case)),
+                            digits(self._of.median("unknowns", **case)),
+                            digits(self._of.median("peak_memory_bytes", **case) / 1e6, "MB")])
+        self._table(["mesh", "δ", "peer", "step", "iterations", "set-up", "unknowns", "memory"], rows)

@@ -1,0 +1,207 @@
+#!/usr/bin/python3
+"""Measures set-up and steps of the flow beside its peers, and writes the results page.
+
+Everything is run in turn, each in a process of its own. In the output folder is left measurements.csv,
+all figures; the page is made from that alone. Whole, it takes about 20 minutes; with --quick, two.
+"""
+
+import argparse
+import lzma
+import pathlib
+import shutil
+import sys
+
+from measurements import (BASELINE_INSTRUCTIONS, CGAL, IC, MIC, OTHER_BINARY, OURS, REBUILT, TRIAD,
+                          Case, Measurements)
+from results_page import Page
+
+TOP = pathlib.Path(__file__).resolve().parents[2]
+STEP_SIZES = (1e-5, 5e-4, 5e-3)
+MIDDLE = 5e-4
+NOISE = 0.2  # mean edges' length
+LARGE_SCAN = "bunny_scan_871k"
+
+
+def options():
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--build", type=pathlib.Path, default=TOP / "build", metavar="FOLDER",
+                        help="where the project was built, tests and tool included")
+    parser.add_argument("--meshes", type=pathlib.Path, metavar="FOLDER",
+                        default=TOP.parent / "shared" / "meshes",
+                        help=f"folder with {LARGE_SCAN}.ply.xz; where it is absent, that is left out")
+    parser.add_argument("--output", type=pathlib.Path, metavar="FOLDER",
+                        help="for the figures (default: benchmark in the build folder)")
+    parser.add_argument("--page", type=pathlib.Path, metavar="FILE",
+                        help="the page (default: results.md beside this script; with --quick, in the "
+                        "output folder)")
+    parser.add_argument("--quick", action="store_true",
+                        help="164,000 vertices instead of 655,000, once, and less of everything")
+    parser.add_argument("--frequency", type=int, metavar="N",
+                        help="of the sphere that most is measured on (default: 256; with --quick, "
+                        "128); it has 10 N² + 2 vertices, and the other meshes of ours as many")
+    parser.add_argument("--repetitions", type=int, default=3, help="of what is compared directly")
+    parser.add_argument("--largest", type=int, default=1024, metavar="FREQUENCY",
+                        help="of the spheres for the scale; 1024 has 10.5 million vertices")
+    parser.add_argument("--binary", type=pathlib.Path, metavar="DRIVER",
+                        help="another tracked_mcf_benchmark to compare with, such as one that was built "
+                        "with -march=native")
+    parser.add_argument("--page-only", action="store_true",
+                        help="make the page from the figures of the last run")
+    return parser.parse_args()
+
+
+def sphere(frequency, noise=NOISE):
+    """Name for the driver."""
+    return f"sphere:{frequency}:{noise}" if noise else f"sphere:{frequency}"
+
+
+def label(frequency):
+    """Name in tables."""
+    vertices = 10 * frequency * frequency + 2
+    return f"sphere, {vertices / 1e6:.1f} M" if vertices >= 1e6 else f"sphere, {vertices // 1000} k"
+
+
+def ours(mesh, name, step_size, threads=1, steps=4, peer=OURS, more=(), environment=()):
+    return Case(peer, name, step_size, threads,
+                ("rebuilt" if peer == REBUILT else "flow", mesh, "--step-size", step_size, "--threads",
+                 threads, "--steps", steps, *more), environment)
+
+
+def baseline(mesh, name, step_size, threads=1, steps=4, peer=IC):
+    relaxation = 1 if peer == MIC else 0
+    return Case(peer, name, step_size, threads,
+                ("baseline", mesh, "--step-size", step_size, "--threads", threads, "--steps", steps,
+                 "--relaxation", relaxation, "--most-iterations", 1000))
+
+
+def has_cgal(build):
+    """Whether the driver was built with it."""
+    cache = (build / "CMakeCache.txt").read_text(encoding="utf-8")
+    return "TRACKED_MCF_BENCHMARK:BOOL=ON" in cache
+
+
+def cgal(mesh, name, step_size):
+    return Case(CGAL, name, step_size, 1, ("cgal", mesh, "--step-size", step_size))
+
+
+class Benchmark:
+    """All cases. `main` is the sphere of the targets."""
+
+    def __init__(self, arguments, output):
+        self._arguments = arguments
+        self._output = output
+        self._frequency = arguments.frequency or (128 if arguments.quick else 256)
+        self._repetitions = 1 if arguments.quick else arguments.repetitions
+        self.main = label(self._frequency)
+        self.clean = f"{self.main}, without noise"
+
+    def run(self, measurements):
+        measurements.run([Case(TRIAD, threads=n, words=("triad", "--threads", n)) for n in (1, 2)],
+                         self._repetitions)
+        measurements.run(self._compared(), self._repetitions)
+        measurements.run(self._cgal() + self._rebuilt() + self._accuracy(), 1)
+        measurements.run(self._scale() + self._other_meshes(), 1)
+
+    def _compared(self):
+        mesh = sphere(self._frequency)
+        cases = [make(mesh, self.main, step_size, peer=peer) for step_size in STEP_SIZES
+                 for make, peer in ((ours, OURS), (baseline, IC), (baseline, MIC))]
+        cases += [make(mesh, self.main, MIDDLE, threads=2) for make in (ours, baseline)]
+        cases.append(ours(mesh, self.main, MIDDLE, peer=BASELINE_INSTRUCTIONS,
+                          environment=(("TRACKED_MCF_INSTRUCTIONS", "baseline"),)))
+        if self._arguments.binary:
+            cases.append(ours(mesh, self.main, MIDDLE, peer=OTHER_BINARY))
+        return cases
+
+    def _cgal(self):
+        if not has_cgal(self._arguments.build):
+            return []
+        step_sizes = [MIDDLE] if self._arguments.quick else STEP_SIZES
+        clean = sphere(self._frequency, noise=0)
+        return [cgal(sphere(self._frequency), self.main, step_size) for step_size in step_sizes] + [
+            cgal(clean, self.clean, MIDDLE), ours(clean, self.clean, MIDDLE, steps=1)]
+
+    def _rebuilt(self):
+        return [ours(sphere(self._frequency), self.main, MIDDLE, steps=2, peer=REBUILT)]
+
+    def _accuracy(self):
+        """Ten steps, of which the exact radius is known; coarser grids and meshes, too."""
+        steps = 10
+        cases = []
+        for frequency in (self._frequency // 2, self._frequency):
+            name = f"{label(frequency)}, without noise, {steps} steps"
+            mesh = sphere(frequency, noise=0)
+            cases.append(baseline(mesh, name, MIDDLE, steps=steps))
+            cases.append(ours(mesh, name, MIDDLE, steps=steps))
+        # The automatic depth is about log2 of the frequency.
+        coarse = max(1, self._frequency.bit_length() - 2)
+        cases.append(ours(mesh, f"{name}, depth {coarse}", MIDDLE, steps=steps,
+                          more=("--depth", coarse)))
+        return cases
+
+    def _scale(self):
+        largest = 2 * self._frequency if self._arguments.quick else self._arguments.largest
+        frequencies = [f for f in (16, 32, 64, 128, 256, 512, 1024, 2048)
+                       if self._frequency // 4 <= f <= largest]
+        # δ in squared cells is the same for all, and with it the solver's work.
+        return [ours(sphere(f), f"{label(f)}, scaled", MIDDLE * (256 / f)**2, steps=2)
+                for f in frequencies]
+
+    def _other_meshes(self):
+        cases = []
+        for mesh, name, depths in self._files():
+            step_sizes = [MIDDLE] if self._arguments.quick else STEP_SIZES
+            for step_size in step_sizes:
+                cases.append(ours(mesh, name, step_size, steps=2))
+                cases.append(baseline(mesh, name, step_size, steps=2))
+            for depth in depths:
+                cases.append(ours(mesh, f"{name}, depth {depth}", MIDDLE, steps=2,
+                                  more=("--depth", depth)))
+        return cases
+
+    def _files(self):
+        """Names for the driver and in tables, and depths to measure beside the automatic one."""
+        around = round(5.477 * self._frequency)
+        tube = f"open tube, {around * (around // 3 + 1) // 1000} k"
+        meshes = [(f"tube:{around}", tube, ())]
+        quick = self._arguments.quick
+        armadillo = self._arguments.build / "cgal-meshes" / "armadillo.off"
+        if armadillo.exists():
+            meshes.append((f"{armadillo}:{1 if quick else 2}", "armadillo, refined", ()))
+        packed = self._arguments.meshes / f"{LARGE_SCAN}.ply.xz"
+        if packed.exists() and not quick:
+            meshes.append((unpacked(packed, self._output), LARGE_SCAN, (9,)))
+        return meshes
+
+
+def unpacked(packed, folder):
+    path = folder / packed.stem
+    if not path.exists():
+        with lzma.open(packed) as source, open(path, "wb") as target:
+            shutil.copyfileobj(source, target)
+    return path
+
+
+def main():
+    arguments = options()
+    output = arguments.output or arguments.build / "benchmark"
+    output.mkdir(parents=True, exist_ok=True)
+    figures = output / "measurements.csv"
+    driver = arguments.build / "tests" / "benchmark" / "tracked_mcf_benchmark"
+    measurements = Measurements(driver, arguments.binary)
+    benchmark = Benchmark(arguments, output)
+    if arguments.page_only:
+        measurements.read(figures)
+    else:
+        benchmark.run(measurements)
+        measurements.write(figures)
+    beside = output if arguments.quick else pathlib.Path(__file__).parent
+    page = Page(measurements, arguments.build, benchmark.main, STEP_SIZES, MIDDLE)
+    (arguments.page or beside / "results.md").write_text(page.text(), encoding="utf-8")
+    if measurements.failures:
+        sys.exit("These did not succeed:\n" + "\n".join(measurements.failures))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,25 @@
+#include "tests/benchmark/setup_times.h"
+
+namespace tracked_mcf::benchmark {
+
+Progress SetupTimes::progress() {
+    return [this](double, std::string_view phase) {
+        enter(phase);
+        return true;
+    };
+}
+
+/// Calls come in between, too.
+void SetupTimes::enter(std::string_view phase) {
+    if (phase == phase_) return;
+    if (!phase_.empty()) times_.emplace_back(phase_, since_entered_.seconds());
+    phase_ = phase;
+    since_entered_ = ProcessStopwatch();
+}
+
+const std::vector<std::pair<std::string, Seconds>>& SetupTimes::finish() {
+    enter("");
+    return times_;
+}
+
+}  // namespace tracked_mcf::benchmark

@@ -1,0 +1,29 @@
+#include "tests/benchmark/tracked_options.h"
+
+#include <CLI/CLI.hpp>
+
+#include "tests/experiments/configuration.h"
+
+namespace tracked_mcf::benchmark {
+
+FlowParameters TrackedOptions::parameters() const {
+    FlowParameters parameters = experiments::parse_configuration(configuration);
+    parameters.absolute = true;
+    parameters.step_size = step_size;
+    parameters.depth = depth;
+    parameters.iterations = steps;
+    parameters.threads = threads;
+    return parameters;
+}
+
+void add_options(CLI::App& command, TrackedOptions& options) {
+    command.add_option("mesh", options.mesh, "as tests/benchmark/meshes.h spells it")->required();
+    command.add_option("--solver", options.configuration,
+                       "as tests/experiments/configuration.h spells it");
+    command.add_option("--step-size", options.step_size);
+    command.add_option("--depth", options.depth, "0 for the automatic one");
+    command.add_option("--steps", options.steps)->check(CLI::PositiveNumber);
+    command.add_option("--threads", options.threads)->check(CLI::PositiveNumber);
+}
+
+}  // namespace tracked_mcf::benchmark

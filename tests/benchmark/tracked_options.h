@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+
+#include "filter_tracked_mcf/core/flow_parameters.h"
+
+namespace CLI {
+class App;
+}
+
+namespace tracked_mcf::benchmark {
+
+/// What the subcommands that run our flow are told.
+struct TrackedOptions {
+    std::string mesh;
+    std::string configuration = "converged";
+    double step_size = 5e-4;
+    int depth = 0;
+    int steps = 4;
+    int threads = 1;
+
+    /// For a mesh in the unit cube, so that δ is absolute.
+    FlowParameters parameters() const;
+};
+
+void add_options(CLI::App& command, TrackedOptions& options);
+
+}  // namespace tracked_mcf::benchmark
