@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "filter_tracked_mcf/core/element_products.h"
 #include "filter_tracked_mcf/core/interruptible.h"
 #include "filter_tracked_mcf/core/kernels/coupling_places.h"
 #include "filter_tracked_mcf/core/kernels/kernels.h"
@@ -106,7 +105,11 @@ void ElementSmoother::refresh(const std::vector<ElementMatrix>& matrices,
 }
 
 void ElementSmoother::add_correction(float factor, const Field& residual, Field& x) const {
-    add_products(level_, blocks_, inverses_, factor, residual, x);
+    blocks_.for_each([&](std::int32_t begin, std::int32_t end) {
+        kernels().add_packed_products(
+            {inverses_.data(), level_.unknowns.front().data(), begin, end}, factor, residual.data(),
+            x.data());
+    });
 }
 
 }  // namespace tracked_mcf

@@ -42,7 +42,7 @@ private:
     const ElementBlocks& blocks_;
     std::vector<float> shares_;         ///< of every element, 1 / m_e
     std::vector<std::uint32_t> apart_;  ///< of every element, see CoupledElements
-    std::vector<ElementMatrix> inverses_;
+    std::vector<PackedMatrix> inverses_;
     std::vector<std::uint8_t> movable_;
 };
 

@@ -73,6 +73,31 @@ void add_element_products(const ElementRange& range, float factor, const float* 
     }
 }
 
+void add_packed_products(const PackedElements& range, float factor, const float* x, float* y) {
+    for (std::int32_t element = range.begin; element < range.end; ++element) {
+        const std::int32_t* const unknowns = range.unknowns + std::int64_t{8} * element;
+        const float* entry = range.matrices[element].entry;
+        Column columns[8];
+        Column products[8] = {};
+#pragma GCC unroll 8
+        for (int i = 0; i < 8; ++i) columns[i] = load(x + std::int64_t{4} * unknowns[i]);
+#pragma GCC unroll 8
+        for (int i = 0; i < 8; ++i) {
+            products[i] += *entry++ * columns[i];
+#pragma GCC unroll 8
+            for (int j = i + 1; j < 8; ++j) {
+                products[i] += *entry * columns[j];
+                products[j] += *entry++ * columns[i];
+            }
+        }
+#pragma GCC unroll 8
+        for (int i = 0; i < 8; ++i) {
+            float* const to = y + std::int64_t{4} * unknowns[i];
+            store(load(to) + factor * products[i], to);
+        }
+    }
+}
+
 double add_element_products_and_dot(const ElementRange& range, const float* x, float* y) {
     double dot = 0;
     for (std::int32_t element = range.begin; element < range.end; ++element) {

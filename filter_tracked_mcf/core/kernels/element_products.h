@@ -21,6 +21,21 @@ using AddElementProducts = void(const ElementRange& range, float factor, const f
 /// range, all four columns together.
 using AddElementProductsAndDot = double(const ElementRange& range, const float* x, float* y);
 
+/// The entries of a symmetric matrix of an element, row by row from the diagonal on.
+struct PackedMatrix {
+    float entry[36];
+};
+
+/// Consecutive elements of a level with such matrices.
+struct PackedElements {
+    const PackedMatrix* matrices;
+    const std::int32_t* unknowns;
+    std::int32_t begin, end;
+};
+
+/// AddElementProducts with packed matrices.
+using AddPackedProducts = void(const PackedElements& range, float factor, const float* x, float* y);
+
 /// The same for element vectors.
 struct ElementVectors {
     const ElementVector* vectors;

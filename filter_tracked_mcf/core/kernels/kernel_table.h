@@ -19,6 +19,7 @@ namespace tracked_mcf {
 struct Kernels {
     IntegrateElement* integrate_element;
     AddElementProducts* add_element_products;
+    AddPackedProducts* add_packed_products;
     AddElementProductsAndDot* add_element_products_and_dot;
     AddElementVectors* add_element_vectors;
     CoarsenElements* coarsen_elements;

@@ -81,14 +81,12 @@ void invert(Triangles& m) {
     }
 }
 
-void store(const Triangles& triangles, int lane, float factor, ElementMatrix& inverse) {
+void store(const Triangles& triangles, int lane, float factor, PackedMatrix& inverse) {
+    float* entry = inverse.entry;
 #pragma GCC unroll 8
-    for (int i = 0; i < 8; ++i) {
+    for (int j = 0; j < 8; ++j) {
 #pragma GCC unroll 8
-        for (int j = 0; j < 8; ++j) {
-            inverse.entry[i][j] =
-                factor * (i > j ? triangles.entry[i][j][lane] : triangles.entry[j][i][lane]);
-        }
+        for (int i = j; i < 8; ++i) *entry++ = factor * triangles.entry[i][j][lane];
     }
 }
 
@@ -115,7 +113,7 @@ void sum_couplings(const CoupledElements& range, const ElementMatrix* matrices,
 }
 
 void invert_locally(const CoupledElements& range, const ElementMatrix* matrices,
-                    const Couplings* couplings, const float* shares, ElementMatrix* inverses) {
+                    const Couplings* couplings, const float* shares, PackedMatrix* inverses) {
     Triangles triangles = {};
     for (std::int32_t first = range.begin; first < range.end; first += kElements) {
         const int count = range.end - first < kElements ? range.end - first : kElements;

@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "filter_tracked_mcf/core/element_matrix.h"
+#include "filter_tracked_mcf/core/kernels/element_products.h"
 
 namespace tracked_mcf {
 
@@ -30,7 +31,6 @@ using SumCouplings = void(const CoupledElements& range, const ElementMatrix* mat
 /// restricted to the element's unknowns. Rows that are zero, or depend on those before, are left
 /// out, and zero in the inverse.
 using InvertLocally = void(const CoupledElements& range, const ElementMatrix* matrices,
-                           const Couplings* couplings, const float* shares,
-                           ElementMatrix* inverses);
+                           const Couplings* couplings, const float* shares, PackedMatrix* inverses);
 
 }  // namespace tracked_mcf
