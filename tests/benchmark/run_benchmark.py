@@ -97,11 +97,10 @@ class Benchmark:
         self.clean = f"{self.main}, without noise"
 
     def run(self, measurements):
-        measurements.run([Case(TRIAD, threads=n, words=("triad", "--threads", n)) for n in (1, 2)],
-                         self._repetitions)
-        measurements.run(self._compared(), self._repetitions)
+        triads = [Case(TRIAD, threads=n, words=("triad", "--threads", n)) for n in (1, 2)]
+        measurements.run(triads + self._compared(), self._repetitions)
         measurements.run(self._cgal() + self._rebuilt() + self._accuracy(), 1)
-        measurements.run(self._scale() + self._other_meshes(), 1)
+        measurements.run(self._other_meshes() + self._scale(), 1)
 
     def _compared(self):
         mesh = sphere(self._frequency)
@@ -194,8 +193,10 @@ def main():
     if arguments.page_only:
         measurements.read(figures)
     else:
-        benchmark.run(measurements)
-        measurements.write(figures)
+        try:
+            benchmark.run(measurements)
+        finally:
+            measurements.write(figures)
     beside = output if arguments.quick else pathlib.Path(__file__).parent
     page = Page(measurements, arguments.build, benchmark.main, STEP_SIZES, MIDDLE)
     (arguments.page or beside / "results.md").write_text(page.text(), encoding="utf-8")
