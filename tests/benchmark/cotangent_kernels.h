@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "tests/benchmark/cotangent_pattern.h"
+#include "tests/benchmark/triangle_places.h"
 
 namespace tracked_mcf::benchmark {
 

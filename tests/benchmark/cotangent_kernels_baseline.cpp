@@ -3,7 +3,7 @@
 namespace tracked_mcf::benchmark::baseline {
 
 namespace {
-#include "tests/benchmark/cotangent_kernels_body.h"
+#include "tests/benchmark/cotangent_kernels.inc"
 }  // namespace
 
 extern const CotangentKernels kKernels;

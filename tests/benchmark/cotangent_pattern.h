@@ -4,15 +4,10 @@
 #include <vector>
 
 #include "filter_tracked_mcf/core/triangle_mesh.h"
+#include "tests/benchmark/triangle_places.h"
 #include "tests/benchmark/vertex_order.h"
 
 namespace tracked_mcf::benchmark {
-
-/// Where the parts of one triangle's element matrix go.
-struct TrianglePlaces {
-    std::int32_t vertices[3];
-    std::int32_t entries[3];  ///< of the edge opposite to each corner
-};
 
 /// An edge between two unknowns of different blocks.
 struct Coupling {

@@ -212,22 +212,22 @@ void IncompleteCholeskyFlow::start() {
 /// Conjugate gradients until the residual's norm is at most `goal`. Every iteration goes over the
 /// rows twice: forward() and backward() do all that lies between.
 int IncompleteCholeskyFlow::iterate(Doubles& final_residual, double goal) {
-    constexpr Floats kNone = {};
+    constexpr Floats none = {};
     if (parameters_.warm_start) {
         multiply();
     } else {
-        std::fill(x_.begin(), x_.end(), kNone);
-        std::fill(q_.begin(), q_.end(), kNone);
+        std::fill(x_.begin(), x_.end(), none);
+        std::fill(q_.begin(), q_.end(), none);
     }
-    std::fill(p_.begin(), p_.end(), kNone);
+    std::fill(p_.begin(), p_.end(), none);
     Products products = forward({{1, 1, 1, 0}});
     if (sum(products.residual) > right_side_norm_ * right_side_norm_) {
         // The last step's displacement is worse than nothing.
-        std::fill(x_.begin(), x_.end(), kNone);
+        std::fill(x_.begin(), x_.end(), none);
         products = forward({{-1, -1, -1, 0}});
     }
-    Floats alpha = kNone;
-    Floats beta = kNone;
+    Floats alpha = none;
+    Floats beta = none;
     int iteration = 0;
     while (sum(products.residual) > goal * goal && iteration < parameters_.most_iterations) {
         const Doubles curvature = backward(alpha, beta);

@@ -49,6 +49,7 @@ class Measurements:
         print(f"... {' '.join(words)} {' '.join('='.join(e) for e in case.environment)}",
               file=sys.stderr, flush=True)
         # Threads that wait at a barrier would else burn the processor time of other processes.
+        self._add(case, repetition, "load_average", 0, os.getloadavg()[0])
         environment = {**os.environ, "OMP_WAIT_POLICY": "passive", **dict(case.environment)}
         result = subprocess.run([driver, *words], env=environment, stdout=subprocess.PIPE,
                                 text=True, check=False)
@@ -57,10 +58,12 @@ class Measurements:
             print(f"... ended with {result.returncode}", file=sys.stderr)
             self.failures.append(" ".join(words))
         for row in csv.DictReader(io.StringIO(result.stdout)):
-            self._rows.append({
-                "peer": case.peer, "mesh": case.mesh, "step_size": case.step_size,
-                "threads": case.threads, "repetition": repetition, "quantity": row["quantity"],
-                "step": int(row["step"]), "value": float(row["value"])})
+            self._add(case, repetition, row["quantity"], int(row["step"]), float(row["value"]))
+
+    def _add(self, case, repetition, quantity, step, value):
+        self._rows.append({"peer": case.peer, "mesh": case.mesh, "step_size": case.step_size,
+                           "threads": case.threads, "repetition": repetition,
+                           "quantity": quantity, "step": step, "value": value})
 
     def values(self, quantity, **case):
         """All figures of that name, of cases with these values."""
@@ -81,6 +84,9 @@ class Measurements:
     def meshes(self, **case):
         return list(dict.fromkeys(row["mesh"] for row in self._rows
                                   if all(row[key] == value for key, value in case.items())))
+
+    def peers(self):
+        return list(dict.fromkeys(row["peer"] for row in self._rows))
 
     def write(self, path):
         with open(path, "w", newline="", encoding="utf-8") as file:

@@ -22,12 +22,13 @@ def ratio(a, b):
 class Page:
     """`main` is the mesh of the targets, `middle` the step size of most tables."""
 
-    def __init__(self, measurements, build, main, step_sizes, middle):
+    def __init__(self, measurements, build, main, step_sizes, middle, core_knows_instructions):
         self._of = measurements
         self._build = build
         self._main = main
         self._step_sizes = step_sizes
         self._middle = middle
+        self._core_knows_instructions = core_knows_instructions
         self._lines = []
 
     def text(self):
@@ -51,6 +52,7 @@ class Page:
         self._scale()
         self._floors()
         self._other_meshes()
+        self._tuning()
         return "\n".join(self._lines)
 
     # What was measured.
@@ -100,6 +102,9 @@ class Page:
             rows.append([f"memory bandwidth, {threads} thread{'s' if threads > 1 else ''} (triad, best, "
                          "median)", f"{digits(ratio(self._bandwidth(threads), 1e9))}, "
                          f"{digits(ratio(median, 1e9))} GB/s"])
+        loads = self._of.values("load_average")
+        rows.append(["processes that wanted to run meanwhile, this one among them (load average)",
+                     f"{min(loads):.1f} to {max(loads):.1f}" if loads else "not recorded"])
         self._table(["what", "is"], rows)
 
     def _verdicts(self):
@@ -198,14 +203,15 @@ class Page:
 
     def _rebuilt(self):
         self._title("Tracked against rebuilt", "The non-tracked octree is set up anew from the evolved "
-                    "mesh before every step. Wall seconds by phase.")
+                    "mesh before every step.")
         rows = []
         for peer in (OURS, REBUILT):
             case = {"peer": peer, "mesh": self._main, "threads": 1, "step_size": self._middle}
-            setup = self._of.median("setup_seconds", **case) if peer == REBUILT else None
-            rows.append([{OURS: "tracked"}.get(peer, peer), digits(setup), *(
-                digits(self._of.median(f"{phase}_seconds", **case))
-                for phase in ("assemble", "solve", "move", "step"))])
+            setup = self._of.median("setup_cpu_seconds", **case) if peer == REBUILT else None
+            rows.append([{OURS: "tracked"}.get(peer, peer), *map(digits, (
+                setup, self._phase("assemble", **case), self._phase("solve", **case),
+                self._of.median("move_cpu_seconds", **case) if peer == REBUILT else None,
+                self._step(peer, self._middle)))])
         self._table(["", "set-up", "assemble", "solve", "move vertices", "whole step"], rows)
 
     def _threads(self):
@@ -224,7 +230,7 @@ class Page:
         """Of the mean radius, relative to how far the sphere has shrunk."""
         chosen, forced = (self._ours("mean_radius_error", peer=peer)
                           for peer in (OURS, BASELINE_INSTRUCTIONS))
-        if chosen is None or forced is None:
+        if chosen is None or forced is None or not self._core_knows_instructions:
             return None
         return abs(chosen - forced) / (2 * 4 * self._middle / 0.5)
 
@@ -236,6 +242,8 @@ class Page:
              digits(self._ours("kernel_cpu_seconds", peer=peer)),
              digits(self._ours("mean_radius_error", peer=peer))]
             for peer in (OURS, BASELINE_INSTRUCTIONS, OTHER_BINARY)])
+        if not self._core_knows_instructions:
+            self._say("As yet the core has nothing to choose from: the first two are the same.\n")
 
     def _accuracy(self):
         self._title("Geometric error at equal time", "Spheres of radius 0.5 without noise after steps of "
@@ -253,6 +261,21 @@ class Page:
                                  digits(self._of.median("worst_radius_error", **case)),
                                  digits(self._of.median("setup_cpu_seconds", **case) + sum(steps))])
         self._table(["mesh", "peer", "mean radius off by", "worst vertex", "seconds"], rows)
+
+    def _tuning(self):
+        self._title("The baseline's tuning", "What single choices gain: the same without them.")
+        rows = []
+        tuned = [peer for peer in self._of.peers() if peer.startswith(f"{IC}, ")]
+        for peer in (IC, *tuned):
+            cells = []
+            for step_size in self._step_sizes[:2]:
+                case = {"peer": peer, "mesh": self._main, "threads": 1, "step_size": step_size}
+                cells += [digits(self._of.median("step_cpu_seconds", **case)),
+                          digits(self._of.median("iterations", **case))]
+            rows.append(["as tuned" if peer == IC else peer[len(IC) + 2:], *cells])
+        heads = [f"{what}, δ = {step_size:g}" for step_size in self._step_sizes[:2]
+                 for what in ("step", "iterations")]
+        self._table(["baseline", *heads], rows)
 
     def _scaled(self):
         return [mesh for mesh in self._of.meshes(peer=OURS) if mesh.endswith(", scaled")]

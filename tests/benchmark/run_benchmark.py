@@ -6,6 +6,7 @@ all figures; the page is made from that alone. Whole, it takes about 20 minutes;
 """
 
 import argparse
+import dataclasses
 import lzma
 import pathlib
 import shutil
@@ -75,10 +76,25 @@ def baseline(mesh, name, step_size, threads=1, steps=4, peer=IC):
                  "--relaxation", relaxation, "--most-iterations", 1000))
 
 
+# The baseline without one or the other choice: what that is called, what the driver is told, and the
+# environment.
+TUNINGS = (("Morton order", ("--order", "morton"), ()),
+           ("the mesh's own order", ("--order", "given"), ()),
+           ("no warm start", ("--cold",), ()),
+           ("baseline instructions", (), (("TRACKED_MCF_INSTRUCTIONS", "baseline"),)))
+
+
 def has_cgal(build):
     """Whether the driver was built with it."""
     cache = (build / "CMakeCache.txt").read_text(encoding="utf-8")
     return "TRACKED_MCF_BENCHMARK:BOOL=ON" in cache
+
+
+def core_knows_instructions():
+    """Whether the core has paths to choose from; else forcing one would say nothing."""
+    core = TOP / "filter_tracked_mcf" / "core"
+    return any("TRACKED_MCF_INSTRUCTIONS" in path.read_text(encoding="utf-8")
+               for path in core.glob("*.cpp"))
 
 
 def cgal(mesh, name, step_size):
@@ -97,11 +113,10 @@ class Benchmark:
         self.clean = f"{self.main}, without noise"
 
     def run(self, measurements):
-        measurements.run([Case(TRIAD, threads=n, words=("triad", "--threads", n)) for n in (1, 2)],
-                         self._repetitions)
-        measurements.run(self._compared(), self._repetitions)
-        measurements.run(self._cgal() + self._rebuilt() + self._accuracy(), 1)
-        measurements.run(self._scale() + self._other_meshes(), 1)
+        triads = [Case(TRIAD, threads=n, words=("triad", "--threads", n)) for n in (1, 2)]
+        measurements.run(triads + self._compared(), self._repetitions)
+        measurements.run(self._tunings() + self._cgal() + self._rebuilt() + self._accuracy(), 1)
+        measurements.run(self._other_meshes() + self._scale(), 1)
 
     def _compared(self):
         mesh = sphere(self._frequency)
@@ -112,6 +127,16 @@ class Benchmark:
                           environment=(("TRACKED_MCF_INSTRUCTIONS", "baseline"),)))
         if self._arguments.binary:
             cases.append(ours(mesh, self.main, MIDDLE, peer=OTHER_BINARY))
+        return cases
+
+    def _tunings(self):
+        mesh = sphere(self._frequency)
+        cases = []
+        for step_size in STEP_SIZES[:2]:
+            usual = baseline(mesh, self.main, step_size)
+            cases += [dataclasses.replace(usual, peer=f"{IC}, {name}", words=usual.words + words,
+                                          environment=environment)
+                      for name, words, environment in TUNINGS]
         return cases
 
     def _cgal(self):
@@ -194,10 +219,13 @@ def main():
     if arguments.page_only:
         measurements.read(figures)
     else:
-        benchmark.run(measurements)
-        measurements.write(figures)
+        try:
+            benchmark.run(measurements)
+        finally:
+            measurements.write(figures)
     beside = output if arguments.quick else pathlib.Path(__file__).parent
-    page = Page(measurements, arguments.build, benchmark.main, STEP_SIZES, MIDDLE)
+    page = Page(measurements, arguments.build, benchmark.main, STEP_SIZES, MIDDLE,
+                core_knows_instructions())
     (arguments.page or beside / "results.md").write_text(page.text(), encoding="utf-8")
     if measurements.failures:
         sys.exit("These did not succeed:\n" + "\n".join(measurements.failures))

@@ -4,7 +4,7 @@
 
 #include "filter_tracked_mcf/core/flow_parameters.h"
 
-namespace CLI {
+namespace CLI {  // NOLINT(readability-identifier-naming): it is not ours
 class App;
 }
 

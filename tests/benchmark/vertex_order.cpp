@@ -70,14 +70,14 @@ std::vector<std::int32_t> reverse_cuthill_mckee(const TriangleMesh& mesh) {
 }
 
 std::vector<std::int32_t> morton_order(const TriangleMesh& mesh) {
-    constexpr double kCells = 1 << 20;
+    constexpr double cells_per_side = 1 << 20;
     Eigen::Vector3d low = mesh.positions.front();
     Eigen::Vector3d high = low;
     for (const Eigen::Vector3d& p : mesh.positions) {
         low = low.cwiseMin(p);
         high = high.cwiseMax(p);
     }
-    const double scale = kCells / (1e-300 + 1.0001 * (high - low).maxCoeff());
+    const double scale = cells_per_side / (1e-300 + 1.0001 * (high - low).maxCoeff());
     std::vector<std::pair<MortonCode, std::int32_t>> keys;
     keys.reserve(mesh.positions.size());
     for (const Eigen::Vector3d& p : mesh.positions) {
