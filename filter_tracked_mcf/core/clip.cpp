@@ -12,7 +12,8 @@ enum class Keep { Above, Below };
 
 /// Where the segment between two points on either side crosses the plane. The point below always
 /// comes first, so that both sides of the plane, and both triangles of an edge, get the same bits.
-Eigen::Vector3d cut(const Eigen::Vector3d& a, const Eigen::Vector3d& b, int axis, double plane) {
+inline Eigen::Vector3d cut(const Eigen::Vector3d& a, const Eigen::Vector3d& b, int axis,
+                           double plane) {
     const Eigen::Vector3d& below = a[axis] < b[axis] ? a : b;
     const Eigen::Vector3d& above = a[axis] < b[axis] ? b : a;
     const double fraction = (plane - below[axis]) / (above[axis] - below[axis]);
@@ -64,11 +65,10 @@ Polygon whole_triangle(const std::array<Eigen::Vector3d, 3>& corners) {
     return polygon;
 }
 
-const Polygon& clip_to_slab(const Polygon& polygon, const Extent& extent, int axis,
-                            std::int32_t coordinate, Polygon& room) {
+void cut_to_slab(const Polygon& polygon, const Extent& extent, int axis, std::int32_t coordinate,
+                 Polygon& room) {
     const double lower = coordinate;
     const double upper = coordinate + 1.0;
-    if (extent.smallest >= lower && extent.largest <= upper) return polygon;
     if (extent.largest <= upper) {
         clip_to_half_space<Keep::Above>(polygon, axis, lower, room);
     } else if (extent.smallest >= lower) {
@@ -78,7 +78,6 @@ const Polygon& clip_to_slab(const Polygon& polygon, const Extent& extent, int ax
         clip_to_half_space<Keep::Above>(polygon, axis, lower, above);
         clip_to_half_space<Keep::Below>(above, axis, upper, room);
     }
-    return room;
 }
 
 Polygon clip_to_slab(const Polygon& polygon, int axis, std::int32_t coordinate) {

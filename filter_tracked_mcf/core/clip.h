@@ -53,6 +53,10 @@ Polygon clip_to_slab(const Polygon& polygon, int axis, std::int32_t coordinate);
 const Polygon& clip_to_slab(const Polygon& polygon, const Extent& extent, int axis,
                             std::int32_t coordinate, Polygon& room);
 
+/// Puts into `room` the part of a polygon of this extent that is in a slab.
+void cut_to_slab(const Polygon& polygon, const Extent& extent, int axis, std::int32_t coordinate,
+                 Polygon& room);
+
 /// Slabs of an axis that a polygon of this extent meets in more than a touch: first to last, both
 /// included and in [0, cells_per_side). A polygon that lies in a grid plane belongs to the slab
 /// above it.
@@ -99,6 +103,13 @@ inline Extent extent_along(const Polygon& polygon, int axis) {
         extent.largest = std::max(extent.largest, polygon.points[i][axis]);
     }
     return extent;
+}
+
+inline const Polygon& clip_to_slab(const Polygon& polygon, const Extent& extent, int axis,
+                                   std::int32_t coordinate, Polygon& room) {
+    if (extent.smallest >= coordinate && extent.largest <= coordinate + 1.0) return polygon;
+    cut_to_slab(polygon, extent, axis, coordinate, room);
+    return room;
 }
 
 inline SlabRange slabs_met(const Extent& extent, std::int32_t cells_per_side) {

@@ -104,11 +104,6 @@ void number_places(RawVector<FragmentEntry>& fragments) {
 
 }  // namespace
 
-std::array<Eigen::Vector3d, 3> GridMesh::corners(std::int32_t triangle) const {
-    const Triangle& vertices = original.triangles[triangle];
-    return {positions[vertices[0]], positions[vertices[1]], positions[vertices[2]]};
-}
-
 GridMesh to_grid(const TriangleMesh& mesh, const Grid& grid) {
     const std::vector<std::uint8_t> referenced = referenced_vertices(mesh);
     GridMesh result{mesh, {}};

@@ -20,7 +20,10 @@ struct GridMesh {
     const TriangleMesh& original;
     RawVector<Eigen::Vector3d> positions;  ///< zero where unreferenced
 
-    std::array<Eigen::Vector3d, 3> corners(std::int32_t triangle) const;
+    std::array<Eigen::Vector3d, 3> corners(std::int32_t triangle) const {
+        const Triangle& vertices = original.triangles[triangle];
+        return {positions[vertices[0]], positions[vertices[1]], positions[vertices[2]]};
+    }
 };
 
 GridMesh to_grid(const TriangleMesh& mesh, const Grid& grid);

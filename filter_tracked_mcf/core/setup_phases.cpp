@@ -16,12 +16,12 @@ struct Entry {
 
 constexpr std::array<Entry, 8> kEntries = {{{0, "Checking the mesh"},
                                             {0.01, "Measuring the surface"},
-                                            {0.09, "Finding the edges"},
-                                            {0.17, "Choosing the grid"},
-                                            {0.50, "Clipping triangles to cells"},
-                                            {0.63, "Building the octree"},
-                                            {0.72, "Sampling the surface"},
-                                            {0.88, "Preparing the solver"}}};
+                                            {0.04, "Finding the edges"},
+                                            {0.12, "Choosing the grid"},
+                                            {0.31, "Clipping triangles to cells"},
+                                            {0.33, "Building the octree"},
+                                            {0.52, "Sampling the surface"},
+                                            {0.77, "Preparing the solver"}}};
 
 }  // namespace
 

@@ -6,6 +6,8 @@
 #include <random>
 
 #include "filter_tracked_mcf/core/morton.h"
+#include "filter_tracked_mcf/core/parallel.h"
+#include "filter_tracked_mcf/core/raw_vector.h"
 
 namespace tracked_mcf {
 namespace {
@@ -24,6 +26,23 @@ TEST(SortByKey, AgreesWithTheLibrarysStableSort) {
             ASSERT_EQ(pairs[i].key, expected[i].key);
             ASSERT_EQ(pairs[i].value, expected[i].value);
         }
+    }
+}
+
+TEST(SortBy, IsStableOverManyBlocksAndSkipsBitsThatAllKeysShare) {
+    const ThreadCountScope threads(3);
+    std::mt19937_64 random(5);
+    constexpr std::uint64_t shared = std::uint64_t{0xabc} << 50U;
+    RawVector<KeyValue> pairs(300000);
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+        pairs[i] = {shared | (random() % 5000) << 13U, i};
+    }
+    sort_by_key(pairs);
+    for (std::size_t i = 1; i < pairs.size(); ++i) {
+        const bool in_order =
+            pairs[i - 1].key < pairs[i].key ||
+            (pairs[i - 1].key == pairs[i].key && pairs[i - 1].value < pairs[i].value);
+        ASSERT_TRUE(in_order) << i;
     }
 }
 
