@@ -27,7 +27,10 @@ constexpr auto kLongStep = static_cast<float>(1 / (kCentre - kRadius * kHalfDiag
 }  // namespace
 
 ElementMultigrid::LevelData::LevelData(const Level& of_level)
-    : level(of_level), blocks(of_level), smoother(of_level, blocks) {}
+    : level(of_level),
+      blocks(of_level),
+      partition(of_level),
+      smoother(of_level, blocks, partition) {}
 
 ElementMultigrid::ElementMultigrid(const TrackedElements& elements,
                                    std::vector<std::vector<std::uint8_t>> frozen)
@@ -63,12 +66,11 @@ void ElementMultigrid::cycle(std::size_t level, const Field& right_side, Field& 
         return;
     }
     LevelData& here = levels_[level];
-    set_zero(x, here.level.unknown_count());
-    here.smoother.add_correction(kShortStep, right_side, x);
+    here.smoother.correct(kShortStep, right_side, x);
     here.make_residual(right_side, x);
     here.smoother.add_correction(kLongStep, here.residual, x);
     here.make_residual(right_side, x);
-    here.transfer.restrict(here.residual, levels_[level - 1].blocks, here.coarse_right_side);
+    here.transfer.restrict(here.residual, levels_[level - 1].partition, here.coarse_right_side);
     cycle(level - 1, here.coarse_right_side, here.coarse_x);
     here.transfer.add_prolongated(here.coarse_x, here.smoother.movable(), x);
     here.make_residual(right_side, x);
@@ -78,21 +80,21 @@ void ElementMultigrid::cycle(std::size_t level, const Field& right_side, Field& 
 }
 
 void ElementMultigrid::LevelData::make_residual(const Field& right_side, const Field& x) {
-    subtract_products(level, blocks, *matrices, right_side, x, residual);
+    subtract_products(partition, *matrices, right_side, x, residual);
 }
 
 double ElementMultigrid::multiply(const Field& x, Field& product) const {
-    return tracked_mcf::multiply(finest().level, finest().blocks, *finest().matrices, x, product);
+    return tracked_mcf::multiply(finest().partition, *finest().matrices, x, product);
 }
 
 void ElementMultigrid::residual(const Field& right_side, const Coefficients& x,
                                 Field& residual) const {
-    subtract_products(finest().level, finest().blocks, *finest().matrices, right_side, x, residual);
+    subtract_products(finest().level, *finest().matrices, right_side, x, residual);
 }
 
 void ElementMultigrid::assemble(const std::vector<ElementVector>& right_sides,
                                 Field& right_side) const {
-    sum_vectors(finest().level, finest().blocks, right_sides, right_side);
+    sum_vectors(finest().partition, right_sides, right_side);
     parallel_for_rows(right_side.cols(), [&](std::int32_t unknown) {
         if (movable()[unknown] == 0) right_side.col(unknown).setZero();
     });

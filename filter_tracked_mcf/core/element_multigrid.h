@@ -7,6 +7,7 @@
 #include "filter_tracked_mcf/core/coarse_solver.h"
 #include "filter_tracked_mcf/core/element_blocks.h"
 #include "filter_tracked_mcf/core/element_matrices.h"
+#include "filter_tracked_mcf/core/element_partition.h"
 #include "filter_tracked_mcf/core/element_smoother.h"
 #include "filter_tracked_mcf/core/element_transfer.h"
 #include "filter_tracked_mcf/core/field.h"
@@ -62,6 +63,7 @@ private:
 
         const Level& level;
         ElementBlocks blocks;
+        ElementPartition partition;
         ElementSmoother smoother;
         ElementTransfer transfer;  ///< from the next coarser level; unused at level 0
         const std::vector<ElementMatrix>* matrices = nullptr;

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "filter_tracked_mcf/core/element_blocks.h"
 #include "filter_tracked_mcf/core/element_matrices.h"
+#include "filter_tracked_mcf/core/element_partition.h"
 #include "filter_tracked_mcf/core/field.h"
 #include "filter_tracked_mcf/core/octree.h"
 
@@ -12,27 +12,21 @@ namespace tracked_mcf {
 // Products with the matrix A = Σ_e R_eᵀ M_e R_e of a level's symmetric element matrices M_e, which
 // is never assembled, R_e picking an element's eight unknowns: half the memory of A, and streamed.
 
-/// y += factor * A x.
-void add_products(const Level& level, const ElementBlocks& blocks,
-                  const std::vector<ElementMatrix>& matrices, float factor, const Field& x,
-                  Field& y);
-
 /// residual = right_side - A x.
-void subtract_products(const Level& level, const ElementBlocks& blocks,
+void subtract_products(const ElementPartition& partition,
                        const std::vector<ElementMatrix>& matrices, const Field& right_side,
                        const Field& x, Field& residual);
 
 /// The same for x in double precision, a row per unknown, computed in double.
-void subtract_products(const Level& level, const ElementBlocks& blocks,
-                       const std::vector<ElementMatrix>& matrices, const Field& right_side,
-                       const Coefficients& x, Field& residual);
+void subtract_products(const Level& level, const std::vector<ElementMatrix>& matrices,
+                       const Field& right_side, const Coefficients& x, Field& residual);
 
 /// y = A x; returns x · y, summed over the coordinates.
-double multiply(const Level& level, const ElementBlocks& blocks,
-                const std::vector<ElementMatrix>& matrices, const Field& x, Field& y);
+double multiply(const ElementPartition& partition, const std::vector<ElementMatrix>& matrices,
+                const Field& x, Field& y);
 
 /// Σ_e R_eᵀ v_e of element vectors.
-void sum_vectors(const Level& level, const ElementBlocks& blocks,
-                 const std::vector<ElementVector>& vectors, Field& sum);
+void sum_vectors(const ElementPartition& partition, const std::vector<ElementVector>& vectors,
+                 Field& result);
 
 }  // namespace tracked_mcf

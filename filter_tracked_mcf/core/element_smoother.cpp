@@ -70,16 +70,18 @@ std::vector<std::uint32_t> entries_apart(const Level& level, const ElementBlocks
 
 }  // namespace
 
-ElementSmoother::ElementSmoother(const Level& level, const ElementBlocks& blocks)
+ElementSmoother::ElementSmoother(const Level& level, const ElementBlocks& blocks,
+                                 const ElementPartition& partition)
     : level_(level),
       blocks_(blocks),
+      partition_(partition),
       shares_(shares_of(level)),
       apart_(entries_apart(level, blocks)) {
     resize(inverses_, level.element_count());
     resize(movable_, level.unknown_count());
 }
 
-CoupledElements ElementSmoother::range(std::int32_t begin, std::int32_t end) const {
+CoupledElements ElementSmoother::coupled(std::int32_t begin, std::int32_t end) const {
     return {level_.unknowns.front().data(), apart_.data(), begin, end};
 }
 
@@ -91,7 +93,7 @@ void ElementSmoother::refresh(const std::vector<ElementMatrix>& matrices,
     parallel_for_rows(level_.unknown_count(),
                       [&](std::int32_t unknown) { workspace[unknown] = Couplings{}; });
     blocks_.for_each([&](std::int32_t begin, std::int32_t end) {
-        kernels().sum_couplings(range(begin, end), matrices.data(), workspace.data());
+        kernels().sum_couplings(coupled(begin, end), matrices.data(), workspace.data());
     });
     parallel_for_rows(level_.unknown_count(), [&](std::int32_t unknown) {
         // What is not a number must not pass for a function that stays.
@@ -99,16 +101,24 @@ void ElementSmoother::refresh(const std::vector<ElementMatrix>& matrices,
     });
     parallel_for_blocks(level_.element_count(), [&](std::int64_t begin, std::int64_t end) {
         kernels().invert_locally(
-            range(static_cast<std::int32_t>(begin), static_cast<std::int32_t>(end)),
+            coupled(static_cast<std::int32_t>(begin), static_cast<std::int32_t>(end)),
             matrices.data(), workspace.data(), shares_.data(), inverses_.data());
     });
 }
 
 void ElementSmoother::add_correction(float factor, const Field& residual, Field& x) const {
-    blocks_.for_each([&](std::int32_t begin, std::int32_t end) {
-        kernels().add_packed_products(
-            {inverses_.data(), level_.unknowns.front().data(), begin, end}, factor, residual.data(),
-            x.data());
+    correct(&x, factor, residual, x);
+}
+
+void ElementSmoother::correct(float factor, const Field& residual, Field& x) const {
+    correct(nullptr, factor, residual, x);
+}
+
+void ElementSmoother::correct(const Field* base, float factor, const Field& residual,
+                              Field& x) const {
+    partition_.sum(base, x, [&](const ElementRange& range, float* sum) {
+        kernels().add_packed_products(range, inverses_.data(), factor, residual.data(), sum);
+        return 0.0;
     });
 }
 

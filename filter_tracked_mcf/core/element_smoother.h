@@ -5,6 +5,7 @@
 
 #include "filter_tracked_mcf/core/element_blocks.h"
 #include "filter_tracked_mcf/core/element_matrix.h"
+#include "filter_tracked_mcf/core/element_partition.h"
 #include "filter_tracked_mcf/core/field.h"
 #include "filter_tracked_mcf/core/kernels/local_systems.h"
 #include "filter_tracked_mcf/core/octree.h"
@@ -22,8 +23,9 @@ namespace tracked_mcf {
 /// and 1.7 on all surfaces and levels tried, so nothing has to be estimated. S is symmetric.
 class ElementSmoother {
 public:
-    /// Both must outlive this.
-    ElementSmoother(const Level& level, const ElementBlocks& blocks);
+    /// All must outlive this.
+    ElementSmoother(const Level& level, const ElementBlocks& blocks,
+                    const ElementPartition& partition);
 
     /// Takes the level's element matrices, in which the rows and columns of unknowns that must not
     /// move are zero. `workspace` is for use during the call; its content does not matter.
@@ -32,14 +34,19 @@ public:
     /// x += factor * S residual. What may not move, does not.
     void add_correction(float factor, const Field& residual, Field& x) const;
 
+    /// x = factor * S residual.
+    void correct(float factor, const Field& residual, Field& x) const;
+
     /// Of every unknown: whether something constrains it (not 0); what may not move has nothing.
     const std::vector<std::uint8_t>& movable() const { return movable_; }
 
 private:
-    CoupledElements range(std::int32_t begin, std::int32_t end) const;
+    CoupledElements coupled(std::int32_t begin, std::int32_t end) const;
+    void correct(const Field* base, float factor, const Field& residual, Field& x) const;
 
     const Level& level_;
     const ElementBlocks& blocks_;
+    const ElementPartition& partition_;
     std::vector<float> shares_;         ///< of every element, 1 / m_e
     std::vector<std::uint32_t> apart_;  ///< of every element, see CoupledElements
     std::vector<PackedMatrix> inverses_;

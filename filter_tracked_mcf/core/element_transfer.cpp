@@ -42,15 +42,16 @@ const ContainingTable& table() {
     return made;
 }
 
-/// For every element, bit i: it is the first that has its i-th unknown.
+/// For every element, bit i: it is the first that has its i-th unknown. Unknowns are numbered in
+/// that order.
 std::vector<std::uint8_t> first_elements(const Level& level) {
-    std::vector<std::uint8_t> seen(static_cast<std::size_t>(level.unknown_count()), 0);
     std::vector<std::uint8_t> first(static_cast<std::size_t>(level.element_count()), 0);
+    std::int32_t next = 0;
     serial_for(level.element_count(), [&](std::int64_t element) {
         for (int i = 0; i < 8; ++i) {
-            std::uint8_t& seen_before = seen[level.unknowns[element][i]];
-            if (seen_before == 0) first[element] |= static_cast<std::uint8_t>(1 << i);
-            seen_before = 1;
+            if (level.unknowns[element][i] != next) continue;
+            first[element] |= static_cast<std::uint8_t>(1 << i);
+            ++next;
         }
     });
     return first;
@@ -58,6 +59,15 @@ std::vector<std::uint8_t> first_elements(const Level& level) {
 
 int lowest_bit(int mask) {
     return __builtin_ctz(static_cast<unsigned>(mask));
+}
+
+/// Where to add what an element contributes to its i-th unknown.
+float* target_of(const ElementRange& range, std::int32_t element, int i, float* sums) {
+    const std::int32_t detour = range.detours[element];
+    const std::int64_t target = detour == ElementRange::kStraight
+                                    ? range.unknowns[std::int64_t{8} * element + i]
+                                    : range.targets[detour + i];
+    return target >= 0 ? sums + 4 * target : range.slots + 4 * (-1 - target);
 }
 
 }  // namespace
@@ -87,25 +97,27 @@ void ElementTransfer::add_prolongated(const Field& correction,
     });
 }
 
-void ElementTransfer::restrict(const Field& residual, const ElementBlocks& coarse_blocks,
+void ElementTransfer::restrict(const Field& residual, const ElementPartition& coarse_parts,
                                Field& coarse_residual) const {
     const ContainingTable& containing = table();
-    set_zero(coarse_residual, coarse_->unknown_count());
-    coarse_blocks.for_each([&](std::int32_t begin, std::int32_t end) {
-        for (std::int32_t parent = begin; parent < end; ++parent) {
-            const auto& to = coarse_->unknowns[parent];
+    coarse_parts.sum(nullptr, coarse_residual, [&](const ElementRange& range, float* sums) {
+        for (std::int32_t parent = range.begin; parent < range.end; ++parent) {
+            std::array<float*, 8> to;
+            for (int i = 0; i < 8; ++i) to[i] = target_of(range, parent, i, sums);
             for (const std::int32_t child : children_.members(parent)) {
                 const auto& of_corner = containing[octant_of(fine_->cells[child])];
                 for (int owned = owned_[child]; owned != 0; owned &= owned - 1) {
                     const int i = lowest_bit(owned);
-                    const Eigen::Vector4f part =
+                    const Eigen::Vector4f share =
                         of_corner[i].weight * residual.col(fine_->unknowns[child][i]);
                     for (int k = 0; k < of_corner[i].count; ++k) {
-                        coarse_residual.col(to[of_corner[i].corners[k]]) += part;
+                        Eigen::Map<Eigen::Vector4f, Eigen::Aligned16>(
+                            to[of_corner[i].corners[k]]) += share;
                     }
                 }
             }
         }
+        return 0.0;
     });
 }
 

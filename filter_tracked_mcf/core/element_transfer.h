@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "filter_tracked_mcf/core/element_blocks.h"
+#include "filter_tracked_mcf/core/element_partition.h"
 #include "filter_tracked_mcf/core/field.h"
 #include "filter_tracked_mcf/core/octree.h"
 #include "filter_tracked_mcf/core/sorting.h"
@@ -23,8 +23,8 @@ public:
     void add_prolongated(const Field& correction, const std::vector<std::uint8_t>& movable,
                          Field& x) const;
 
-    /// coarse_residual = Pᵀ residual; `coarse_blocks` are those of the coarse level.
-    void restrict(const Field& residual, const ElementBlocks& coarse_blocks,
+    /// coarse_residual = Pᵀ residual; `coarse_parts` are those of the coarse level.
+    void restrict(const Field& residual, const ElementPartition& coarse_parts,
                   Field& coarse_residual) const;
 
     /// The fine elements, grouped by parent.

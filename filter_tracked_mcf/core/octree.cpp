@@ -28,30 +28,30 @@ std::int64_t place_count(const Level& level) {
     return 8 * std::int64_t{level.element_count()};
 }
 
-/// A corner of an element: what unknowns are sorted by, and the place that the number has to go to.
-KeyValue corner_key(const Cell& cell, std::int64_t place) {
-    return {morton_code(corner_of(cell, static_cast<int>(place % 8))),
-            static_cast<std::uint64_t>(place)};
-}
-
-/// The corners in `classes` become unknowns, in the order of their keys; those with the same key
-/// one, or, if there are `several` unknowns at a corner, one each.
-void number_unknowns(Level& level, RawVector<KeyValue>& classes, bool several) {
-    sort_by_key(classes);
-    const auto begins = [&](std::int64_t i) {
-        return several || i == 0 || classes[i].key != classes[i - 1].key;
-    };
+/// Elements' corners, numbered 8 * element + corner, that have the same first(corner), one of
+/// them and the smallest, become one unknown. Unknowns are numbered as their first corners are.
+template <class First>
+void number_unknowns(Level& level, const First& first) {
     resize(level.unknowns, level.element_count());
-    level.number_of_unknowns = static_cast<std::int32_t>(
-        number_blocks(static_cast<std::int64_t>(classes.size()), begins,
-                      [&](std::int64_t begin, std::int64_t end, std::int64_t unknown) {
-                          --unknown;
-                          for (std::int64_t i = begin; i < end; ++i) {
-                              unknown += begins(i) ? 1 : 0;
-                              level.unknowns[classes[i].value / 8][classes[i].value % 8] =
-                                  static_cast<std::int32_t>(unknown);
-                          }
-                      }));
+    const auto is_first = [&](std::int64_t place) {
+        return first(static_cast<std::int32_t>(place)) == place;
+    };
+    level.number_of_unknowns = static_cast<std::int32_t>(number_blocks(
+        place_count(level), is_first,
+        [&](std::int64_t begin, std::int64_t end, std::int64_t unknown) {
+            for (std::int64_t place = begin; place < end; ++place) {
+                if (!is_first(place)) continue;
+                level.unknowns[place / 8][place % 8] = static_cast<std::int32_t>(unknown++);
+            }
+        }));
+    parallel_for_rows(level.element_count(), [&](std::int32_t element) {
+        for (int corner = 0; corner < 8; ++corner) {
+            const std::int32_t place = 8 * element + corner;
+            const std::int32_t of_unknown = first(place);
+            if (of_unknown == place) continue;
+            level.unknowns[element][corner] = level.unknowns[of_unknown / 8][of_unknown % 8];
+        }
+    });
 }
 
 /// One unknown for every corner.
@@ -62,10 +62,23 @@ void number_unknowns(Level& level) {
         const Cell cell = cell_at(level.cells[element]);
         for (int corner = 0; corner < 8; ++corner) {
             const std::int64_t place = 8 * std::int64_t{element} + corner;
-            corners[place] = corner_key(cell, place);
+            corners[place] = {morton_code(corner_of(cell, corner)),
+                              static_cast<std::uint64_t>(place)};
         }
     });
-    number_unknowns(level, corners, false);
+    sort_by_key(corners);
+    RawVector<std::int32_t> first(corners.size());
+    const auto begins = [&](std::int64_t i) {
+        return i == 0 || corners[i].key != corners[i - 1].key;
+    };
+    parallel_for_runs(place_count(level), begins, [&](std::int64_t begin, std::int64_t end) {
+        for_each_run(begin, end, begins, [&](std::int64_t run_begin, std::int64_t run_end) {
+            for (std::int64_t i = run_begin; i < run_end; ++i) {
+                first[corners[i].value] = static_cast<std::int32_t>(corners[run_begin].value);
+            }
+        });
+    });
+    number_unknowns(level, [&](std::int32_t place) { return first[place]; });
 }
 
 /// Unites the elements' corners, numbered 8 * element + corner, at all corners that the cells of
@@ -93,24 +106,7 @@ void number_unknowns(Level& level, const RawVector<Link>& links) {
     ConcurrentSets corners(8 * level.element_count());
     parallel_for_items(links,
                        [&](const Link& link) { unite_shared_corners(link, level, corners); });
-
-    auto classes = parallel_collect<KeyValue, RawVector<KeyValue>>(
-        place_count(level), [&](std::int64_t begin, std::int64_t end, std::vector<KeyValue>& out) {
-            for (auto place = static_cast<std::int32_t>(begin); place < end; ++place) {
-                if (corners.find(place) != place) continue;
-                out.push_back(corner_key(cell_at(level.cells[place / 8]), place));
-            }
-        });
-    number_unknowns(level, classes, true);
-    // Of every class only the first corner has its number yet.
-    parallel_for_rows(level.element_count(), [&](std::int32_t element) {
-        for (int corner = 0; corner < 8; ++corner) {
-            const std::int32_t place = 8 * element + corner;
-            const std::int32_t first = corners.find(place);
-            if (first == place) continue;
-            level.unknowns[element][corner] = level.unknowns[first / 8][first % 8];
-        }
-    });
+    number_unknowns(level, [&](std::int32_t place) { return corners.find(place); });
 }
 
 /// The first of every group of elements, as `first` tells, gets a number, which becomes the parent

@@ -21,9 +21,8 @@ struct Level {
     std::vector<std::array<std::int32_t, 8>> unknowns;
     /// Of every element: the element of the next coarser level that contains it; empty at level 0.
     std::vector<std::int32_t> parents;
-    /// Unknowns are numbered in Morton order of their corners, those at one corner by their
-    /// smallest element: like the elements that have them, so what is near in space is near in
-    /// memory.
+    /// Unknowns are numbered as the elements, one after the other, have them first: what is near in
+    /// space is near in memory.
     std::int32_t number_of_unknowns = 0;
 
     std::int32_t element_count() const { return static_cast<std::int32_t>(cells.size()); }

@@ -13,6 +13,26 @@
 namespace tracked_mcf {
 namespace {
 
+using SparseDouble = Eigen::SparseMatrix<double>;
+
+/// The sum of the finest level's element matrices.
+SparseDouble sparse(const FirstStep& step) {
+    const Level& finest = step.elements.finest();
+    std::vector<Eigen::Triplet<double>> entries;
+    for (std::int32_t element = 0; element < finest.element_count(); ++element) {
+        const auto& unknowns = finest.unknowns[element];
+        for (int i = 0; i < 8; ++i) {
+            for (int j = 0; j < 8; ++j) {
+                entries.emplace_back(unknowns[i], unknowns[j],
+                                     step.systems.matrices[element].entry[i][j]);
+            }
+        }
+    }
+    SparseDouble sum(finest.unknown_count(), finest.unknown_count());
+    sum.setFromTriplets(entries.begin(), entries.end());
+    return sum;
+}
+
 Dense as_dense(const Field& field) {
     return field.cast<double>().transpose();
 }
@@ -25,8 +45,9 @@ TriangleMesh shells() {
 }
 
 TEST(ElementProducts, AreThoseOfTheAssembledMatrix) {
-    const ElementSystem system(shells(), 4, 0.5F, {false, 0.01});
-    const Dense a = assembled(system);
+    const ElementSystem system(shells(), 5, 0.5F, {false, 0.01});  // in several parts
+    const SparseDouble a = sparse(system);
+    EXPECT_GT(system.elements.finest().element_count(), 4096);
     const Field x = random_field(system), b = random_field(system);
     const Dense expected = a * as_dense(x);
 
@@ -35,10 +56,9 @@ TEST(ElementProducts, AreThoseOfTheAssembledMatrix) {
     EXPECT_LT((as_dense(product) - expected).norm(), 1e-6 * expected.norm());
     EXPECT_NEAR(dot, expected.cwiseProduct(as_dense(x)).sum(), 1e-6 * dot);
 
-    const Level& finest = system.elements.finest();
-    const ElementBlocks blocks(finest);
     Field residual;
-    subtract_products(finest, blocks, system.systems.matrices, b, x, residual);
+    subtract_products(ElementPartition(system.elements.finest()), system.systems.matrices, b, x,
+                      residual);
     EXPECT_LT((as_dense(residual) - (as_dense(b) - expected)).norm(), 1e-6 * expected.norm());
 
     const Coefficients precise = as_dense(x).leftCols(3);
@@ -47,7 +67,7 @@ TEST(ElementProducts, AreThoseOfTheAssembledMatrix) {
 }
 
 TEST(ElementProducts, SumElementVectors) {
-    const ElementSystem system(shells(), 4, 0.5F);
+    const ElementSystem system(shells(), 5, 0.5F);
     const Level& finest = system.elements.finest();
     Dense expected = Dense::Zero(finest.unknown_count(), 4);
     for (std::int32_t element = 0; element < finest.element_count(); ++element) {
@@ -82,7 +102,7 @@ TEST(ElementTransfer, IsTheProlongationAndItsTranspose) {
 
         const Field residual = Field::Random(4, fine.unknown_count());
         Field restricted;
-        transfer.restrict(residual, ElementBlocks(coarse), restricted);
+        transfer.restrict(residual, ElementPartition(coarse), restricted);
         const Dense transposed = p.transpose() * as_dense(residual);
         EXPECT_LT((as_dense(restricted) - transposed).norm(), 1e-6 * transposed.norm());
     }

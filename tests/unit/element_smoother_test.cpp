@@ -15,17 +15,20 @@ namespace {
 /// A smoother for the finest level of a first step.
 struct Smoother {
     explicit Smoother(const FirstStep& step)
-        : blocks(step.elements.finest()), smoother(step.elements.finest(), blocks) {
+        : blocks(step.elements.finest()),
+          partition(step.elements.finest()),
+          smoother(step.elements.finest(), blocks, partition) {
         std::vector<Couplings> workspace;
         smoother.refresh(step.systems.matrices, workspace);
     }
     Field apply(const Field& residual) const {
-        Field x = Field::Zero(4, residual.cols());
-        smoother.add_correction(1, residual, x);
+        Field x;
+        smoother.correct(1, residual, x);
         return x;
     }
 
     ElementBlocks blocks;
+    ElementPartition partition;
     ElementSmoother smoother;
 };
 

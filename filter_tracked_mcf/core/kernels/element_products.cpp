@@ -58,71 +58,85 @@ void store(const Column& column, float* to) {
     __builtin_memcpy(__builtin_assume_aligned(to, 16), &column, sizeof column);
 }
 
+void add_to(float* to, const Column& column) {
+    store(load(to) + column, to);
+}
+
+/// Adds to the unknowns of an element, or to where it is to go instead.
+void add(const ElementRange& range, std::int32_t element, float factor, const Columns& columns,
+         float* y) {
+    const std::int32_t detour = range.detours[element];
+    if (__builtin_expect(detour == ElementRange::kStraight, 1)) {
+        const std::int32_t* const unknowns = range.unknowns + std::int64_t{8} * element;
+#pragma GCC unroll 8
+        for (int i = 0; i < 8; ++i) {
+            add_to(y + std::int64_t{4} * unknowns[i], factor * columns.of_unknown[i]);
+        }
+        return;
+    }
+    for (int i = 0; i < 8; ++i) {
+        const std::int64_t target = range.targets[detour + i];
+        add_to(target >= 0 ? y + 4 * target : range.slots + 4 * (-1 - target),
+               factor * columns.of_unknown[i]);
+    }
+}
+
 }  // namespace
 
 namespace TRACKED_MCF_KERNELS {
 
-void add_element_products(const ElementRange& range, float factor, const float* x, float* y) {
+void add_element_products(const ElementRange& range, const ElementMatrix* matrices, float factor,
+                          const float* x, float* y) {
     for (std::int32_t element = range.begin; element < range.end; ++element) {
         const std::int32_t* const unknowns = range.unknowns + std::int64_t{8} * element;
-        const Columns products = product(range.matrices[element], unknowns, x);
-        for (int i = 0; i < 8; ++i) {
-            float* const to = y + std::int64_t{4} * unknowns[i];
-            store(load(to) + factor * products.of_unknown[i], to);
-        }
+        add(range, element, factor, product(matrices[element], unknowns, x), y);
     }
 }
 
-void add_packed_products(const PackedElements& range, float factor, const float* x, float* y) {
-    for (std::int32_t element = range.begin; element < range.end; ++element) {
-        const std::int32_t* const unknowns = range.unknowns + std::int64_t{8} * element;
-        const float* entry = range.matrices[element].entry;
-        Column columns[8];
-        Column products[8] = {};
-#pragma GCC unroll 8
-        for (int i = 0; i < 8; ++i) columns[i] = load(x + std::int64_t{4} * unknowns[i]);
-#pragma GCC unroll 8
-        for (int i = 0; i < 8; ++i) {
-            products[i] += *entry++ * columns[i];
-#pragma GCC unroll 8
-            for (int j = i + 1; j < 8; ++j) {
-                products[i] += *entry * columns[j];
-                products[j] += *entry++ * columns[i];
-            }
-        }
-#pragma GCC unroll 8
-        for (int i = 0; i < 8; ++i) {
-            float* const to = y + std::int64_t{4} * unknowns[i];
-            store(load(to) + factor * products[i], to);
-        }
-    }
-}
-
-double add_element_products_and_dot(const ElementRange& range, const float* x, float* y) {
+double add_element_products_and_dot(const ElementRange& range, const ElementMatrix* matrices,
+                                    const float* x, float* y) {
     double dot = 0;
     for (std::int32_t element = range.begin; element < range.end; ++element) {
         const std::int32_t* const unknowns = range.unknowns + std::int64_t{8} * element;
-        const Columns products = product(range.matrices[element], unknowns, x);
+        const Columns products = product(matrices[element], unknowns, x);
         Column of_element = {};
+#pragma GCC unroll 8
         for (int i = 0; i < 8; ++i) {
-            const std::int64_t place = std::int64_t{4} * unknowns[i];
-            store(load(y + place) + products.of_unknown[i], y + place);
-            of_element += load(x + place) * products.of_unknown[i];
+            of_element += load(x + std::int64_t{4} * unknowns[i]) * products.of_unknown[i];
         }
         dot += of_element[0] + of_element[1] + of_element[2];
+        add(range, element, 1, products, y);
     }
     return dot;
 }
 
-void add_element_vectors(const ElementVectors& range, float* y) {
+void add_packed_products(const ElementRange& range, const PackedMatrix* matrices, float factor,
+                         const float* x, float* y) {
+    for (std::int32_t element = range.begin; element < range.end; ++element) {
+        const std::int32_t* const unknowns = range.unknowns + std::int64_t{8} * element;
+        const float* entry = matrices[element].entry;
+        Column columns[8];
+        Columns products = {};
+#pragma GCC unroll 8
+        for (int i = 0; i < 8; ++i) columns[i] = load(x + std::int64_t{4} * unknowns[i]);
+#pragma GCC unroll 8
+        for (int i = 0; i < 8; ++i) {
+            products.of_unknown[i] += *entry++ * columns[i];
+#pragma GCC unroll 8
+            for (int j = i + 1; j < 8; ++j) {
+                products.of_unknown[i] += *entry * columns[j];
+                products.of_unknown[j] += *entry++ * columns[i];
+            }
+        }
+        add(range, element, factor, products, y);
+    }
+}
+
+void add_element_vectors(const ElementRange& range, const ElementVector* vectors, float* y) {
     for (std::int32_t element = range.begin; element < range.end; ++element) {
         Lanes entry[3];
-        __builtin_memcpy(entry, range.vectors[element].entry, sizeof entry);
-        const Columns columns = transposed(entry[0], entry[1], entry[2]);
-        for (int i = 0; i < 8; ++i) {
-            float* const to = y + std::int64_t{4} * range.unknowns[std::int64_t{8} * element + i];
-            store(load(to) + columns.of_unknown[i], to);
-        }
+        __builtin_memcpy(entry, vectors[element].entry, sizeof entry);
+        add(range, element, 1, transposed(entry[0], entry[1], entry[2]), y);
     }
 }
 

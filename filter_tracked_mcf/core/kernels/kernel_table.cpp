@@ -4,16 +4,16 @@ namespace tracked_mcf::TRACKED_MCF_KERNELS {
 
 IntegrateElement integrate_element;
 AddElementProducts add_element_products;
-AddPackedProducts add_packed_products;
 AddElementProductsAndDot add_element_products_and_dot;
+AddPackedProducts add_packed_products;
 AddElementVectors add_element_vectors;
 CoarsenElements coarsen_elements;
 SumCouplings sum_couplings;
 InvertLocally invert_locally;
 
 extern const Kernels kTable;
-const Kernels kTable = {
-    integrate_element,   add_element_products, add_packed_products, add_element_products_and_dot,
-    add_element_vectors, coarsen_elements,     sum_couplings,       invert_locally};
+const Kernels kTable = {integrate_element,   add_element_products, add_element_products_and_dot,
+                        add_packed_products, add_element_vectors,  coarsen_elements,
+                        sum_couplings,       invert_locally};
 
 }  // namespace tracked_mcf::TRACKED_MCF_KERNELS

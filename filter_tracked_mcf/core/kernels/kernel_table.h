@@ -19,8 +19,8 @@ namespace tracked_mcf {
 struct Kernels {
     IntegrateElement* integrate_element;
     AddElementProducts* add_element_products;
-    AddPackedProducts* add_packed_products;
     AddElementProductsAndDot* add_element_products_and_dot;
+    AddPackedProducts* add_packed_products;
     AddElementVectors* add_element_vectors;
     CoarsenElements* coarsen_elements;
     SumCouplings* sum_couplings;
