@@ -82,13 +82,13 @@ private:
         });
         elements_.sample_begin.push_back(samples);
         resize(elements_.fragments, static_cast<std::int64_t>(entries_.size()));
-        resize(elements_.samples, samples);
+        elements_.samples.resize(samples);
         elements_.held.assign(elements_.finest().cells.size(), 0);
     }
 
     void fill_element(std::int32_t element, Pacer& pacer) {
         const Cell cell = cell_at(elements_.finest().cells[element]);
-        Sample* next_sample = elements_.samples.data() + elements_.sample_begin[element];
+        std::int64_t next_sample = elements_.sample_begin[element];
         for (std::int64_t i = elements_.fragment_begin[element];
              i < elements_.fragment_begin[element + 1]; ++i) {
             const std::int32_t triangle = entries_[i].triangle;
@@ -97,10 +97,9 @@ private:
             if (entries_[i].split_triangles == 0) continue;
             const auto corners = mesh_.corners(triangle);
             const Polygon polygon = clip_to_cell(corners, cell);
-            Sample* const first_sample = next_sample;
+            const std::int64_t first_sample = next_sample;
             for_each_node(polygon, corners, rule_, [&](const WeightedPoint& node) {
-                const Eigen::Vector3f local = (node.point - cell.cast<double>()).cast<float>();
-                *next_sample++ = {{local[0], local[1], local[2]}, static_cast<float>(node.weight)};
+                elements_.samples.set(next_sample++, node.point - cell.cast<double>(), node.weight);
             });
             const Eigen::Vector3f normal = unit_normal(corners);
             elements_.fragments[i] = {{normal[0], normal[1], normal[2]},

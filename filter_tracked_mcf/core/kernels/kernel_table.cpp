@@ -2,9 +2,9 @@
 
 namespace tracked_mcf::TRACKED_MCF_KERNELS {
 
-IntegrateElement integrate_element;
+IntegrateElements integrate_elements;
 
 extern const Kernels kTable;
-const Kernels kTable = {integrate_element};
+const Kernels kTable = {integrate_elements};
 
 }  // namespace tracked_mcf::TRACKED_MCF_KERNELS

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "filter_tracked_mcf/core/kernels/integrate_element.h"
+#include "filter_tracked_mcf/core/kernels/integrate_elements.h"
 
 namespace tracked_mcf {
 
@@ -14,7 +14,7 @@ namespace tracked_mcf {
 /// initializers. Compilers need not inline those, and of several copies of one the linker keeps
 /// any, perhaps the one that needs AVX-512. The test kernel_symbols watches over it.
 struct Kernels {
-    IntegrateElement* integrate_element;
+    IntegrateElements* integrate_elements;
 };
 
 }  // namespace tracked_mcf

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "filter_tracked_mcf/core/interruptible.h"
+#include "filter_tracked_mcf/core/surface_samples.h"
+
+namespace tracked_mcf {
+
+/// The samples of a surface, number by number, so that kernels can read several of them at a time.
+class Samples {
+public:
+    void resize(std::int64_t count) {
+        count_ = count;
+        for (auto& numbers : local_) tracked_mcf::resize(numbers, count + kSamplePadding);
+        tracked_mcf::resize(weight_, count + kSamplePadding);
+    }
+    void set(std::int64_t sample, const Eigen::Vector3d& local, double weight) {
+        for (int axis = 0; axis < 3; ++axis) {
+            local_[axis][sample] = static_cast<float>(local[axis]);
+        }
+        weight_[sample] = static_cast<float>(weight);
+    }
+
+    std::int64_t size() const { return count_; }
+    /// Local coordinates in its cell, 0 to 1.
+    Eigen::Vector3d local(std::int64_t sample) const {
+        return {local_[0][sample], local_[1][sample], local_[2][sample]};
+    }
+    /// w_p: area that it stands for on the initial surface, grid units².
+    float weight(std::int64_t sample) const { return weight_[sample]; }
+
+    const float* local_array(int axis) const { return local_[axis].data(); }
+    const float* weight_array() const { return weight_.data(); }
+
+private:
+    std::int64_t count_ = 0;
+    std::vector<float> local_[3];
+    std::vector<float> weight_;
+};
+
+}  // namespace tracked_mcf
