@@ -1,7 +1,7 @@
 #include "filter_tracked_mcf/core/element_matrices.h"
 
 #include <algorithm>
-#include <iterator>
+#include <array>
 #include <numeric>
 
 #include "filter_tracked_mcf/core/interruptible.h"
@@ -12,54 +12,47 @@ namespace tracked_mcf {
 
 namespace {
 
-ElementInput gather(const TrackedElements& elements, const Coefficients& displacement,
-                    const SystemWeights& weights, std::int64_t element) {
-    ElementInput input;
-    const auto& unknowns = elements.finest().unknowns[element];
+IntegrationInput integration_input(const TrackedElements& elements,
+                                   const Coefficients& displacement, const SystemWeights& weights) {
+    IntegrationInput input = {};
+    input.unknowns = elements.finest().unknowns.data()->data();
+    input.displacement = displacement.data();
     for (int axis = 0; axis < 3; ++axis) {
-        const double base = displacement(unknowns[0], axis);
-        for (int corner = 0; corner < 8; ++corner) {
-            input.displacement[axis][corner] =
-                static_cast<float>(displacement(unknowns[corner], axis) - base);
-        }
+        input.samples.local[axis] = elements.samples.local_array(axis);
     }
-    const Fragment* fragments = elements.fragments.data();
-    input.fragments = fragments + elements.fragment_begin[element];
-    input.fragments_end = fragments + elements.fragment_begin[element + 1];
-    input.samples = elements.samples.data() + elements.sample_begin[element];
+    input.samples.weight = elements.samples.weight_array();
+    input.samples.fragments = elements.fragments.data();
+    input.samples.sample_begin = elements.sample_begin.data();
+    input.samples.fragment_begin = elements.fragment_begin.data();
     input.mass = weights.mass;
     input.stiffness = weights.stiffness;
     input.initial_metric = weights.flow == FlowKind::Conformalized;
     return input;
 }
 
-Collapse collapse_of(std::int64_t element, const ElementTotals& totals) {
-    Collapse collapse;
-    collapse.element = static_cast<std::int32_t>(element);
-    collapse.samples = totals.collapsed_samples;
-    std::copy(std::begin(totals.collapsed_mass), std::end(totals.collapsed_mass), collapse.mass);
-    return collapse;
-}
-
 }  // namespace
 
 void assemble_elements(const TrackedElements& elements, const Coefficients& displacement,
                        const SystemWeights& weights, ElementSystems& systems) {
-    IntegrateElement& integrate_element = *kernels().integrate_element;
+    IntegrateElements& integrate_elements = *kernels().integrate_elements;
     const std::int64_t count = elements.finest().element_count();
     resize(systems.matrices, count);
     resize(systems.right_sides, count);
     resize(systems.areas, count);
+    const IntegrationInput all = integration_input(elements, displacement, weights);
+    const IntegrationOutput output = {systems.matrices.data(), systems.right_sides.data(),
+                                      systems.areas.data()};
     systems.collapses = parallel_collect<Collapse>(
         count, [&](std::int64_t begin, std::int64_t end, std::vector<Collapse>& collapses) {
             Pacer pacer;
-            for (std::int64_t element = begin; element < end; ++element) {
-                const ElementTotals totals =
-                    integrate_element(gather(elements, displacement, weights, element),
-                                      systems.matrices[element], systems.right_sides[element]);
-                systems.areas[element] = totals.area;
-                if (totals.collapsed_samples > 0) collapses.push_back(collapse_of(element, totals));
-                pacer.did(elements.sample_begin[element + 1] - elements.sample_begin[element]);
+            IntegrationInput batch = all;
+            for (batch.begin = begin; batch.begin < end; batch.begin = batch.end) {
+                batch.end = std::min(end, batch.begin + kElementBatch);
+                std::array<Collapse, kElementBatch> collapsed;
+                const int collapsed_count = integrate_elements(batch, output, collapsed.data());
+                collapses.insert(collapses.end(), collapsed.begin(),
+                                 collapsed.begin() + collapsed_count);
+                pacer.did(elements.sample_begin[batch.end] - elements.sample_begin[batch.begin]);
             }
         });
     systems.area = std::accumulate(systems.areas.begin(), systems.areas.end(), 0.0);

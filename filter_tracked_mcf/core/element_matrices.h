@@ -16,14 +16,6 @@ struct SystemWeights {
     FlowKind flow = FlowKind::MeanCurvature;
 };
 
-/// What has collapsed of one element: of each function ∫ B_I² over that part of the initial
-/// surface.
-struct Collapse {
-    std::int32_t element;
-    std::int32_t samples;
-    float mass[8];
-};
-
 /// The finest level's element matrices and right sides, and what was noticed on the way.
 struct ElementSystems {
     std::vector<ElementMatrix> matrices;
@@ -42,8 +34,8 @@ struct ElementSystems {
 ///
 /// (of a conformalized flow, gradients and their integrals under the initial metric),
 /// so that with mass 1 and stiffness δ, solving for d = X_{t+δ} - X_t is equation 2. Single
-/// precision: differences of u within a cell are taken in double first, so what is lost is relative
-/// to the deformation of one cell. Results are the same bits at any number of threads.
+/// precision: differences within a cell are taken in double first, so what is lost is relative to
+/// the embedded cell. Results are the same bits at any number of threads.
 void assemble_elements(const TrackedElements& elements, const Coefficients& displacement,
                        const SystemWeights& weights, ElementSystems& systems);
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+
 // Plain structs only: the kernels include this (see kernels/kernels.h).
 
 namespace tracked_mcf {
@@ -19,5 +21,13 @@ struct ElementVector {
 /// nothing (section 5.1). Not so in a conformalized flow, where the stiffness is that of the
 /// initial metric and nothing is divided by an area.
 inline constexpr float kCollapsedAreaRatio = 1e-4F;
+
+/// What has collapsed of one element: of each function ∫ B_I² over that part of the initial
+/// surface.
+struct Collapse {
+    std::int32_t element;
+    std::int32_t samples;
+    float mass[8];
+};
 
 }  // namespace tracked_mcf

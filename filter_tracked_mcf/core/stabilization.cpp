@@ -66,7 +66,7 @@ Eigen::Matrix3d normal_product(const TrackedElements& elements, std::int64_t ele
         const Fragment& fragment = elements.fragments[i];
         double weight = 0;
         for (std::int32_t k = 0; k < fragment.sample_count; ++k) {
-            weight += elements.samples[sample++].weight;
+            weight += elements.samples.weight(sample++);
         }
         const Eigen::Vector3d normal(fragment.normal[0], fragment.normal[1], fragment.normal[2]);
         sum += weight * normal * normal.transpose();

@@ -20,14 +20,12 @@ Share share_of(const TrackedElements& elements, std::int64_t element) {
     Share share;
     for (std::int64_t i = elements.sample_begin[element]; i < elements.sample_begin[element + 1];
          ++i) {
-        const Sample& sample = elements.samples[i];
-        const CornerValues values =
-            bspline_values({sample.local[0], sample.local[1], sample.local[2]});
+        const float weight = elements.samples.weight(i);
+        const CornerValues values = bspline_values(elements.samples.local(i));
         for (int corner = 0; corner < 8; ++corner) {
-            share.mass[corner] +=
-                sample.weight * static_cast<float>(values[corner] * values[corner]);
+            share.mass[corner] += weight * static_cast<float>(values[corner] * values[corner]);
         }
-        share.area += sample.weight;
+        share.area += weight;
     }
     return share;
 }

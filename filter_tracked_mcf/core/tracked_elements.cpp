@@ -91,13 +91,13 @@ private:
         elements_.fragment_count = parallel_count(
             entry_count, [&](std::int64_t i) { return entries_[i].split_triangles > 0; });
         resize(elements_.fragments, entry_count);
-        resize(elements_.samples, samples);
+        elements_.samples.resize(samples);
         elements_.held.assign(elements_.finest().cells.size(), 0);
     }
 
     void fill_element(std::int32_t element, Pacer& pacer) {
         const Cell cell = cell_at(elements_.finest().cells[element]);
-        Sample* next_sample = elements_.samples.data() + elements_.sample_begin[element];
+        std::int64_t next_sample = elements_.sample_begin[element];
         for (std::int64_t i = elements_.fragment_begin[element];
              i < elements_.fragment_begin[element + 1]; ++i) {
             const std::int32_t triangle = entries_[i].triangle;
@@ -109,10 +109,9 @@ private:
             }
             const auto corners = mesh_.corners(triangle);
             const Polygon polygon = clip_to_cell(corners, cell);
-            Sample* const first_sample = next_sample;
+            const std::int64_t first_sample = next_sample;
             for_each_node(polygon, corners, rule_, [&](const WeightedPoint& node) {
-                const Eigen::Vector3f local = (node.point - cell.cast<double>()).cast<float>();
-                *next_sample++ = {{local[0], local[1], local[2]}, static_cast<float>(node.weight)};
+                elements_.samples.set(next_sample++, node.point - cell.cast<double>(), node.weight);
             });
             const Eigen::Vector3f normal = unit_normal(corners);
             elements_.fragments[i] = {{normal[0], normal[1], normal[2]},

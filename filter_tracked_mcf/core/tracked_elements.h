@@ -10,7 +10,7 @@
 #include "filter_tracked_mcf/core/grid.h"
 #include "filter_tracked_mcf/core/octree.h"
 #include "filter_tracked_mcf/core/raw_vector.h"
-#include "filter_tracked_mcf/core/surface_samples.h"
+#include "filter_tracked_mcf/core/samples.h"
 #include "filter_tracked_mcf/core/triangle_mesh.h"
 
 namespace tracked_mcf {
@@ -42,7 +42,7 @@ struct TrackedElements {
     std::vector<Level> levels;  ///< coarsest first
 
     RawVector<Fragment> fragments;             ///< sorted by finest element
-    RawVector<Sample> samples;                 ///< sorted by fragment
+    Samples samples;                           ///< sorted by fragment
     std::vector<std::int64_t> fragment_begin;  ///< of every finest element, and the end
     std::vector<std::int64_t> sample_begin;    ///< of every finest element, and the end
 

@@ -36,7 +36,7 @@ VanishedParts::VanishedParts(const TrackedElements& elements)
     for (std::size_t element = 0; element < part_of_.size(); ++element) {
         for (std::int64_t i = elements.sample_begin[element];
              i < elements.sample_begin[element + 1]; ++i) {
-            initial_areas_[part_of_[element]] += elements.samples[i].weight;
+            initial_areas_[part_of_[element]] += elements.samples.weight(i);
         }
         pacer.did(elements.sample_begin[element + 1] - elements.sample_begin[element]);
     }

@@ -69,13 +69,12 @@ Reference integrate(const TrackedElements& elements, const Coefficients& embeddi
         tangents.col(0) = normal.unitOrthogonal();
         tangents.col(1) = normal.normalized().cross(tangents.col(0));
         for (std::int32_t i = 0; i < fragment.sample_count; ++i, ++sample) {
-            const Sample& s = elements.samples[sample];
-            const Eigen::Vector3d local = Eigen::Map<const Eigen::Vector3f>(s.local).cast<double>();
+            const Eigen::Vector3d local = elements.samples.local(sample);
             const CornerValues beta = bspline_values(local);
             const Eigen::Matrix<double, 8, 2> eta = bspline_gradients(local) * tangents;
             const Eigen::Matrix<double, 3, 2> dx = x.transpose() * eta;
             const Eigen::Matrix2d g = dx.transpose() * dx;
-            const double weight = std::sqrt(g.determinant()) * s.weight;
+            const double weight = std::sqrt(g.determinant()) * elements.samples.weight(sample);
             reference.mass += weight * beta * beta.transpose();
             reference.stiffness += weight * eta * g.inverse() * eta.transpose();
             reference.area += weight;
@@ -131,10 +130,8 @@ TEST(ElementMatrices, MetricOfTheInitialEmbeddingIsTheIdentity) {
         Matrix8 plain = Matrix8::Zero();
         for (std::int64_t s = elements.sample_begin[element];
              s < elements.sample_begin[element + 1]; ++s) {
-            const Sample& sample = elements.samples[s];
-            const CornerValues values =
-                bspline_values(Eigen::Map<const Eigen::Vector3f>(sample.local).cast<double>());
-            plain += sample.weight * values * values.transpose();
+            const CornerValues values = bspline_values(elements.samples.local(s));
+            plain += elements.samples.weight(s) * values * values.transpose();
         }
         EXPECT_LT((to_matrix(systems.matrices[element]) - plain).norm(), 1e-6 * plain.norm());
     }
@@ -200,7 +197,7 @@ TEST(ElementMatrices, CollapsedSamplesContributeNothing) {
     to_a_line.col(0).setZero();
     for (const Coefficients& collapse : {to_a_point, to_a_line}) {
         const ElementSystems systems = assemble(elements, collapse, {1, 1});
-        EXPECT_EQ(systems.collapsed_samples, static_cast<std::int64_t>(elements.samples.size()));
+        EXPECT_EQ(systems.collapsed_samples, elements.samples.size());
         EXPECT_EQ(systems.area, 0);
         for (const ElementMatrix& matrix : systems.matrices) EXPECT_EQ(to_matrix(matrix).norm(), 0);
     }
@@ -215,9 +212,7 @@ TEST(ElementMatrices, FunctionsSumToOneAtEverySample) {
         CornerValues integrals = CornerValues::Zero();
         for (std::int64_t s = elements.sample_begin[element];
              s < elements.sample_begin[element + 1]; ++s) {
-            const Sample& sample = elements.samples[s];
-            integrals +=
-                sample.weight * bspline_values({sample.local[0], sample.local[1], sample.local[2]});
+            integrals += elements.samples.weight(s) * bspline_values(elements.samples.local(s));
         }
         const CornerValues row_sums = to_matrix(systems.matrices[element]).rowwise().sum();
         EXPECT_LT((row_sums - integrals).norm(), 1e-6 * integrals.norm());

@@ -35,7 +35,7 @@ TEST_F(Instructions, CanBeChosen) {
     for (const InstructionSet instructions : available_instruction_sets()) {
         set(std::string(name_of(instructions)));
         EXPECT_EQ(choose_instruction_set(), instructions);
-        EXPECT_NE(kernels_for(instructions).integrate_element, nullptr);
+        EXPECT_NE(kernels_for(instructions).integrate_elements, nullptr);
     }
 }
 
@@ -61,7 +61,8 @@ TEST_F(Instructions, ThoseThatTheMachineLacksAreRefused) {
 TEST(Kernels, EveryInstructionSetHasItsOwn) {
     for (const InstructionSet a : available_instruction_sets()) {
         for (const InstructionSet b : available_instruction_sets()) {
-            EXPECT_EQ(a == b, kernels_for(a).integrate_element == kernels_for(b).integrate_element);
+            EXPECT_EQ(a == b,
+                      kernels_for(a).integrate_elements == kernels_for(b).integrate_elements);
         }
     }
 }

@@ -33,7 +33,7 @@ CornerMatrix matrix(const ElementMatrix& element) {
 double area_of(const TrackedElements& elements, std::int32_t element) {
     double area = 0;
     for (auto i = elements.sample_begin[element]; i < elements.sample_begin[element + 1]; ++i) {
-        area += elements.samples[i].weight;
+        area += elements.samples.weight(i);
     }
     return area;
 }

@@ -19,7 +19,9 @@ TrackedElements build(const TriangleMesh& mesh, int depth) {
 /// Sum of the samples' weights, mesh units squared.
 double sampled_area(const TrackedElements& elements) {
     double area = 0;
-    for (const Sample& sample : elements.samples) area += sample.weight;
+    for (std::int64_t sample = 0; sample < elements.samples.size(); ++sample) {
+        area += elements.samples.weight(sample);
+    }
     return area * elements.grid.cell_size * elements.grid.cell_size;
 }
 
@@ -48,12 +50,11 @@ TEST(TrackedElements, BoxWhoseFacesLieInGridPlanes) {
 
 TEST(TrackedElements, SamplesLieInTheirCells) {
     const TriangleMesh mesh = shapes::bumpy_sphere(10);
-    for (const Sample& sample : build(mesh, 5).samples) {
-        for (const float x : sample.local) {
-            EXPECT_GE(x, 0);
-            EXPECT_LE(x, 1);
-        }
-        EXPECT_GE(sample.weight, 0);
+    const TrackedElements elements = build(mesh, 5);
+    for (std::int64_t sample = 0; sample < elements.samples.size(); ++sample) {
+        EXPECT_GE(elements.samples.local(sample).minCoeff(), 0);
+        EXPECT_LE(elements.samples.local(sample).maxCoeff(), 1);
+        EXPECT_GE(elements.samples.weight(sample), 0);
     }
 }
 

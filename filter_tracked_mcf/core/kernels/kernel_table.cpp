@@ -2,7 +2,7 @@
 
 namespace tracked_mcf::TRACKED_MCF_KERNELS {
 
-IntegrateElement integrate_element;
+IntegrateElements integrate_elements;
 AddElementProducts add_element_products;
 AddElementProductsAndDot add_element_products_and_dot;
 AddPackedProducts add_packed_products;
@@ -12,7 +12,7 @@ SumCouplings sum_couplings;
 InvertLocally invert_locally;
 
 extern const Kernels kTable;
-const Kernels kTable = {integrate_element,   add_element_products, add_element_products_and_dot,
+const Kernels kTable = {integrate_elements,  add_element_products, add_element_products_and_dot,
                         add_packed_products, add_element_vectors,  coarsen_elements,
                         sum_couplings,       invert_locally};
 

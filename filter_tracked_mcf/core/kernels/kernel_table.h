@@ -2,7 +2,7 @@
 
 #include "filter_tracked_mcf/core/kernels/coarsen_elements.h"
 #include "filter_tracked_mcf/core/kernels/element_products.h"
-#include "filter_tracked_mcf/core/kernels/integrate_element.h"
+#include "filter_tracked_mcf/core/kernels/integrate_elements.h"
 #include "filter_tracked_mcf/core/kernels/local_systems.h"
 
 namespace tracked_mcf {
@@ -17,7 +17,7 @@ namespace tracked_mcf {
 /// initializers. Compilers need not inline those, and of several copies of one the linker keeps
 /// any, perhaps the one that needs AVX-512. The test kernel_symbols watches over it.
 struct Kernels {
-    IntegrateElement* integrate_element;
+    IntegrateElements* integrate_elements;
     AddElementProducts* add_element_products;
     AddElementProductsAndDot* add_element_products_and_dot;
     AddPackedProducts* add_packed_products;

@@ -1,0 +1,180 @@
+#pragma once
+
+#include "filter_tracked_mcf/core/kernels/moments.h"
+
+// For integrate_elements.cpp alone, see lanes.h.
+
+namespace tracked_mcf::TRACKED_MCF_KERNELS {
+
+constexpr int kCoefficients = 7;
+
+/// As many elements as there are lanes.
+struct ElementBatch {
+    alignas(64) float moments[kLanes][kMomentRows];
+    /// The embedding's coordinates at the cell's corners, relative to corner 0.
+    alignas(64) float corners[3][8][kLanes];
+    /// Of each of them as a polynomial, the coefficients of a Trilinear.
+    alignas(64) float polynomials[3][kCoefficients][kLanes];
+};
+
+constexpr int bit(int corner, int axis) {
+    return (corner >> axis) & 1;
+}
+
+/// One element's corners. Differences are taken in double precision.
+TRACKED_MCF_INLINE void read_corners(const IntegrationInput& input, std::int64_t element, int lane,
+                                     ElementBatch& batch) {
+    const std::int32_t* const unknowns = input.unknowns + 8 * element;
+    const double* const base = input.displacement + std::int64_t{3} * unknowns[0];
+    const double origin[3][2] = {
+        {base[0], base[0] - 1}, {base[1], base[1] - 1}, {base[2], base[2] - 1}};
+    for (int corner = 0; corner < 8; ++corner) {
+        const double* const u = input.displacement + std::int64_t{3} * unknowns[corner];
+        for (int axis = 0; axis < 3; ++axis) {
+            batch.corners[axis][corner][lane] =
+                static_cast<float>(u[axis] - origin[axis][bit(corner, axis)]);
+        }
+    }
+}
+
+/// The embedding's coordinates in all elements.
+TRACKED_MCF_INLINE void find_polynomials(ElementBatch& batch) {
+    for (int axis = 0; axis < 3; ++axis) {
+        Lanes c[8];
+        for (int corner = 0; corner < 8; ++corner) c[corner] = load(batch.corners[axis][corner]);
+        const Lanes x = c[1] - c[0];
+        const Lanes y = c[2] - c[0];
+        const Lanes z = c[4] - c[0];
+        const Lanes xy = c[3] - c[2] - x;
+        const Lanes coefficients[kCoefficients] = {
+            x, y, z, xy, c[6] - c[4] - y, c[5] - c[4] - x, c[7] - c[6] - c[5] + c[4] - xy};
+        for (int i = 0; i < kCoefficients; ++i) store(coefficients[i], batch.polynomials[axis][i]);
+    }
+}
+
+TRACKED_MCF_INLINE void read_embedding(const IntegrationInput& input, std::int64_t begin, int count,
+                                       ElementBatch& batch) {
+    for (int lane = 0; lane < count; ++lane) read_corners(input, begin + lane, lane, batch);
+    find_polynomials(batch);
+}
+
+TRACKED_MCF_INLINE Trilinear trilinear(const float (&p)[kCoefficients][kLanes], int lane) {
+    return {p[0][lane], p[1][lane], p[2][lane], p[3][lane], p[4][lane], p[5][lane], p[6][lane]};
+}
+TRACKED_MCF_INLINE Embedding embedding_of(const ElementBatch& batch, int lane) {
+    return {trilinear(batch.polynomials[0], lane), trilinear(batch.polynomials[1], lane),
+            trilinear(batch.polynomials[2], lane)};
+}
+
+/// Adds s * x, s being the product of two functions' slopes: both 1 or -1.
+TRACKED_MCF_INLINE void add_signed(Lanes& sum, bool same, const Lanes& x) {
+    sum = same ? sum + x : sum - x;
+}
+
+/// ∫ ∇B_I · G ∇B_J. Each entry sums the moments whose linear functions are those that its two
+/// functions keep: ∂x of one leaves its linear functions of y and z.
+TRACKED_MCF_INLINE Lanes stiffness_entry(const Lanes (&moments)[kMomentRows], int row, int column) {
+    const int xi = bit(row, 0), yi = bit(row, 1), zi = bit(row, 2);
+    const int xj = bit(column, 0), yj = bit(column, 1), zj = bit(column, 2);
+    Lanes sum = {};
+    add_signed(sum, xi == xj, moments[kXX + 3 * (yi + yj) + zi + zj]);
+    add_signed(sum, yi == yj, moments[kYY + 3 * (zi + zj) + xi + xj]);
+    add_signed(sum, zi == zj, moments[kZZ + 3 * (xi + xj) + yi + yj]);
+    add_signed(sum, xi == yj, moments[kXY + 6 * xj + 3 * yi + zi + zj]);
+    add_signed(sum, yi == xj, moments[kXY + 6 * xi + 3 * yj + zi + zj]);
+    add_signed(sum, yi == zj, moments[kYZ + 6 * yj + 3 * zi + xi + xj]);
+    add_signed(sum, zi == yj, moments[kYZ + 6 * yi + 3 * zj + xi + xj]);
+    add_signed(sum, zi == xj, moments[kZX + 6 * zj + 3 * xi + yi + yj]);
+    add_signed(sum, xi == zj, moments[kZX + 6 * zi + 3 * xj + yi + yj]);
+    return sum;
+}
+
+TRACKED_MCF_INLINE Lanes mass_entry(const Lanes (&moments)[kMomentRows], int row, int column) {
+    return moments[kMass + 9 * (bit(row, 0) + bit(column, 0)) + 3 * (bit(row, 1) + bit(column, 1)) +
+                   bit(row, 2) + bit(column, 2)];
+}
+
+/// ∫ ∇B_I · G ∇X_t for one coordinate of X_t.
+TRACKED_MCF_INLINE Lanes pull_on(const Lanes (&moments)[kMomentRows], int axis, int row) {
+    const int x = bit(row, 0), y = bit(row, 1), z = bit(row, 2);
+    Lanes sum = {};
+    add_signed(sum, x == 1, moments[kPullX + 4 * axis + 2 * y + z]);
+    add_signed(sum, y == 1, moments[kPullY + 4 * axis + 2 * z + x]);
+    add_signed(sum, z == 1, moments[kPullZ + 4 * axis + 2 * x + y]);
+    return sum;
+}
+
+/// ∫ 1, which is the sum of all products of two functions.
+TRACKED_MCF_INLINE Lanes area_of(const Lanes (&moments)[kMomentRows]) {
+    Lanes area = {};
+    for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j < 3; ++j) {
+            const Lanes* const m = moments + kMass + 9 * i + 3 * j;
+            const auto products = static_cast<float>((1 + i % 2) * (1 + j % 2));
+            area += products * (m[0] + 2 * m[1] + m[2]);
+        }
+    }
+    return area;
+}
+
+/// Everything that is written of an element: matrix, right side, area.
+constexpr int kMatrix = 0;
+constexpr int kRightSide = 64;
+constexpr int kArea = 88;
+constexpr int kResults = 96;  ///< rounded up to whole variables
+
+TRACKED_MCF_INLINE void expand(const IntegrationInput& input, const Lanes (&moments)[kMomentRows],
+                               Lanes (&results)[kResults]) {
+#pragma GCC unroll 8
+    for (int row = 0; row < 8; ++row) {
+#pragma GCC unroll 8
+        for (int column = 0; column <= row; ++column) {
+            const Lanes stiffness = input.stiffness * stiffness_entry(moments, row, column);
+            const Lanes entry = stiffness + input.mass * mass_entry(moments, row, column);
+            results[kMatrix + 8 * row + column] = entry;
+            results[kMatrix + 8 * column + row] = entry;
+        }
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+        for (int row = 0; row < 8; ++row) {
+            results[kRightSide + 8 * axis + row] = -input.stiffness * pull_on(moments, axis, row);
+        }
+    }
+    results[kArea] = area_of(moments);
+    for (int i = kArea + 1; i < kResults; ++i) results[i] = Lanes{};
+}
+
+/// From an element's moments in each lane, or a row each, to the other.
+TRACKED_MCF_INLINE void transpose_moments(const ElementBatch& batch,
+                                          Lanes (&moments)[kMomentRows]) {
+    for (int m = 0; m < kMomentRows; m += kLanes) {
+        Lanes block[kLanes];
+        for (int lane = 0; lane < kLanes; ++lane) block[lane] = load(batch.moments[lane] + m);
+        transpose(block);
+        for (int i = 0; i < kLanes; ++i) moments[m + i] = block[i];
+    }
+}
+
+TRACKED_MCF_INLINE void write_systems(const IntegrationInput& input, std::int64_t begin, int count,
+                                      const ElementBatch& batch, const IntegrationOutput& output) {
+    Lanes moments[kMomentRows];
+    transpose_moments(batch, moments);
+    Lanes results[kResults];
+    expand(input, moments, results);
+    alignas(64) float rows[kLanes][kResults];
+    for (int r = 0; r < kResults; r += kLanes) {
+        Lanes block[kLanes];
+        for (int i = 0; i < kLanes; ++i) block[i] = results[r + i];
+        transpose(block);
+        for (int lane = 0; lane < kLanes; ++lane) store(block[lane], rows[lane] + r);
+    }
+    for (int lane = 0; lane < count; ++lane) {
+        __builtin_memcpy(output.matrices + begin + lane, rows[lane] + kMatrix,
+                         sizeof(ElementMatrix));
+        __builtin_memcpy(output.right_sides + begin + lane, rows[lane] + kRightSide,
+                         sizeof(ElementVector));
+        output.areas[begin + lane] = rows[lane][kArea];
+    }
+}
+
+}  // namespace tracked_mcf::TRACKED_MCF_KERNELS

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+
+#include "filter_tracked_mcf/core/element_matrix.h"
+#include "filter_tracked_mcf/core/surface_samples.h"
+
+namespace tracked_mcf {
+
+/// As many elements as are integrated together at most.
+inline constexpr int kElementBatch = 16;
+
+/// What the integrals over consecutive elements need.
+struct IntegrationInput {
+    std::int64_t begin;  ///< the first element, and behind the last: at most kElementBatch
+    std::int64_t end;
+    const std::int32_t* unknowns;  ///< of every element's eight corners
+    const double* displacement;    ///< of the embedding X_t, three for every unknown, grid units
+    SampleArrays samples;
+    float mass;           ///< weight of ∫ B_I B_J
+    float stiffness;      ///< weight of ∫ ∇B_I · ∇B_J
+    bool initial_metric;  ///< the stiffness is that of the initial surface; then nothing collapses
+};
+
+/// Where the results go: arrays of all elements, of which those from begin to end are set.
+struct IntegrationOutput {
+    ElementMatrix* matrices;
+    ElementVector* right_sides;
+    float* areas;  ///< of the embedded surface in each element, grid units²
+};
+
+/// Integrates elements by their samples; see assemble_elements. Writes about those in which samples
+/// have collapsed to `collapses`, which has room for one for each element; returns how many.
+using IntegrateElements = int(const IntegrationInput& input, const IntegrationOutput& output,
+                              Collapse* collapses);
+
+}  // namespace tracked_mcf
