@@ -61,18 +61,22 @@ constexpr double kFieldPerUnknown = 4 * sizeof(float);
 
 /// ElementMultigrid at every level: inverse, share and entries apart, children.
 constexpr double kSmootherPerElement = sizeof(PackedMatrix) + 2 * kIndex + kIndex + 1;
-/// At every level: a residual, the coarse problem's two vectors, and flags.
-constexpr double kCyclePerUnknown = 3 * kFieldPerUnknown + 2;
+/// At every level: a residual and flags. And at all but the finest: right side and solution.
+constexpr double kCyclePerUnknown = kFieldPerUnknown + 2;
+constexpr double kCoarsePerUnknown = 2 * kFieldPerUnknown;
+/// CoarseSolver: a pseudo-inverse, and what points to it.
+constexpr double kCoarsestPerElement = 8 * 8 * sizeof(double) + 48;
 /// At the finest: the vectors of conjugate gradients, and the workspace of the smoother.
 constexpr double kIterationPerUnknown = 6 * kFieldPerUnknown + sizeof(Couplings);
 
-/// Multigrid at every level: entries in a row of a matrix, and of a prolongation, on average.
-constexpr double kEntriesPerRow = 17;
-constexpr double kProlongationEntriesPerRow = 3;
+/// Multigrid at every level: a number and its column.
 constexpr double kPerEntry = sizeof(float) + kIndex;
-/// The matrix, the prolongation there and back, diagonals, orders and flags.
-constexpr double kMatrixPerUnknown =
-    (kEntriesPerRow + 2 * kProlongationEntriesPerRow) * kPerEntry + 6 * kIndex + kOffset;
+/// A fine function is part of so many coarse ones: of 1, 2, 4 or 8, by where its corner is.
+constexpr double kProlongationEntries = 27.0 / 8;
+/// The prolongation there and back, diagonals, orders and flags.
+constexpr double kMatrixPerUnknown = 2 * kProlongationEntries * kPerEntry + 6 * kIndex + kOffset;
+/// At the finest: right side, solution and residual.
+constexpr double kCycleSolverPerUnknown = 3 * kFieldPerUnknown;
 /// Where an unknown occurs, and the children.
 constexpr double kMatrixPerElement = 8 * kIndex + kIndex + kOffset;
 
@@ -114,6 +118,7 @@ void set_topology(const MeshTopology& topology, SurfaceSize& size) {
 /// Of one level, a cell of which is `cell` long.
 struct LevelCounts {
     double elements, unknowns;
+    double entries;  ///< of the matrix
 };
 
 double fragments_at(const SurfaceSize& size, double cell) {
@@ -126,13 +131,15 @@ LevelCounts level_counts(const SurfaceSize& size, const Grid& grid, int depth,
     const double rim = size.rim / cell;
     const double shadows = size.shadows / (cell * cell);
     LevelCounts counts{size.characteristic + rim / 2 + shadows,
-                       8 * size.characteristic + 2 * rim + 2 * shadows};
+                       8 * size.characteristic + 2 * rim + 2 * shadows,
+                       64 * size.characteristic + 24 * rim + 36 * shadows};
     counts.elements = std::clamp(counts.elements, 1.0, fragments_at(size, cell));
     if (!separate_sheets) {
         counts.elements = std::min(counts.elements, std::ldexp(1.0, 3 * depth));
         counts.unknowns = std::min(counts.unknowns, std::pow(std::ldexp(1.0, depth) + 1, 3));
     }
     counts.unknowns = std::clamp(counts.unknowns, 8.0, 8 * counts.elements);
+    counts.entries = std::clamp(counts.entries, 64.0, 64 * counts.elements);
     return counts;
 }
 
@@ -148,14 +155,17 @@ double sampling_bytes(const SurfaceSize& size, const ExpectedCounts& counts) {
 }
 
 double solver_bytes(const ExpectedCounts& counts, Solver solver) {
-    const double coarser = counts.all_elements - counts.elements;
-    const double coarse_matrices = sizeof(ElementMatrix) * coarser;
+    const double coarse_bytes = sizeof(ElementMatrix) * (counts.all_elements - counts.elements) +
+                                kCoarsePerUnknown * (counts.all_unknowns - counts.unknowns) +
+                                kCyclePerUnknown * counts.all_unknowns +
+                                kCoarsestPerElement * counts.coarsest_elements;
     if (solver == Solver::OneWCycle) {
-        return coarse_matrices + kMatrixPerElement * counts.all_elements +
-               (kMatrixPerUnknown + kCyclePerUnknown) * counts.all_unknowns;
+        return coarse_bytes + kMatrixPerElement * counts.all_elements +
+               kMatrixPerUnknown * counts.all_unknowns + kPerEntry * counts.all_entries +
+               kCycleSolverPerUnknown * counts.unknowns;
     }
-    return coarse_matrices + kSmootherPerElement * counts.all_elements +
-           kCyclePerUnknown * counts.all_unknowns + kIterationPerUnknown * counts.unknowns;
+    return coarse_bytes + kSmootherPerElement * counts.all_elements +
+           kIterationPerUnknown * counts.unknowns;
 }
 
 double stepping_bytes(const SurfaceSize& size, const ExpectedCounts& counts,
@@ -211,14 +221,17 @@ ExpectedCounts expected_counts(const SurfaceSize& size, const Grid& grid,
     const double split_triangles = size.triangles + 2 * extents + 2 * shadows;
     counts.samples =
         split_triangles * static_cast<double>(cubature_rule(parameters.cubature).size());
-    // The same goes for the surface as a whole and its rim, and for supports, which are cells of
-    // twice the size, as many as there are cells, eight times over.
+    // The same goes for the surface as a whole and its rim. It meets supports as it meets cells, of
+    // twice the size and as many for each cell; and pairs of functions that are both somewhere, the
+    // entries of a matrix, by the boxes that their supports have in common.
     for (int depth = 0; depth <= grid.depth; ++depth) {
         const LevelCounts level = level_counts(size, grid, depth, parameters.separate_sheets);
         counts.elements = level.elements;
         counts.unknowns = level.unknowns;
         counts.all_elements += level.elements;
         counts.all_unknowns += level.unknowns;
+        counts.all_entries += level.entries;
+        if (depth == 0) counts.coarsest_elements = level.elements;
     }
     return counts;
 }

@@ -34,6 +34,8 @@ struct ExpectedCounts {
     double unknowns = 0;      ///< of the finest level
     double all_elements = 0;  ///< of all levels
     double all_unknowns = 0;  ///< of all levels
+    double all_entries = 0;   ///< of all levels' matrices, which only Solver::OneWCycle makes
+    double coarsest_elements = 0;
 };
 
 ExpectedCounts expected_counts(const SurfaceSize& size, const Grid& grid,
