@@ -69,10 +69,11 @@ std::int64_t free_in_folder(const std::string& folder, const GroupFiles& files) 
 /// In a control group and all that it is part of. Inside a container the path may be one of the
 /// machine outside; then the container's own group is the mount itself.
 std::int64_t free_in_group(const std::string& root, std::string path, const GroupFiles& files) {
+    const std::string mount = root + files.mount;
     std::int64_t least = kUnlimited;
     for (;;) {
         while (!path.empty() && path.back() == '/') path.pop_back();
-        least = std::min(least, free_in_folder(root + files.mount + path, files));
+        least = std::min(least, free_in_folder(mount + path, files));
         if (path.empty()) return least;
         path.erase(path.find_last_of('/') == std::string::npos ? 0 : path.find_last_of('/'));
     }
