@@ -54,8 +54,9 @@ std::vector<MortonCode> ancestors(const std::vector<MortonCode>& cells, int leve
 /// A surface clipped at some depth, and its numbers of unknowns.
 class UnknownCounter {
 public:
-    UnknownCounter(const TriangleMesh& mesh, const Grid& cube, int depth)
-        : mesh_(mesh), cube_(cube) {
+    UnknownCounter(const TriangleMesh& mesh, const Grid& cube, int depth,
+                   const std::function<void(int)>& before_clipping)
+        : mesh_(mesh), cube_(cube), before_clipping_(before_clipping) {
         clip(depth);
     }
 
@@ -73,6 +74,7 @@ public:
 
 private:
     void clip(int depth) {
+        before_clipping_(depth);
         clipped_.reset();  // two would be more memory than anything else at this time
         clipped_.emplace(clip_to_grid(mesh_, with_depth(cube_, depth)));
         cells_ = occupied_cells(clipped_->fragments);
@@ -80,6 +82,7 @@ private:
 
     const TriangleMesh& mesh_;
     const Grid& cube_;
+    const std::function<void(int)>& before_clipping_;
     std::optional<ClippedSurface> clipped_;
     std::vector<MortonCode> cells_;
 };
@@ -113,11 +116,12 @@ int choose_depth(UnknownCounter& counter, int first_depth, std::int64_t vertices
 }  // namespace
 
 ClippedSurface clip_at_automatic_depth(const TriangleMesh& mesh, const Grid& cube,
-                                       std::int64_t vertices) {
+                                       std::int64_t vertices,
+                                       const std::function<void(int)>& before_clipping) {
     if (!has_area(mesh, cube)) return clip_to_grid(mesh, with_depth(cube, 1));
     // Counted first at the depth below, but clipped at the one that is likely to be chosen.
     const int expected = expected_depth(mesh, cube, vertices);
-    UnknownCounter counter(mesh, cube, std::clamp(expected, 1, kMaximumDepth));
+    UnknownCounter counter(mesh, cube, std::clamp(expected, 1, kMaximumDepth), before_clipping);
     const int depth = choose_depth(counter, std::clamp(expected - 1, 1, kMaximumDepth), vertices);
     enter_setup_phase(SetupPhase::ClipTriangles);
     return std::move(counter).take(depth);

@@ -31,6 +31,8 @@ public:
 
     /// All vertices of the mesh, and the triangles that flow.
     const TriangleMesh& surface() const { return part_ ? *part_ : mesh_; }
+    /// Whether there are triangles that do not flow.
+    bool is_part() const { return part_.has_value(); }
     /// The mesh's, for those triangles.
     const MeshTopology& topology() const { return topology_; }
 

@@ -30,6 +30,12 @@ public:
     using Error::Error;
 };
 
+/// The flow is expected to need more memory than there is.
+class NotEnoughMemory : public Error {
+public:
+    using Error::Error;
+};
+
 /// The progress callback asked to stop.
 class Cancelled : public Error {
 public:

@@ -17,8 +17,8 @@ class ProgressMeter;
 /// that are held or that no selected triangle uses among them, keep their bits. A flow that has
 /// nothing left to do ends before its last step, as FlowReport::stop says.
 ///
-/// Throws InvalidMesh, InvalidParameter, NumericalFailure or Cancelled (errors.h), leaving the mesh
-/// as it was.
+/// Throws InvalidMesh, InvalidParameter, NotEnoughMemory, NumericalFailure or Cancelled (errors.h),
+/// leaving the mesh as it was.
 FlowReport evolve(TriangleMesh& mesh, const Selection& selection, const FlowParameters& parameters,
                   const Progress& progress = {});
 

@@ -7,6 +7,7 @@
 #include "filter_tracked_mcf/core/automatic_depth.h"
 #include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/interruptible.h"
+#include "filter_tracked_mcf/core/memory_check.h"
 #include "filter_tracked_mcf/core/parallel.h"
 #include "filter_tracked_mcf/core/pinches.h"
 #include "filter_tracked_mcf/core/progress_meter.h"
@@ -24,17 +25,6 @@ Domain domain_of(const TriangleMesh& mesh, const Selection& selection,
                  const FlowParameters& parameters) {
     enter_setup_phase(SetupPhase::FindEdges);
     return {mesh, selection, parameters.boundary};
-}
-
-/// The surface clipped to a grid of this depth; 0 is automatic.
-ClippedSurface clip(const TriangleMesh& mesh, const Domain& domain, int depth) {
-    enter_setup_phase(SetupPhase::ChooseGrid);
-    const Grid cube = enclosing_grid(mesh, 0);
-    if (depth == 0) {
-        return clip_at_automatic_depth(domain.surface(), cube, count_vertices(domain.topology()));
-    }
-    enter_setup_phase(SetupPhase::ClipTriangles);
-    return clip_to_grid(domain.surface(), with_depth(cube, depth));
 }
 
 /// In grid units. Beyond, single precision loses the mass matrix beside δ S, and with it where a
@@ -65,6 +55,33 @@ bool all_finite(const Coefficients& coefficients) {
 
 }  // namespace
 
+struct Flow::Start {
+    ClippedSurface surface;
+    double estimated_bytes;
+};
+
+/// On the grid of the parameters' depth, 0 being automatic, that encloses the mesh.
+Flow::Start Flow::start(const TriangleMesh& mesh, const Domain& domain,
+                        const FlowParameters& parameters) {
+    enter_setup_phase(SetupPhase::ChooseGrid);
+    const Grid cube = enclosing_grid(mesh, 0);
+    if (parameters.depth > 0) return start(domain, parameters, with_depth(cube, parameters.depth));
+    const MemoryCheck memory = check_of(domain, cube, parameters);
+    ClippedSurface surface =
+        clip_at_automatic_depth(domain.surface(), cube, count_vertices(domain.topology()),
+                                [&](int depth) { memory.before_clipping(depth); });
+    const int depth = surface.grid.depth;
+    memory.before_flow(depth);
+    return {std::move(surface), memory.flow_bytes(depth)};
+}
+
+Flow::Start Flow::start(const Domain& domain, const FlowParameters& parameters, const Grid& grid) {
+    const MemoryCheck memory = check_of(domain, grid, parameters);
+    memory.before_flow(grid.depth);
+    enter_setup_phase(SetupPhase::ClipTriangles);
+    return {clip_to_grid(domain.surface(), grid), memory.flow_bytes(grid.depth)};
+}
+
 Flow::Flow(const TriangleMesh& mesh, const FlowParameters& parameters, const Selection& selection)
     : Flow(mesh, domain_of(mesh, selection, parameters), parameters) {}
 
@@ -73,16 +90,16 @@ Flow::Flow(const TriangleMesh& mesh, const FlowParameters& parameters, const Gri
     : Flow(mesh, domain_of(mesh, selection, parameters), parameters, grid) {}
 
 Flow::Flow(const TriangleMesh& mesh, const Domain& domain, const FlowParameters& parameters)
-    : Flow(mesh, domain, parameters, clip(mesh, domain, parameters.depth)) {}
+    : Flow(mesh, domain, parameters, start(mesh, domain, parameters)) {}
 
 Flow::Flow(const TriangleMesh& mesh, const Domain& domain, const FlowParameters& parameters,
            const Grid& grid)
-    : Flow(mesh, domain, parameters, clip_to_grid(domain.surface(), grid)) {}
+    : Flow(mesh, domain, parameters, start(domain, parameters, grid)) {}
 
 Flow::Flow(const TriangleMesh& mesh, const Domain& domain, const FlowParameters& parameters,
-           ClippedSurface surface)
+           Start start)
     : parameters_(parameters),
-      elements_(build_tracked_elements(domain, std::move(surface), parameters.cubature,
+      elements_(build_tracked_elements(domain, std::move(start.surface), parameters.cubature,
                                        parameters.separate_sheets)),
       grid_step_size_(to_grid_units(parameters, mesh, elements_.grid)),
       solver_(solver_for(elements_, parameters)),
@@ -90,6 +107,7 @@ Flow::Flow(const TriangleMesh& mesh, const Domain& domain, const FlowParameters&
       held_curve_(elements_, parameters.boundary_spring),
       displacement_(Coefficients::Zero(elements_.finest().unknown_count(), 3)) {
     fill_report(domain);
+    report_.estimated_memory_bytes = static_cast<std::int64_t>(start.estimated_bytes);
     if (parameters.flow == FlowKind::Conformalized) vanished_parts_.emplace(elements_);
     // With the stabilisation, functions that hardly meet the surface follow those that do.
     if (stabilization_of(parameters) == 0) freeze_negligible(supports(), solver_->frozen());

@@ -29,7 +29,8 @@ class Flow {
 public:
     /// Sets up for a mesh and parameters that validate() accepts, on the grid that encloses all of
     /// the mesh, be all of it selected or not. Throws InvalidMesh if all triangles are degenerate,
-    /// and what Domain throws.
+    /// NotEnoughMemory if the flow is expected not to fit into what is free, and what Domain
+    /// throws.
     Flow(const TriangleMesh& mesh, const FlowParameters& parameters,
          const Selection& selection = {});
 
@@ -72,11 +73,17 @@ public:
     double grid_step_size() const { return grid_step_size_; }
 
 private:
+    /// The clipped surface, and the memory that all of the flow is expected to need.
+    struct Start;
+    static Start start(const TriangleMesh& mesh, const Domain& domain,
+                       const FlowParameters& parameters);
+    static Start start(const Domain& domain, const FlowParameters& parameters, const Grid& grid);
+
     Flow(const TriangleMesh& mesh, const Domain& domain, const FlowParameters& parameters);
     Flow(const TriangleMesh& mesh, const Domain& domain, const FlowParameters& parameters,
          const Grid& grid);
     Flow(const TriangleMesh& mesh, const Domain& domain, const FlowParameters& parameters,
-         ClippedSurface surface);
+         Start start);
 
     bool can_move() const;
     bool holds_curve() const { return parameters_.boundary != BoundaryCondition::LockedCells; }

@@ -50,6 +50,7 @@ struct FlowReport {
     double setup_seconds = 0;
     std::vector<StepReport> steps;  ///< as many as were made
     Stop stop = Stop::None;
+    std::int64_t estimated_memory_bytes = 0;  ///< expected for the flow before it was begun
     std::int64_t peak_memory_bytes = 0;  ///< of the whole process; 0 where the system does not say
 };
 

@@ -105,6 +105,7 @@ std::string report_json(const CommandLine& line, const FlowReport& report) {
                        {"setup_seconds", report.setup_seconds},
                        {"steps", steps},
                        {"stop", stop_name(report.stop)},
+                       {"estimated_memory_bytes", report.estimated_memory_bytes},
                        {"peak_memory_bytes", report.peak_memory_bytes}};
     // File names need not be UTF-8, JSON must be.
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

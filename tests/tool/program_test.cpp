@@ -278,6 +278,20 @@ TEST_F(Program, FullDiskExitsWith3AndLeavesTheOldFile) {
     }
 }
 
+TEST_F(Program, WhatDoesNotFitIntoMemoryExitsWith1BeforeTheWork) {
+    if (TRACKED_MCF_SANITIZED) GTEST_SKIP() << "sanitizers need the whole address space";
+    write_file(folder_ / "b.ply", "before");
+    const ProgramRun result =
+        run_program(folder_, "a.off b.ply --depth 12 --iterations 1000000 --report r.json",
+                    "ulimit -v 2000000;");
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_THAT(result.errors, StartsWith("tracked_mcf: Depth 12 would need about "));
+    EXPECT_THAT(result.errors, HasSubstr(" GB are free. Choose depth "));
+    EXPECT_THAT(result.output, IsEmpty());
+    EXPECT_EQ(read_file(folder_ / "b.ply"), "before");
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "r.json"));
+}
+
 TEST_F(Program, GermanLocaleChangesNoNumber) {
     ASSERT_EQ(run("a.off plain.off --depth 3 --step-size 1.5e-5").exit_code, 0);
     const ProgramRun german =

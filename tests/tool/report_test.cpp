@@ -51,6 +51,7 @@ TEST(Report, HoldsEveryMemberUnderItsName) {
     report.steps = {{0.5, 0.25, 1e-3, 1e-6, 6, 0.125, true, 12.5, 1},
                     {0.75, 0.125, 1e-4, 1e-7, 100, 0.75, false, 11.5, 2}};
     report.stop = Stop::Vanished;
+    report.estimated_memory_bytes = std::int64_t{1} << 39;
     report.peak_memory_bytes = std::int64_t{1} << 40;
     const Json expected = Json::parse(R"({
         "program": "tracked_mcf", "version": ")" TRACKED_MCF_VERSION R"(",
@@ -69,7 +70,7 @@ TEST(Report, HoldsEveryMemberUnderItsName) {
                   {"assemble_seconds": 0.75, "solve_seconds": 0.125, "residual_before": 1e-4,
                    "residual_after": 1e-7, "solver_iterations": 100, "relative_residual": 0.75,
                    "reached_tolerance": false, "area": 11.5, "collapsed_samples": 2}],
-        "peak_memory_bytes": 1099511627776})");
+        "estimated_memory_bytes": 549755813888, "peak_memory_bytes": 1099511627776})");
     EXPECT_EQ(Json::parse(report_json(line, report)), expected);
 }
 
@@ -208,6 +209,8 @@ TEST(Report, OfARunIsConsistent) {
     EXPECT_GE(report["elements"], report["cells"]);
     EXPECT_GE(report["unknowns"], report["cells"]);
     EXPECT_GT(report["peak_memory_bytes"], 1000000);
+    EXPECT_GT(report["estimated_memory_bytes"], 10000);
+    EXPECT_LT(report["estimated_memory_bytes"], report["peak_memory_bytes"]);
     ASSERT_EQ(report["steps"].size(), 3u);
     EXPECT_NEAR(report["steps"][0]["area"], 1.5 + std::sqrt(3) / 2, 1e-6) << "summed in floats";
     for (const Json& step : report["steps"]) {
