@@ -150,7 +150,7 @@ double edges_bytes(const SurfaceSize& size) {
 double sampling_bytes(const SurfaceSize& size, const ExpectedCounts& counts) {
     return estimate_domain_bytes(size) + (kSamplingPerVertex + kTrackedPerVertex) * size.vertices +
            (sizeof(FragmentEntry) + sizeof(Fragment)) * counts.fragments +
-           sizeof(Sample) * counts.samples + kLevelPerElement * counts.all_elements +
+           Samples::kBytesPerSample * counts.samples + kLevelPerElement * counts.all_elements +
            kTrackedPerElement * counts.elements;
 }
 
@@ -171,7 +171,7 @@ double solver_bytes(const ExpectedCounts& counts, Solver solver) {
 double stepping_bytes(const SurfaceSize& size, const ExpectedCounts& counts,
                       const FlowParameters& parameters) {
     const double tracked = kTrackedPerVertex * size.vertices + sizeof(Fragment) * counts.fragments +
-                           sizeof(Sample) * counts.samples +
+                           Samples::kBytesPerSample * counts.samples +
                            kLevelPerElement * counts.all_elements +
                            kTrackedPerElement * counts.elements;
     const double guess = parameters.rescale == Rescaling::None ? 0 : kGuessPerUnknown;

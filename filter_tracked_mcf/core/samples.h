@@ -12,6 +12,8 @@ namespace tracked_mcf {
 /// The samples of a surface, number by number, so that kernels can read several of them at a time.
 class Samples {
 public:
+    static constexpr std::int64_t kBytesPerSample = 4 * sizeof(float);
+
     /// Each sample must then be set.
     void resize(std::int64_t count) {
         count_ = count;

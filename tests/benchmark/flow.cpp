@@ -51,7 +51,7 @@ void print_bytes(const Flow& flow) {
     const TrackedElements& elements = flow.elements();
     const auto bytes_of = [](const auto& values) { return values.size() * sizeof(values[0]); };
     const auto element_count = static_cast<std::size_t>(elements.finest().element_count());
-    print_quantity("sample_bytes", 0, 4 * std::int64_t{sizeof(float)} * elements.samples.size());
+    print_quantity("sample_bytes", 0, Samples::kBytesPerSample * elements.samples.size());
     print_quantity("fragment_bytes", 0, bytes_of(elements.fragments));
     print_quantity("element_system_bytes", 0,
                    element_count * (sizeof(ElementMatrix) + sizeof(ElementVector)));
