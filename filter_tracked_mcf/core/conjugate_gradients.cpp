@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "filter_tracked_mcf/core/parallel.h"
 #include "filter_tracked_mcf/core/progress_meter.h"
@@ -17,98 +19,119 @@ constexpr double kSinglePrecision = 1e-5;
 /// Refinement that gains less than this gets no further.
 constexpr double kWorthRefining = 0.5;
 
+/// How the square of the error falls from one iteration to the next, as long as it is not known.
+constexpr double kUsualFall = 0.1;
+
 /// a / b where b is positive, else 0: nothing is left to solve.
 double ratio(double a, double b) {
     return b > 0 ? a / b : 0;
 }
 
+/// What the iterations to come add up to, if they go on falling as the last two did.
+double rest_of_series(double before_last, double last) {
+    if (last == 0) return 0;
+    const double fall = before_last > 0 ? last / before_last : kUsualFall;
+    return fall < 1 ? last * fall / (1 - fall) : std::numeric_limits<double>::max();
+}
+
 }  // namespace
 
-double ConjugateGradients::precondition(ElementMultigrid& multigrid) {
-    multigrid.cycle(r_, z_);
-    rz_ = dot(r_, z_).sum();
-    return norm();
-}
-
-double ConjugateGradients::norm() const {
-    // Were the V-cycle not positive for once, for rounding, that must not pass for convergence.
-    return std::sqrt(std::abs(rz_));
-}
-
-double ConjugateGradients::begin(ElementMultigrid& multigrid, const Field& right_side,
-                                 const Coefficients& guess) {
+void ConjugateGradients::begin(ElementMultigrid& multigrid, const Field& right_side,
+                               const Coefficients& guess) {
     copy(right_side, r_);
     set_zero(x_, r_.cols());
-    if (guess.size() == 0) return 0;
+    solved_ = 0;
+    if (guess.size() == 0) return;
     set_zero(p_, r_.cols());
     parallel_for_rows(r_.cols(), [&](std::int32_t row) {
         if (multigrid.movable()[row] == 0) return;
         p_.col(row).head<3>() = guess.row(row).transpose().cast<float>();
     });
-    // x = s p has the least error in the energy norm where b·p = s p·Ap.
+    // x = s p has the least error in the energy norm where b·p = s p·Ap. Then the error is
+    // orthogonal to it.
     const double energy = multigrid.multiply(p_, q_);
     const double pull = dot(right_side, p_).sum();
     const double scale = ratio(pull, energy);
+    if (!std::isfinite(scale)) return;
     const auto step = static_cast<float>(scale);
     parallel_for_rows(r_.cols(), [&](std::int32_t row) {
         x_.col(row) = step * p_.col(row);
         r_.col(row) -= step * q_.col(row);
     });
-    return scale * pull;
+    solved_ = scale * pull;
 }
 
-double ConjugateGradients::descend(ElementMultigrid& multigrid, double target,
+double ConjugateGradients::descend(ElementMultigrid& multigrid, double goal, double factor,
                                    int maximum_iterations, int& iterations) {
-    copy(z_, p_);
-    while (norm() > target && iterations < maximum_iterations) {
-        const auto step = static_cast<float>(ratio(rz_, multigrid.multiply(p_, q_)));
+    double rz = 0;
+    double gain = 0;
+    double error = std::numeric_limits<double>::max();
+    double start = 0;
+    while (iterations < maximum_iterations) {
+        multigrid.cycle(r_, z_);
+        const double rz_before = std::exchange(rz, dot(r_, z_).sum());
+        if (rz == 0) return 0;
+        if (!std::isfinite(rz)) return rz;
+        const auto turn = static_cast<float>(ratio(rz, rz_before));
+        if (start == 0) {
+            start = std::sqrt(std::abs(rz));
+            copy(z_, p_);
+        } else {
+            parallel_for_rows(r_.cols(), [&](std::int32_t row) {
+                p_.col(row) = z_.col(row) + turn * p_.col(row);
+            });
+        }
+        ++iterations;
+        const double scale = ratio(rz, multigrid.multiply(p_, q_));
+        const auto step = static_cast<float>(scale);
         parallel_for_rows(r_.cols(), [&](std::int32_t row) {
             x_.col(row) += step * p_.col(row);
             r_.col(row) -= step * q_.col(row);
         });
-        const double before = rz_;
-        precondition(multigrid);
-        ++iterations;
-        tell_progress();
-        const auto turn = static_cast<float>(ratio(rz_, before));
-        parallel_for_rows(
-            r_.cols(), [&](std::int32_t row) { p_.col(row) = z_.col(row) + turn * p_.col(row); });
+        const double gain_before = std::exchange(gain, scale * rz);
+        solved_ += gain;
+        error = std::sqrt(rest_of_series(gain_before, gain));
+        tell_progress(error, goal);
+        if (error <= std::max(goal * whole(error), factor * start)) break;
     }
-    return norm();
+    return error;
 }
 
-void ConjugateGradients::tell_progress() const {
-    // √(r·z) falls by about the same factor in every iteration.
-    if (norm() > 0) advance_progress(std::log(start_ / norm()) / std::log(start_ / goal_));
+double ConjugateGradients::whole(double error) const {
+    return std::sqrt(solved_ + error * error);
+}
+
+void ConjugateGradients::tell_progress(double error, double goal) {
+    if (first_error_ == 0) first_error_ = error;
+    // The error falls by about the same factor in every iteration.
+    const double target = goal * whole(error);
+    if (error > 0 && target > 0) {
+        advance_progress(std::log(first_error_ / error) / std::log(first_error_ / target));
+    }
 }
 
 Convergence ConjugateGradients::solve(ElementMultigrid& multigrid, const Field& right_side,
                                       double tolerance, int maximum_iterations, Coefficients& x) {
-    const double guessed = begin(multigrid, right_side, x);
-    double before = precondition(multigrid);
-    // What the guess has got right and its error are orthogonal.
-    const double all = std::sqrt(guessed + std::abs(rz_));
-    start_ = before;
-    goal_ = tolerance * all;
+    begin(multigrid, right_side, x);
+    first_error_ = 0;
     x.setZero(right_side.cols(), 3);
-    const bool refines = tolerance < kSinglePrecision;
     Convergence result;
-    double reached = before;
-    while (true) {
-        reached = descend(multigrid, std::max(goal_, kSinglePrecision * before), maximum_iterations,
-                          result.iterations);
+    const bool refines = tolerance < kSinglePrecision;
+    double error = 0;
+    for (double before = std::numeric_limits<double>::infinity();; before = error) {
+        error = descend(multigrid, tolerance, refines ? kSinglePrecision : 0, maximum_iterations,
+                        result.iterations);
         x += x_.topRows<3>().transpose().cast<double>();
-        if (!refines) break;
+        if (!refines || error <= tolerance * whole(error) || !(error < kWorthRefining * before) ||
+            result.iterations >= maximum_iterations) {
+            break;
+        }
         multigrid.residual(right_side, x, r_);
         set_zero(x_, r_.cols());
-        reached = precondition(multigrid);
-        if (reached <= goal_ || !(reached < kWorthRefining * before)) break;
-        if (result.iterations >= maximum_iterations) break;
-        before = reached;
     }
-    result.relative_residual = all == 0 ? 0 : reached / all;
-    result.reached_tolerance = std::isfinite(reached) && reached <= goal_;
-    result.residual = tracked_mcf::norm(r_);
+    result.relative_error = error == 0 ? 0 : error / whole(error);
+    result.reached_tolerance = result.relative_error <= tolerance;
+    result.residual = norm(r_);
     return result;
 }
 

@@ -9,16 +9,17 @@ namespace tracked_mcf {
 /// Iterations after which a solve gives up.
 inline constexpr int kMaximumSolverIterations = 100;
 
-/// How a solve ended. Its measure is √(r·z), r the residual and z one V-cycle applied to it: as the
-/// V-cycle is nearly the inverse of A, this is nearly the error's energy norm. The plain 2-norm of
-/// r says little, being dominated by functions that are nearly dependent on the surface.
+/// How a solve ended. Errors are measured in the energy norm √(e·Ae): the plain 2-norm of the
+/// residual says little, being dominated by functions that are nearly dependent on the surface.
 struct Convergence {
-    int iterations = 0;  ///< V-cycles applied within conjugate gradients
-    /// √(r·z), over the three coordinates, relative to that of x = 0; not finite if the numbers are
-    /// not.
-    double relative_residual = 0;
+    int iterations = 0;  ///< V-cycles that were made
+    /// The error that is left, over the three coordinates, relative to that of x = 0; not finite
+    /// if the numbers are not. An estimate: every iteration lessens the square of the error by a
+    /// known number (Hestenes and Stiefel 1952, theorem 6:1); those to come are taken for a
+    /// geometric series that goes on as the last two did.
+    double relative_error = 0;
     bool reached_tolerance = true;
-    double residual = 0;  ///< 2-norm of r at the end, over the three coordinates
+    double residual = 0;  ///< 2-norm of the residual at the end, over the three coordinates
 };
 
 /// Conjugate gradients preconditioned by a symmetric V-cycle, for three right sides at once, the
@@ -29,8 +30,8 @@ struct Convergence {
 /// reached by iterative refinement: the solution is summed and its residual computed in double.
 class ConjugateGradients {
 public:
-    /// Solves A x = right_side on the finest level of `multigrid`, as last refreshed, until √(r·z)
-    /// has fallen to `tolerance` of what it is for x = 0. Stops without that after
+    /// Solves A x = right_side on the finest level of `multigrid`, as last refreshed, until the
+    /// error has fallen to `tolerance` of that of x = 0. Stops without that after
     /// `maximum_iterations`, or when refinement gets no further.
     ///
     /// x, a row per unknown, is a guess when this is called, such as the last step's solution, of
@@ -39,21 +40,18 @@ public:
                       int maximum_iterations, Coefficients& x);
 
 private:
-    /// Makes the best multiple of the guess x_, and r_. Returns the square of the energy norm of
-    /// what it has got right.
-    double begin(ElementMultigrid& multigrid, const Field& right_side, const Coefficients& guess);
-    /// Conjugate gradients from x_ with residual r_ and z_ = V-cycle(r_), until √(r·z), which is
-    /// returned, is at most `target`.
-    double descend(ElementMultigrid& multigrid, double target, int maximum_iterations,
+    /// Makes x_, the best multiple of the guess, and r_.
+    void begin(ElementMultigrid& multigrid, const Field& right_side, const Coefficients& guess);
+    /// Conjugate gradients from x_ with residual r_, until the error, which is returned, is at most
+    /// `goal` of that of x = 0 or `factor` of what it was when this was called.
+    double descend(ElementMultigrid& multigrid, double goal, double factor, int maximum_iterations,
                    int& iterations);
-    /// Makes z_ and rz_ from r_; returns norm().
-    double precondition(ElementMultigrid& multigrid);
-    double norm() const;  ///< √(r·z)
-    void tell_progress() const;
+    double whole(double error) const;  ///< the error of x = 0, given that of x_
+    void tell_progress(double error, double goal);
 
     Field x_, r_, z_, p_, q_;
-    double rz_ = 0;                ///< r·z over the coordinates
-    double start_ = 0, goal_ = 0;  ///< of √(r·z) in this solve
+    double solved_ = 0;       ///< square of the energy norm of what has been got right
+    double first_error_ = 0;  ///< after the first iteration of this solve; 0 before
 };
 
 }  // namespace tracked_mcf

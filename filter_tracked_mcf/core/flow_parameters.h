@@ -85,9 +85,8 @@ struct FlowParameters {
 
     Solver solver = Solver::Converged;
 
-    /// Converged: a step is solved when the preconditioned residual √(r·z), an estimate of the
-    /// error's energy norm, has fallen to this fraction of what it was at the start. Greater than
-    /// 0, less than 1.
+    /// Converged: a step is solved when the error's energy norm, as conjugate_gradients.h estimates
+    /// it, is at most this fraction of the solution's. Greater than 0, less than 1.
     double tolerance = 1e-3;
 
     /// Weight κ of the stabilisation (stabilization.h), 0 to kMaximumStabilization; 0 is the

@@ -14,7 +14,7 @@ struct StepReport {
     double residual_before = 0;
     double residual_after = 0;
     int solver_iterations = 0;  ///< of conjugate gradients, or W-cycles
-    /// Converged: √(r·z) at the end, relative to the start; see FlowParameters::tolerance.
+    /// Converged: what is left of the error at the end; see FlowParameters::tolerance.
     double relative_residual = 0;
     bool reached_tolerance = true;  ///< false if the solver stopped short of the tolerance
     double area = 0;  ///< of the tracked surface at the start of the step, mesh units²

@@ -39,7 +39,7 @@ public:
             multigrid_, right_side_, tolerance_, kMaximumSolverIterations, solution);
         report.residual_after = convergence.residual;
         report.solver_iterations = convergence.iterations;
-        report.relative_residual = convergence.relative_residual;
+        report.relative_residual = convergence.relative_error;
         report.reached_tolerance = convergence.reached_tolerance;
     }
 

@@ -74,7 +74,7 @@ void run(const Options& options) {
             for (const std::string& configuration : options.configurations) {
                 const Convergence convergence = step.solve(parse_configuration(configuration));
                 print_row(depth, step_size, configuration, step.unknown_count(),
-                          convergence.iterations, convergence.relative_residual,
+                          convergence.iterations, convergence.relative_error,
                           convergence.reached_tolerance ? 1 : 0);
             }
         }

@@ -45,9 +45,9 @@ TriangleMesh shells() {
 }
 
 TEST(ElementProducts, AreThoseOfTheAssembledMatrix) {
-    const ElementSystem system(shells(), 5, 0.5F, {false, 0.01});  // in several parts
+    const ElementSystem system(shells(), 6, 0.5F, {false, 0.01});  // in several parts
     const SparseDouble a = sparse(system);
-    EXPECT_GT(system.elements.finest().element_count(), 4096);
+    EXPECT_GT(system.elements.finest().element_count(), 2 * 4096);
     const Field x = random_field(system), b = random_field(system);
     const Dense expected = a * as_dense(x);
 
@@ -67,7 +67,7 @@ TEST(ElementProducts, AreThoseOfTheAssembledMatrix) {
 }
 
 TEST(ElementProducts, SumElementVectors) {
-    const ElementSystem system(shells(), 5, 0.5F);
+    const ElementSystem system(shells(), 6, 0.5F);
     const Level& finest = system.elements.finest();
     Dense expected = Dense::Zero(finest.unknown_count(), 4);
     for (std::int32_t element = 0; element < finest.element_count(); ++element) {

@@ -6,6 +6,10 @@ namespace tracked_mcf {
 
 namespace {
 
+// What is called for every element must be a part of the loop over them: calls would pass the
+// columns through memory.
+#define TRACKED_MCF_INLINE inline __attribute__((always_inline))
+
 /// One number for each of an element's eight unknowns.
 using Lanes = float __attribute__((vector_size(32)));
 
@@ -16,7 +20,7 @@ struct Columns {
     Column of_unknown[8];
 };
 
-Columns transposed(Lanes x, Lanes y, Lanes z) {
+TRACKED_MCF_INLINE Columns transposed(Lanes x, Lanes y, Lanes z) {
     const Lanes zero = {};
     const Lanes xy_even = __builtin_shufflevector(x, y, 0, 8, 1, 9, 4, 12, 5, 13);
     const Lanes xy_odd = __builtin_shufflevector(x, y, 2, 10, 3, 11, 6, 14, 7, 15);
@@ -32,7 +36,8 @@ Columns transposed(Lanes x, Lanes y, Lanes z) {
 }
 
 /// M_e R_e x. The matrix being symmetric, its rows serve as its columns.
-Columns product(const ElementMatrix& matrix, const std::int32_t* unknowns, const float* x) {
+TRACKED_MCF_INLINE Columns product(const ElementMatrix& matrix, const std::int32_t* unknowns,
+                                   const float* x) {
     Lanes sum_x = {};
     Lanes sum_y = {};
     Lanes sum_z = {};
@@ -48,23 +53,23 @@ Columns product(const ElementMatrix& matrix, const std::int32_t* unknowns, const
     return transposed(sum_x, sum_y, sum_z);
 }
 
-Column load(const float* from) {
+TRACKED_MCF_INLINE Column load(const float* from) {
     Column column;
     __builtin_memcpy(&column, __builtin_assume_aligned(from, 16), sizeof column);
     return column;
 }
 
-void store(const Column& column, float* to) {
+TRACKED_MCF_INLINE void store(const Column& column, float* to) {
     __builtin_memcpy(__builtin_assume_aligned(to, 16), &column, sizeof column);
 }
 
-void add_to(float* to, const Column& column) {
+TRACKED_MCF_INLINE void add_to(float* to, const Column& column) {
     store(load(to) + column, to);
 }
 
 /// Adds to the unknowns of an element, or to where it is to go instead.
-void add(const ElementRange& range, std::int32_t element, float factor, const Columns& columns,
-         float* y) {
+TRACKED_MCF_INLINE void add(const ElementRange& range, std::int32_t element, float factor,
+                            const Columns& columns, float* y) {
     const std::int32_t detour = range.detours[element];
     if (__builtin_expect(detour == ElementRange::kStraight, 1)) {
         const std::int32_t* const unknowns = range.unknowns + std::int64_t{8} * element;
