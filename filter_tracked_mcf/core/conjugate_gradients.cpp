@@ -74,7 +74,9 @@ double ConjugateGradients::descend(ElementMultigrid& multigrid, double goal, dou
         if (!std::isfinite(rz)) return rz;
         const auto turn = static_cast<float>(ratio(rz, rz_before));
         if (start == 0) {
+            // As the V-cycle is nearly the inverse of A, that is nearly the error.
             start = std::sqrt(std::abs(rz));
+            if (first_error_ == 0) first_error_ = start;
             copy(z_, p_);
         } else {
             parallel_for_rows(r_.cols(), [&](std::int32_t row) {
@@ -102,7 +104,6 @@ double ConjugateGradients::whole(double error) const {
 }
 
 void ConjugateGradients::tell_progress(double error, double goal) {
-    if (first_error_ == 0) first_error_ = error;
     // The error falls by about the same factor in every iteration.
     const double target = goal * whole(error);
     if (error > 0 && target > 0) {

@@ -51,7 +51,7 @@ private:
 
     Field x_, r_, z_, p_, q_;
     double solved_ = 0;       ///< square of the energy norm of what has been got right
-    double first_error_ = 0;  ///< after the first iteration of this solve; 0 before
+    double first_error_ = 0;  ///< with which this solve began; 0 before
 };
 
 }  // namespace tracked_mcf

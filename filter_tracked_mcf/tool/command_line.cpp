@@ -159,10 +159,10 @@ void add_choices(CLI::App& app, Texts& texts, std::string& selected) {
 
 void add_solver_numerics(CLI::App& app, FlowParameters& parameters) {
     app.add_option("--tolerance", parameters.tolerance,
-                   help_of("With --solver converged: a step is solved when its residual, measured "
-                           "so that it tells the error's energy, has fallen to this fraction of "
-                           "where it began; greater than 0, less than 1. Smaller takes more "
-                           "iterations; the default leaves the grid's own error the larger."))
+                   help_of("With --solver converged: a step is solved when what is left of it, "
+                           "measured by its energy, is at most this fraction of it; greater than "
+                           "0, less than 1. Smaller takes more iterations; the default leaves the "
+                           "grid's own error the larger."))
         ->type_name("X")
         ->default_str("1e-3");
     app.add_option("--stabilization", parameters.stabilization,
