@@ -72,6 +72,8 @@ double ConjugateGradients::descend(ElementMultigrid& multigrid, double goal, dou
         const double rz_before = std::exchange(rz, dot(r_, z_).sum());
         if (rz == 0) return 0;
         if (!std::isfinite(rz)) return rz;
+        // The V-cycle is not positive: it has been made for another spectrum.
+        if (rz < 0) return std::numeric_limits<double>::max();
         const auto turn = static_cast<float>(ratio(rz, rz_before));
         if (start == 0) {
             // As the V-cycle is nearly the inverse of A, that is nearly the error.
@@ -100,7 +102,7 @@ double ConjugateGradients::descend(ElementMultigrid& multigrid, double goal, dou
 }
 
 double ConjugateGradients::whole(double error) const {
-    return std::sqrt(solved_ + error * error);
+    return std::hypot(std::sqrt(solved_), error);
 }
 
 void ConjugateGradients::tell_progress(double error, double goal) {

@@ -1,5 +1,7 @@
 #include "filter_tracked_mcf/core/element_multigrid.h"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "filter_tracked_mcf/core/element_products.h"
@@ -11,18 +13,27 @@ namespace tracked_mcf {
 
 namespace {
 
-/// The part of the spectrum of S A in which the smoother is to be good: from a bit above the
-/// largest eigenvalue down to a sixth of that. Coarse corrections see to the rest.
+/// A bit above the largest eigenvalue of S A, unless something has pinched.
 constexpr double kLargest = 1.8;
-constexpr double kSmallest = 0.3;
 
-/// The reciprocals of the roots of Chebyshev's polynomial of second degree on that interval, by
-/// which two steps x += factor * S r are as good there as two can be.
-constexpr double kCentre = (kLargest + kSmallest) / 2;
-constexpr double kRadius = (kLargest - kSmallest) / 2;
-constexpr double kHalfDiagonal = 0.70710678118654752;
-constexpr auto kShortStep = static_cast<float>(1 / (kCentre + kRadius * kHalfDiagonal));
-constexpr auto kLongStep = static_cast<float>(1 / (kCentre - kRadius * kHalfDiagonal));
+/// How much larger it may be than the power method says.
+constexpr double kMargin = 1.2;
+
+/// Steps x += factor * S r that are as good as `count` can be from `smallest` to `largest`: factors
+/// are the reciprocals of the roots of Chebyshev's polynomial on that interval.
+std::vector<float> chebyshev_steps(int count, double smallest, double largest) {
+    const double pi = std::acos(-1.0);
+    std::vector<float> steps;
+    for (int i = 0; i < count; ++i) {
+        const double root = 0.5 * (largest + smallest) +
+                            0.5 * (largest - smallest) * std::cos(pi * (i + 0.5) / count);
+        steps.push_back(static_cast<float>(1 / root));
+    }
+    return steps;
+}
+
+/// On a level whose stiffness is at most this times its mass, the smoother alone does better.
+constexpr double kStiff = 4;
 
 }  // namespace
 
@@ -42,15 +53,28 @@ ElementMultigrid::ElementMultigrid(const TrackedElements& elements,
     }
 }
 
-void ElementMultigrid::refresh(std::vector<ElementMatrix>& finest) {
+void ElementMultigrid::refresh(std::vector<ElementMatrix>& finest, double stiffness,
+                               Effort effort) {
     std::vector<ElementMatrix>* matrices = &finest;
-    for (std::size_t l = levels_.size(); l-- > 0;) {
-        LevelData& here = levels_[l];
-        leave_out_frozen(here.level, frozen_[l], *matrices);
+    for (coarsest_ = levels_.size() - 1;; --coarsest_, stiffness /= 4) {
+        LevelData& here = levels_[coarsest_];
+        leave_out_frozen(here.level, frozen_[coarsest_], *matrices);
         here.matrices = matrices;
-        if (l == 0) break;
+        if (coarsest_ == 0) break;
         here.smoother.refresh(*matrices, couplings_);
-        matrices = &levels_[l - 1].own_matrices;
+        // Around a coarse correction, the smoother has to be good in the upper part of the
+        // spectrum; where the cycle ends, in nearly all of it.
+        if (effort == Effort::Thorough) {
+            const double found = kMargin * here.smoother.largest_eigenvalue(*matrices);
+            const double largest = std::max(kLargest, found);
+            here.steps = chebyshev_steps(4, largest / 16, largest);
+        } else if (stiffness > kStiff) {
+            here.steps = chebyshev_steps(2, kLargest / 6, kLargest);
+        } else {
+            here.steps = chebyshev_steps(3, kLargest / 12, kLargest);
+            return;
+        }
+        matrices = &levels_[coarsest_ - 1].own_matrices;
         coarsen_element_matrices(here.level, here.transfer.children(), *here.matrices, *matrices);
     }
     coarse_solver_.factorise(*matrices);
@@ -66,17 +90,24 @@ void ElementMultigrid::cycle(std::size_t level, const Field& right_side, Field& 
         return;
     }
     LevelData& here = levels_[level];
-    here.smoother.correct(kShortStep, right_side, x);
-    here.make_residual(right_side, x);
-    here.smoother.add_correction(kLongStep, here.residual, x);
+    here.smooth_from_zero(right_side, x);
+    if (level == coarsest_) return;
     here.make_residual(right_side, x);
     here.transfer.restrict(here.residual, levels_[level - 1].partition, here.coarse_right_side);
     cycle(level - 1, here.coarse_right_side, here.coarse_x);
     here.transfer.add_prolongated(here.coarse_x, here.smoother.movable(), x);
-    here.make_residual(right_side, x);
-    here.smoother.add_correction(kLongStep, here.residual, x);
-    here.make_residual(right_side, x);
-    here.smoother.add_correction(kShortStep, here.residual, x);
+    for (auto step = here.steps.rbegin(); step != here.steps.rend(); ++step) {
+        here.make_residual(right_side, x);
+        here.smoother.add_correction(*step, here.residual, x);
+    }
+}
+
+void ElementMultigrid::LevelData::smooth_from_zero(const Field& right_side, Field& x) {
+    smoother.correct(steps[0], right_side, x);
+    for (std::size_t i = 1; i < steps.size(); ++i) {
+        make_residual(right_side, x);
+        smoother.add_correction(steps[i], residual, x);
+    }
 }
 
 void ElementMultigrid::LevelData::make_residual(const Field& right_side, const Field& x) {

@@ -15,9 +15,19 @@
 
 namespace tracked_mcf {
 
-/// The V-cycle that preconditions conjugate gradients: two corrections by the ElementSmoother, the
-/// coarse correction, and two by the smoother. The two are a Chebyshev iteration of second degree
-/// for the upper part of the spectrum of S A, so from zero the V-cycle is a symmetric operator.
+/// How much a V-cycle does.
+enum class Effort {
+    Usual,    ///< enough for most surfaces
+    Thorough  ///< twice the smoothing, for the actual spectrum, on all levels: for what has pinched
+};
+
+/// The V-cycle that preconditions conjugate gradients: a few corrections by the ElementSmoother,
+/// the coarse correction, and as many by the smoother. They are a Chebyshev iteration for the upper
+/// part of the spectrum of S A, so from zero the V-cycle is a symmetric operator.
+///
+/// A coarse correction is for what the smoother hardly sees: where the stiffness outweighs the
+/// mass. From one level to the next coarser one the ratio of the two falls to a quarter, so the
+/// cycle ends where they are alike, with some more steps of the smoother.
 ///
 /// No level's matrix A is assembled: everything goes by element matrices, of which a coarser
 /// level's are the sums over its children (galerkin.h).
@@ -31,8 +41,11 @@ public:
     ElementMultigrid& operator=(const ElementMultigrid&) = delete;
 
     /// Takes the finest level's element matrices, after setting the rows and columns of frozen
-    /// unknowns to zero, and makes every level's from them. They must stay until the next refresh.
-    void refresh(std::vector<ElementMatrix>& finest);
+    /// unknowns to zero, and makes from them those of all levels that the cycle needs for
+    /// `stiffness`, the ratio of stiffness to mass on the finest level: δ / h². They must stay
+    /// until the next refresh.
+    void refresh(std::vector<ElementMatrix>& finest, double stiffness,
+                 Effort effort = Effort::Usual);
 
     /// The finest level's frozen unknowns; more may be frozen before a refresh.
     std::vector<std::uint8_t>& frozen() { return frozen_.back(); }
@@ -58,6 +71,8 @@ private:
         LevelData(const LevelData&) = delete;
         LevelData& operator=(const LevelData&) = delete;
 
+        /// Makes the steps x += step * S residual, from x = 0.
+        void smooth_from_zero(const Field& right_side, Field& x);
         /// residual = right_side - A x.
         void make_residual(const Field& right_side, const Field& x);
 
@@ -68,6 +83,7 @@ private:
         ElementTransfer transfer;  ///< from the next coarser level; unused at level 0
         const std::vector<ElementMatrix>* matrices = nullptr;
         std::vector<ElementMatrix> own_matrices;  ///< unused at the finest level
+        std::vector<float> steps;  ///< of the smoother, on one side of the coarse correction
         Field residual;
         Field coarse_right_side, coarse_x;  ///< of the next coarser level; unused at level 0
     };
@@ -76,6 +92,7 @@ private:
     const LevelData& finest() const { return levels_.back(); }
 
     std::vector<std::vector<std::uint8_t>> frozen_;
+    std::size_t coarsest_ = 0;  ///< level at which the cycle ends
     std::deque<LevelData> levels_;
     CoarseSolver coarse_solver_;
     std::vector<Couplings> couplings_;  ///< while refreshing

@@ -1,7 +1,9 @@
 #include "filter_tracked_mcf/core/element_smoother.h"
 
 #include <algorithm>
+#include <cmath>
 
+#include "filter_tracked_mcf/core/element_products.h"
 #include "filter_tracked_mcf/core/interruptible.h"
 #include "filter_tracked_mcf/core/kernels/coupling_places.h"
 #include "filter_tracked_mcf/core/kernels/kernels.h"
@@ -112,6 +114,29 @@ void ElementSmoother::add_correction(float factor, const Field& residual, Field&
 
 void ElementSmoother::correct(float factor, const Field& residual, Field& x) const {
     correct(nullptr, factor, residual, x);
+}
+
+double ElementSmoother::largest_eigenvalue(const std::vector<ElementMatrix>& matrices) const {
+    constexpr int steps = 12;
+    Field x;
+    Field product;
+    x.resize(4, level_.unknown_count());
+    parallel_for_rows(x.cols(), [&](std::int32_t unknown) {
+        // Anything that has a part of every eigenvector.
+        const auto hash = static_cast<std::uint32_t>(unknown) * 2654435761U;
+        const float number = static_cast<float>(hash >> 8U) * 0x1p-23F - 1;
+        x.col(unknown) << number, number * number - 0.3F, 1 - std::abs(number), 0;
+        if (movable_[unknown] == 0) x.col(unknown).setZero();
+    });
+    double eigenvalue = 0;
+    for (int step = 0; step < steps; ++step) {
+        const double before = norm(x);
+        if (!(before > 0) || !std::isfinite(before)) return 0;
+        multiply(partition_, matrices, x, product);
+        correct(static_cast<float>(1 / before), product, x);
+        eigenvalue = norm(x);
+    }
+    return eigenvalue;
 }
 
 void ElementSmoother::correct(const Field* base, float factor, const Field& residual,

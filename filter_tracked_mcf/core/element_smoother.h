@@ -37,6 +37,10 @@ public:
     /// x = factor * S residual.
     void correct(float factor, const Field& residual, Field& x) const;
 
+    /// An estimate of the largest eigenvalue of S A from below, A being the matrix of these element
+    /// matrices: by some steps of the power method, always from the same start.
+    double largest_eigenvalue(const std::vector<ElementMatrix>& matrices) const;
+
     /// Of every unknown: whether something constrains it (not 0); what may not move has nothing.
     const std::vector<std::uint8_t>& movable() const { return movable_; }
 

@@ -175,7 +175,7 @@ void Flow::assemble(StepReport& report) {
     if (holds_curve()) held_curve_.add(displacement_, grid_step_size_, systems_);
     stabilization_.add(stabilization_of(parameters_), grid_step_size_, systems_.matrices);
     if (parameters_.anchor_pinches) anchor_what_has_pinched();
-    solver_->take(systems_);
+    solver_->take(systems_, grid_step_size_);
     report.area = systems_.area * elements_.grid.cell_size * elements_.grid.cell_size;
     report.collapsed_samples = systems_.collapsed_samples;
     report.assemble_seconds = stopwatch.seconds();

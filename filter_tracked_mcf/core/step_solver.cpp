@@ -23,8 +23,12 @@ public:
 
     std::vector<std::uint8_t>& frozen() override { return multigrid_.frozen(); }
 
-    void take(ElementSystems& systems) override {
-        multigrid_.refresh(systems.matrices);
+    void take(ElementSystems& systems, double step_size) override {
+        if (first_area_ == 0) first_area_ = systems.area;
+        // Of a surface that shrinks, the mass does and the stiffness does not.
+        stiffness_ = systems.area > 0 ? step_size * first_area_ / systems.area : step_size;
+        matrices_ = &systems.matrices;
+        multigrid_.refresh(*matrices_, stiffness_, effort_);
         multigrid_.assemble(systems.right_sides, right_side_);
     }
 
@@ -35,8 +39,16 @@ public:
 
     void solve(Coefficients& solution, StepReport& report) override {
         report.residual_before = norm(right_side_);
-        const Convergence convergence = conjugate_gradients_.solve(
-            multigrid_, right_side_, tolerance_, kMaximumSolverIterations, solution);
+        Convergence convergence = iterate(
+            effort_ == Effort::Usual ? kUsualIterations : kMaximumSolverIterations, solution);
+        if (!convergence.reached_tolerance && effort_ == Effort::Usual) {
+            // Where something pinches it will go on to.
+            effort_ = Effort::Thorough;
+            multigrid_.refresh(*matrices_, stiffness_, effort_);
+            const int made = convergence.iterations;
+            convergence = iterate(kMaximumSolverIterations - made, solution);
+            convergence.iterations += made;
+        }
         report.residual_after = convergence.residual;
         report.solver_iterations = convergence.iterations;
         report.relative_residual = convergence.relative_error;
@@ -44,9 +56,20 @@ public:
     }
 
 private:
+    Convergence iterate(int most, Coefficients& solution) {
+        return conjugate_gradients_.solve(multigrid_, right_side_, tolerance_, most, solution);
+    }
+
+    /// For the default tolerance about twice what any surface needs that has not pinched.
+    static constexpr int kUsualIterations = 12;
+
     ElementMultigrid multigrid_;
     ConjugateGradients conjugate_gradients_;
     double tolerance_;
+    double first_area_ = 0;  ///< of the surface, grid units²
+    double stiffness_ = 0;   ///< see ElementMultigrid::refresh
+    Effort effort_ = Effort::Usual;
+    std::vector<ElementMatrix>* matrices_ = nullptr;
     Field right_side_;
 };
 
@@ -58,7 +81,7 @@ public:
 
     std::vector<std::uint8_t>& frozen() override { return multigrid_.frozen(); }
 
-    void take(ElementSystems& systems) override {
+    void take(ElementSystems& systems, double /*step_size*/) override {
         multigrid_.refresh(systems.matrices);
         multigrid_.finest().assemble(systems.right_sides, right_side_);
     }

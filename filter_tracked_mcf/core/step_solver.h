@@ -20,9 +20,9 @@ public:
     /// The finest level's frozen unknowns, which stay zero; more may be frozen before take().
     virtual std::vector<std::uint8_t>& frozen() = 0;
 
-    /// Takes the next step's system, which must stay until it is solved; sets the rows and columns
-    /// of frozen unknowns to zero in its matrices.
-    virtual void take(ElementSystems& systems) = 0;
+    /// Takes the next step's system, of a step of this size (grid units), which must stay until it
+    /// is solved; sets the rows and columns of frozen unknowns to zero in its matrices.
+    virtual void take(ElementSystems& systems, double step_size) = 0;
 
     /// Whether anything may move in the system that was taken.
     virtual bool can_move() const = 0;

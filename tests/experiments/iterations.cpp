@@ -42,7 +42,7 @@ public:
         // The multigrid works with these matrices until the solve is over.
         std::vector<ElementMatrix> matrices = systems_.matrices;
         stabilization_.add(stabilization_of(parameters), step_size_, matrices);
-        multigrid_.refresh(matrices);
+        multigrid_.refresh(matrices, step_size_);
         multigrid_.assemble(systems_.right_sides, right_side_);
         Coefficients solution;
         return conjugate_gradients_.solve(multigrid_, right_side_, parameters.tolerance,

@@ -67,9 +67,9 @@ TEST(ConjugateGradients, NeedsAsFewIterationsAtEveryDepthAndStep) {
     for (const int depth : {4, 5, 6}) {
         for (const float step : {1e-2F, 1.0F, 100.0F}) {
             ElementSystem system = stabilized(shapes::bumpy_sphere(40), depth, step);
-            EXPECT_LE(solved(system, 1e-5).convergence.iterations, 8) << depth << " " << step;
+            EXPECT_LE(solved(system, 1e-5).convergence.iterations, 10) << depth << " " << step;
             // Steepest descent would need up to 36.
-            EXPECT_LE(solved(system, 1e-10).convergence.iterations, 20) << depth << " " << step;
+            EXPECT_LE(solved(system, 1e-10).convergence.iterations, 24) << depth << " " << step;
         }
     }
 }

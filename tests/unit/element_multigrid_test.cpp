@@ -131,7 +131,7 @@ TEST(ElementMultigrid, LeavesFrozenUnknownsOut) {
     ElementSystem system(shapes::bumpy_sphere(8), 4, 0.5F, {false, 0.01});
     std::vector<std::uint8_t>& frozen = system.multigrid.frozen();
     for (std::size_t i = 0; i < frozen.size(); i += 3) frozen[i] = 1;
-    system.multigrid.refresh(system.systems.matrices);
+    system.multigrid.refresh(system.systems.matrices, 0.5);
     system.multigrid.assemble(system.systems.right_sides, system.right_side);
     const Dense a = assembled(system);
     Field x;

@@ -58,7 +58,7 @@ struct ElementSystem : FirstStep {
     ElementSystem(const TriangleMesh& mesh, int depth, float step,
                   const SystemOptions& options = {})
         : FirstStep(mesh, depth, step, options), multigrid(elements, frozen) {
-        multigrid.refresh(systems.matrices);
+        multigrid.refresh(systems.matrices, step);
         multigrid.assemble(systems.right_sides, right_side);
     }
 
