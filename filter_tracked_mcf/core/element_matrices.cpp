@@ -17,10 +17,9 @@ IntegrationInput integration_input(const TrackedElements& elements,
     IntegrationInput input = {};
     input.unknowns = elements.finest().unknowns.data()->data();
     input.displacement = displacement.data();
-    for (int axis = 0; axis < 3; ++axis) {
-        input.samples.local[axis] = elements.samples.local_array(axis);
-    }
-    input.samples.weight = elements.samples.weight_array();
+    input.samples.places[0] = elements.samples.places(0);
+    input.samples.places[1] = elements.samples.places(1);
+    input.samples.weight = elements.samples.weights();
     input.samples.fragments = elements.fragments.data();
     input.samples.sample_begin = elements.sample_begin.data();
     input.samples.fragment_begin = elements.fragment_begin.data();

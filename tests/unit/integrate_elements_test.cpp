@@ -36,8 +36,8 @@ struct Surface {
     std::int64_t element_count() const { return static_cast<std::int64_t>(displacement.size()); }
 
     SampleArrays arrays() const {
-        return {{samples.local_array(0), samples.local_array(1), samples.local_array(2)},
-                samples.weight_array(),
+        return {{samples.places(0), samples.places(1)},
+                samples.weights(),
                 fragments.data(),
                 sample_begin.data(),
                 fragment_begin.data()};

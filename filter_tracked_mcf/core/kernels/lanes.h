@@ -34,6 +34,14 @@ TRACKED_MCF_INLINE Lanes load(const float* from) {
     __builtin_memcpy(&lanes, from, sizeof(lanes));
     return lanes;
 }
+TRACKED_MCF_INLINE LaneIndices load(const unsigned* from) {
+    LaneIndices lanes;
+    __builtin_memcpy(&lanes, from, sizeof(lanes));
+    return lanes;
+}
+TRACKED_MCF_INLINE Lanes to_floats(const LaneIndices& numbers) {
+    return __builtin_convertvector(numbers, Lanes);
+}
 TRACKED_MCF_INLINE void store(const Lanes& lanes, float* to) {
     __builtin_memcpy(to, &lanes, sizeof(lanes));
 }

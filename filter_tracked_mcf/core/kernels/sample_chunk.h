@@ -12,27 +12,29 @@ namespace tracked_mcf::TRACKED_MCF_KERNELS {
 /// Samples that are worked on at a time; what is computed of them stays in the first-level cache.
 constexpr int kChunk = 128;
 
+constexpr float kStep = 1.0F / kSampleSteps;
+
 using Row = float[kChunk];
 
 /// Some samples of one element, one row for each of their numbers. Behind `count`, up to the next
 /// multiple of kLanes, rows are filled so that nothing is added to any integral.
 struct SampleChunk {
-    int count;
-    struct {
-        const float* local[3];
-        const float* weight;
-    } samples;
     alignas(64) float normal[3][kChunk + kLanes];
     Row linear[6];     ///< 1-x and x, and so on for y and z
     Row area;          ///< w √|g|, grid units²; 0 if collapsed
     Row tensor[6];     ///< G = w √|g| T g⁻¹ Tᵀ: xx, yy, zz, xy, yz, zx; 0 if collapsed
     Row pull[3][3];    ///< of each coordinate w √|g| T g⁻¹ Tᵀ ∇X_t; 0 if collapsed
     Row bernstein[9];  ///< (1-x)², x(1-x), x², and so on for y and z
+    struct {
+        const std::uint32_t* places[2];
+        const float* weight;
+    } samples;
+    int count;
 };
 
 /// Where reading an element's samples has come to.
 struct SampleReader {
-    const float* local[3];
+    const std::uint32_t* places[2];
     const float* weight;
     std::int64_t left;
     const Fragment* fragment;
@@ -41,7 +43,7 @@ struct SampleReader {
 
 TRACKED_MCF_INLINE SampleReader read_element(const SampleArrays& samples, std::int64_t element) {
     const std::int64_t begin = samples.sample_begin[element];
-    return {{samples.local[0] + begin, samples.local[1] + begin, samples.local[2] + begin},
+    return {{samples.places[0] + begin, samples.places[1] + begin},
             samples.weight + begin,
             samples.sample_begin[element + 1] - begin,
             samples.fragments + samples.fragment_begin[element],
@@ -77,9 +79,9 @@ TRACKED_MCF_INLINE void spread_normals(SampleReader& reader, SampleChunk& chunk)
 /// Goes on to the next samples.
 TRACKED_MCF_INLINE void read_samples(SampleReader& reader, SampleChunk& chunk) {
     chunk.count = reader.left < kChunk ? static_cast<int>(reader.left) : kChunk;
-    for (int axis = 0; axis < 3; ++axis) {
-        chunk.samples.local[axis] = reader.local[axis];
-        reader.local[axis] += chunk.count;
+    for (int word = 0; word < 2; ++word) {
+        chunk.samples.places[word] = reader.places[word];
+        reader.places[word] += chunk.count;
     }
     chunk.samples.weight = reader.weight;
     reader.weight += chunk.count;
@@ -87,9 +89,17 @@ TRACKED_MCF_INLINE void read_samples(SampleReader& reader, SampleChunk& chunk) {
     spread_normals(reader, chunk);
 }
 
-/// The functions of one axis.
-TRACKED_MCF_INLINE void store_functions(const Lanes& x, int axis, SampleChunk& chunk, int i) {
-    const Lanes rest = 1 - x;
+/// The coordinate that a word of a place has whole. The word is not a signed number.
+TRACKED_MCF_INLINE LaneIndices high_bits(const LaneIndices& words) {
+    return words >> kPlaceShift & ((1 << (32 - kPlaceShift)) - 1);
+}
+
+/// The functions of one axis. That both x and 1-x are the nearest numbers is worth an instruction:
+/// of functions that hardly meet the surface, one of them is small.
+TRACKED_MCF_INLINE void store_functions(const LaneIndices& steps, int axis, SampleChunk& chunk,
+                                        int i) {
+    const Lanes x = to_floats(steps) * kStep;
+    const Lanes rest = to_floats(kSampleSteps - steps) * kStep;
     store(rest, chunk.linear[2 * axis] + i);
     store(x, chunk.linear[2 * axis + 1] + i);
     store(rest * rest, chunk.bernstein[3 * axis] + i);
@@ -199,13 +209,15 @@ TRACKED_MCF_INLINE void store_initial_pull(const Vector& n, const Vector& k, con
 TRACKED_MCF_INLINE void evaluate_samples(const Embedding& x, bool initial_metric,
                                          SampleChunk& chunk) {
     for (int i = 0; i < chunk.count; i += kLanes) {
-        store_functions(load(chunk.samples.local[0] + i), 0, chunk, i);
-        store_functions(load(chunk.samples.local[1] + i), 1, chunk, i);
-        store_functions(load(chunk.samples.local[2] + i), 2, chunk, i);
+        const LaneIndices a = load(chunk.samples.places[0] + i);
+        const LaneIndices b = load(chunk.samples.places[1] + i);
+        store_functions(high_bits(a), 0, chunk, i);
+        store_functions(high_bits(b), 1, chunk, i);
+        store_functions((a & kPlaceMask) << kPlaceShift | (b & kPlaceMask), 2, chunk, i);
     }
     for (int i = 0; i < chunk.count; i += kLanes) {
-        const Vector at = {load(chunk.samples.local[0] + i), load(chunk.samples.local[1] + i),
-                           load(chunk.samples.local[2] + i)};
+        const Vector at = {load(chunk.linear[1] + i), load(chunk.linear[3] + i),
+                           load(chunk.linear[5] + i)};
         const Vector n = {load(chunk.normal[0] + i), load(chunk.normal[1] + i),
                           load(chunk.normal[2] + i)};
         const Lanes weight =
