@@ -72,9 +72,9 @@ double ConjugateGradients::descend(ElementMultigrid& multigrid, double goal, dou
         const double rz_before = std::exchange(rz, dot(r_, z_).sum());
         if (rz == 0) return 0;
         if (!std::isfinite(rz)) return rz;
-        // The V-cycle is not positive: it has been made for another spectrum.
-        if (rz < 0) return std::numeric_limits<double>::max();
-        const auto turn = static_cast<float>(ratio(rz, rz_before));
+        // Where parts have pinched, rounding may leave the V-cycle, or A, not quite positive. Then
+        // its direction is gone along backwards, and conjugate gradients begin anew.
+        const auto turn = static_cast<float>(rz > 0 ? ratio(rz, rz_before) : 0);
         if (start == 0) {
             // As the V-cycle is nearly the inverse of A, that is nearly the error.
             start = std::sqrt(std::abs(rz));

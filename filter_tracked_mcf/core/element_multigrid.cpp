@@ -16,9 +16,6 @@ namespace {
 /// A bit above the largest eigenvalue of S A, unless something has pinched.
 constexpr double kLargest = 1.8;
 
-/// How much larger it may be than the power method says.
-constexpr double kMargin = 1.2;
-
 /// Steps x += factor * S r that are as good as `count` can be from `smallest` to `largest`: factors
 /// are the reciprocals of the roots of Chebyshev's polynomial on that interval.
 std::vector<float> chebyshev_steps(int count, double smallest, double largest) {
@@ -65,7 +62,7 @@ void ElementMultigrid::refresh(std::vector<ElementMatrix>& finest, double stiffn
         // Around a coarse correction, the smoother has to be good in the upper part of the
         // spectrum; where the cycle ends, in nearly all of it.
         if (effort == Effort::Thorough) {
-            const double found = kMargin * here.smoother.largest_eigenvalue(*matrices);
+            const double found = margin_ * here.smoother.largest_eigenvalue(*matrices);
             const double largest = std::max(kLargest, found);
             here.steps = chebyshev_steps(4, largest / 16, largest);
         } else if (stiffness > kStiff) {

@@ -47,6 +47,10 @@ public:
     void refresh(std::vector<ElementMatrix>& finest, double stiffness,
                  Effort effort = Effort::Usual);
 
+    /// From now on, thorough V-cycles are for spectra that are wider by half: for when the power
+    /// method has missed the largest eigenvalue, and V-cycles are not positive.
+    void widen() { margin_ *= 1.5; }
+
     /// The finest level's frozen unknowns; more may be frozen before a refresh.
     std::vector<std::uint8_t>& frozen() { return frozen_.back(); }
 
@@ -93,6 +97,7 @@ private:
 
     std::vector<std::vector<std::uint8_t>> frozen_;
     std::size_t coarsest_ = 0;  ///< level at which the cycle ends
+    double margin_ = 1.2;       ///< by which eigenvalues may be larger than the power method says
     std::deque<LevelData> levels_;
     CoarseSolver coarse_solver_;
     std::vector<Couplings> couplings_;  ///< while refreshing

@@ -41,11 +41,13 @@ public:
         report.residual_before = norm(right_side_);
         Convergence convergence = iterate(
             effort_ == Effort::Usual ? kUsualIterations : kMaximumSolverIterations, solution);
-        if (!convergence.reached_tolerance && effort_ == Effort::Usual) {
-            // Where something pinches it will go on to.
+        for (int tries = 0; !convergence.reached_tolerance && tries < kMostTries; ++tries) {
+            const int made = convergence.iterations;
+            if (made >= kMaximumSolverIterations) break;
+            // Where something pinches it will go on to, so this remains.
+            if (effort_ == Effort::Thorough) multigrid_.widen();
             effort_ = Effort::Thorough;
             multigrid_.refresh(*matrices_, stiffness_, effort_);
-            const int made = convergence.iterations;
             convergence = iterate(kMaximumSolverIterations - made, solution);
             convergence.iterations += made;
         }
@@ -62,6 +64,9 @@ private:
 
     /// For the default tolerance about twice what any surface needs that has not pinched.
     static constexpr int kUsualIterations = 12;
+
+    /// Of V-cycles, each more careful than the one before.
+    static constexpr int kMostTries = 4;
 
     ElementMultigrid multigrid_;
     ConjugateGradients conjugate_gradients_;

@@ -146,7 +146,9 @@ TEST_F(MemoryOfAFlow, OfAnOpenTube) {
 }
 
 TEST_F(MemoryOfAFlow, OfSeparateTriangles) {
-    expect_estimate(shapes::separate_triangles(20000), free_at(5));
+    FlowParameters p = free_at(5);
+    p.step_size = 1;  // for a short one the coarse levels, here as large as the finest, are idle
+    expect_estimate(shapes::separate_triangles(20000), p);
 }
 
 TEST_F(MemoryOfAFlow, OfAMeshThatIsFinerThanTheGrid) {

@@ -46,38 +46,52 @@ void restrict(const CoupledElements& range, std::int32_t element, const ElementM
     }
 }
 
-/// All steps of Beaton's sweep operator (1964): each solves the k-th equation for the k-th unknown
-/// and inserts that in the others. The matrices, symmetric and positive semi-definite, become minus
-/// their inverses; a row that is left out becomes zero.
+/// The inverses of symmetric positive semi-definite matrices, in place, as L⁻ᵀ D⁻¹ L⁻¹: a sum of
+/// squares, and so positive whatever has been rounded, as an inverse by elimination would not be. A
+/// row that is left out becomes zero.
 void invert(Triangles& m) {
     Lanes least[8];
+    Lanes inverse_pivot[8];
     for (int k = 0; k < 8; ++k) least[k] = kDependent * m.entry[k][k];
+        // The factors L, below the diagonal, and D.
 #pragma GCC unroll 8
     for (int k = 0; k < 8; ++k) {
         const Lanes pivot = m.entry[k][k];
         // What is not a number must not pass for a function to leave out.
-        const Lanes inverse = pivot <= least[k] ? Lanes{} : 1 / pivot;
+        inverse_pivot[k] = pivot <= least[k] ? Lanes{} : 1 / pivot;
         Lanes column[8];
-        Lanes factor[8];
 #pragma GCC unroll 8
-        for (int i = 0; i < 8; ++i) {
-            column[i] = i > k ? m.entry[i][k] : m.entry[k][i];
-            factor[i] = column[i] * inverse;
+        for (int i = k + 1; i < 8; ++i) column[i] = m.entry[i][k];
+#pragma GCC unroll 8
+        for (int i = k + 1; i < 8; ++i) {
+            const Lanes factor = column[i] * inverse_pivot[k];
+#pragma GCC unroll 8
+            for (int j = k + 1; j <= i; ++j) m.entry[i][j] -= factor * column[j];
+            m.entry[i][k] = factor;
         }
+    }
+    // L⁻¹ below the diagonal.
 #pragma GCC unroll 8
-        for (int i = 0; i < 8; ++i) {
+    for (int i = 0; i < 8; ++i) {
 #pragma GCC unroll 8
-            for (int j = 0; j <= i; ++j) {
-                if (i == k || j == k) continue;
-                m.entry[i][j] -= factor[i] * column[j];
+        for (int j = 0; j < i; ++j) {
+            Lanes sum = m.entry[i][j];
+#pragma GCC unroll 8
+            for (int k = j + 1; k < i; ++k) sum += m.entry[i][k] * m.entry[k][j];
+            m.entry[i][j] = -sum;
+        }
+    }
+#pragma GCC unroll 8
+    for (int i = 0; i < 8; ++i) {
+#pragma GCC unroll 8
+        for (int j = 0; j <= i; ++j) {
+            Lanes sum = j < i ? inverse_pivot[i] * m.entry[i][j] : inverse_pivot[i];
+#pragma GCC unroll 8
+            for (int k = i + 1; k < 8; ++k) {
+                sum += inverse_pivot[k] * m.entry[k][i] * m.entry[k][j];
             }
+            m.entry[i][j] = sum;
         }
-#pragma GCC unroll 8
-        for (int i = 0; i < 8; ++i) {
-            if (i > k) m.entry[i][k] = factor[i];
-            if (i < k) m.entry[k][i] = factor[i];
-        }
-        m.entry[k][k] = -inverse;
     }
 }
 
@@ -122,7 +136,7 @@ void invert_locally(const CoupledElements& range, const ElementMatrix* matrices,
         }
         invert(triangles);
         for (int lane = 0; lane < count; ++lane) {
-            store(triangles, lane, -shares[first + lane], inverses[first + lane]);
+            store(triangles, lane, shares[first + lane], inverses[first + lane]);
         }
     }
 }
