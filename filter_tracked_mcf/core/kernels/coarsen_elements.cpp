@@ -33,7 +33,7 @@ void coarsen_axis(Rows& m, bool upper_child) {
     const Lanes keep = 0.5F + 0.5F * is_outer;
     const Lanes take = 0.5F * is_outer;
 #pragma GCC unroll 8
-    for (int i = 0; i < 8; ++i) m.row[i] = keep * m.row[i] + take * other_end<Axis>(m.row[i]);
+    for (Lanes& row : m.row) row = keep * row + take * other_end<Axis>(row);
 #pragma GCC unroll 8
     for (int lower = 0; lower < 8; ++lower) {
         if ((lower & step) != 0) continue;
