@@ -20,15 +20,18 @@ def ratio(a, b):
 
 
 class Page:
-    """`main` is the mesh of the targets, `middle` the step size of most tables."""
+    """`main` is the mesh of the targets, `middle` the step size of most tables, `command` what was
+    run."""
 
-    def __init__(self, measurements, build, main, step_sizes, middle, core_knows_instructions):
+    def __init__(self, measurements, build, main, step_sizes, middle, core_knows_instructions,
+                 command):
         self._of = measurements
         self._build = build
         self._main = main
         self._step_sizes = step_sizes
         self._middle = middle
         self._core_knows_instructions = core_knows_instructions
+        self._command = command
         self._lines = []
 
     def text(self):
@@ -38,7 +41,7 @@ class Page:
         self._say("```sh\nexternal/install_debian.sh benchmark && external/cgal_meshes.sh "
                   "build/cgal-meshes\ncmake -S . -B build -DTRACKED_MCF_PLUGIN=OFF "
                   "-DTRACKED_MCF_BENCHMARK=ON\ncmake --build build -j --target "
-                  "tracked_mcf_benchmark\ntests/benchmark/run_benchmark.py\n```\n")
+                  "tracked_mcf_benchmark\n" + self._command + "\n```\n")
         self._say(f"Unless said otherwise: medians; the noisy {self._main}; one thread; seconds of "
                   "processor time, of all threads, which other work on the machine hardly changes.\n")
         self._machine()

@@ -208,6 +208,16 @@ def unpacked(packed, folder):
     return path
 
 
+def command_line(arguments):
+    """What the figures were measured with, as far as it matters to them."""
+    words = ["tests/benchmark/run_benchmark.py"]
+    if arguments.quick:
+        words.append("--quick")
+    if arguments.frequency:
+        words.append(f"--frequency {arguments.frequency}")
+    return " ".join(words)
+
+
 def main():
     arguments = options()
     output = arguments.output or arguments.build / "benchmark"
@@ -225,7 +235,7 @@ def main():
             measurements.write(figures)
     beside = output if arguments.quick else pathlib.Path(__file__).parent
     page = Page(measurements, arguments.build, benchmark.main, STEP_SIZES, MIDDLE,
-                core_knows_instructions())
+                core_knows_instructions(), command_line(arguments))
     (arguments.page or beside / "results.md").write_text(page.text(), encoding="utf-8")
     if measurements.failures:
         sys.exit("These did not succeed:\n" + "\n".join(measurements.failures))

@@ -43,12 +43,12 @@ for file in "${binaries[@]}"; do
 done
 
 echo "== Any processor"
-# Instructions of the AVX family, with names that begin with v, where the compiler has chosen a
-# version of a function for the processor that it runs on. The build's files still have their names.
+# Instructions of the AVX family, with names that begin with v, only in the kernels that are chosen
+# for the processor when the program runs. The build's files still have their names.
 for file in "$build/filter_tracked_mcf/plugin/$plugin" \
     ${tool:+"$build/filter_tracked_mcf/tool/$tool"}; do
     objdump -d --no-show-raw-insn "$file" | awk -v file="$file" '
-        /^[0-9a-f]+ <.*>:$/ { name = $2; any = name !~ /\.(arch_|avx)/ }
+        /^[0-9a-f]+ <.*>:$/ { name = $2; any = name !~ /kernels_avx/ }
         $2 ~ /^v[a-z]/ { vectors++; if (any) others[name] = 1 }
         END {
             for (name in others) print name " of " file " is for some processors only"
