@@ -50,7 +50,7 @@ Polygon clip_to_slab(const Polygon& polygon, int axis, std::int32_t coordinate);
 
 /// The same without a copy, given the polygon's extent: `polygon` itself if it lies in the slab,
 /// else `room`, where the part is put. The two must be different.
-const Polygon& clip_to_slab(const Polygon& polygon, const Extent& extent, int axis,
+const Polygon& clip_to_slab(const Polygon& polygon, Extent extent, int axis,
                             std::int32_t coordinate, Polygon& room);
 
 /// Puts into `room` the part of a polygon of this extent that is in a slab.
@@ -105,7 +105,7 @@ inline Extent extent_along(const Polygon& polygon, int axis) {
     return extent;
 }
 
-inline const Polygon& clip_to_slab(const Polygon& polygon, const Extent& extent, int axis,
+inline const Polygon& clip_to_slab(const Polygon& polygon, Extent extent, int axis,
                                    std::int32_t coordinate, Polygon& room) {
     if (extent.smallest >= coordinate && extent.largest <= coordinate + 1.0) return polygon;
     cut_to_slab(polygon, extent, axis, coordinate, room);
