@@ -23,12 +23,12 @@ Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& matrix) {
 
 }  // namespace
 
-void CoarseSolver::factorise(const std::vector<ElementMatrix>& matrices) {
+void CoarseSolver::factorise(const MatrixBlocks& matrices) {
     pseudo_inverses_.resize(level_.unknowns.size());
     parallel_for_blocks(level_.element_count(), [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t element = begin; element < end; ++element) {
-            const Eigen::Map<const Eigen::Matrix<float, 8, 8>> matrix(
-                &matrices[element].entry[0][0]);
+            const ElementMatrix whole = matrices.of(element);
+            const Eigen::Map<const Eigen::Matrix<float, 8, 8>> matrix(whole.entry[0]);
             pseudo_inverses_[element] = pseudo_inverse(matrix.cast<double>());
         }
     });

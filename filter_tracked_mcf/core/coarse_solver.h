@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "filter_tracked_mcf/core/element_matrix.h"
 #include "filter_tracked_mcf/core/field.h"
+#include "filter_tracked_mcf/core/matrix_blocks.h"
 #include "filter_tracked_mcf/core/octree.h"
 
 namespace tracked_mcf {
@@ -21,7 +21,7 @@ public:
 
     /// Takes the element matrices of the level, in which the rows and columns of unknowns that may
     /// not move are zero.
-    void factorise(const std::vector<ElementMatrix>& matrices);
+    void factorise(const MatrixBlocks& matrices);
 
     /// x = A⁺ right_side over the unknowns that may move, zero for the others.
     void solve(const Field& right_side, Field& x) const;

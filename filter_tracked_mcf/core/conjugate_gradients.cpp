@@ -20,21 +20,22 @@ constexpr double kSinglePrecision = 1e-5;
 constexpr double kWorthRefining = 0.5;
 
 /// How the square of the error falls from one iteration to the next, as long as it is not known.
-constexpr double kUsualFall = 0.1;
+constexpr double kUsualFall = 0.2;
 
 /// a / b where b is positive, else 0: nothing is left to solve.
 double ratio(double a, double b) {
     return b > 0 ? a / b : 0;
 }
 
-/// What the iterations to come add up to, if they go on falling as the last two did.
-double rest_of_series(double before_last, double last) {
+/// What the terms to come of a geometric series add up to.
+double rest_of_series(double last, double fall) {
     if (last == 0) return 0;
-    const double fall = before_last > 0 ? last / before_last : kUsualFall;
     return fall < 1 ? last * fall / (1 - fall) : std::numeric_limits<double>::max();
 }
 
 }  // namespace
+
+ConjugateGradients::ConjugateGradients() : fall_(kUsualFall) {}
 
 void ConjugateGradients::begin(ElementMultigrid& multigrid, const Field& right_side,
                                const Coefficients& guess) {
@@ -42,23 +43,37 @@ void ConjugateGradients::begin(ElementMultigrid& multigrid, const Field& right_s
     set_zero(x_, r_.cols());
     solved_ = 0;
     if (guess.size() == 0) return;
-    set_zero(p_, r_.cols());
+    const auto movable = [&](std::int32_t row) { return multigrid.movable()[row] != 0; };
+    set_zero(z_, r_.cols());
     parallel_for_rows(r_.cols(), [&](std::int32_t row) {
-        if (multigrid.movable()[row] == 0) return;
-        p_.col(row).head<3>() = guess.row(row).transpose().cast<float>();
+        if (movable(row)) z_.col(row).head<3>() = guess.row(row).transpose().cast<float>();
     });
-    // x = s p has the least error in the energy norm where b·p = s p·Ap. Then the error is
-    // orthogonal to it.
+    copy(z_, p_);
+    const double energy = go_along(multigrid);
+    if (earlier_guess_.cols() == r_.cols()) {
+        // What it has in common with the other has been gone along.
+        const auto common = static_cast<float>(ratio(dot(q_, earlier_guess_).sum(), energy));
+        parallel_for_rows(r_.cols(), [&](std::int32_t row) {
+            if (movable(row)) p_.col(row) = earlier_guess_.col(row) - common * p_.col(row);
+        });
+        go_along(multigrid);
+    }
+    earlier_guess_.swap(z_);
+}
+
+double ConjugateGradients::go_along(ElementMultigrid& multigrid) {
+    // The error is least where it is orthogonal to p: x changes by s p with r·p = s p·Ap.
     const double energy = multigrid.multiply(p_, q_);
-    const double pull = dot(right_side, p_).sum();
+    const double pull = dot(r_, p_).sum();
     const double scale = ratio(pull, energy);
-    if (!std::isfinite(scale)) return;
+    if (!std::isfinite(scale)) return 0;
     const auto step = static_cast<float>(scale);
     parallel_for_rows(r_.cols(), [&](std::int32_t row) {
-        x_.col(row) = step * p_.col(row);
+        x_.col(row) += step * p_.col(row);
         r_.col(row) -= step * q_.col(row);
     });
-    solved_ = scale * pull;
+    solved_ += scale * pull;
+    return energy;
 }
 
 double ConjugateGradients::descend(ElementMultigrid& multigrid, double goal, double factor,
@@ -94,7 +109,8 @@ double ConjugateGradients::descend(ElementMultigrid& multigrid, double goal, dou
         });
         const double gain_before = std::exchange(gain, scale * rz);
         solved_ += gain;
-        error = std::sqrt(rest_of_series(gain_before, gain));
+        if (gain_before > 0) fall_ = gain / gain_before;
+        error = std::sqrt(rest_of_series(gain, fall_));
         tell_progress(error, goal);
         if (error <= std::max(goal * whole(error), factor * start)) break;
     }

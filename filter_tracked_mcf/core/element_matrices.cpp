@@ -35,11 +35,11 @@ void assemble_elements(const TrackedElements& elements, const Coefficients& disp
                        const SystemWeights& weights, ElementSystems& systems) {
     IntegrateElements& integrate_elements = *kernels().integrate_elements;
     const std::int64_t count = elements.finest().element_count();
-    resize(systems.matrices, count);
+    systems.matrices.resize(count);
     resize(systems.right_sides, count);
     resize(systems.areas, count);
     const IntegrationInput all = integration_input(elements, displacement, weights);
-    const IntegrationOutput output = {systems.matrices.data(), systems.right_sides.data(),
+    const IntegrationOutput output = {systems.matrices.blocks(), systems.right_sides.data(),
                                       systems.areas.data()};
     systems.collapses = parallel_collect<Collapse>(
         count, [&](std::int64_t begin, std::int64_t end, std::vector<Collapse>& collapses) {
@@ -65,7 +65,7 @@ void subtract_guess(const TrackedElements& elements, const Coefficients& guess,
                     ElementSystems& systems) {
     parallel_for_rows(elements.finest().element_count(), [&](std::int32_t element) {
         const auto& unknowns = elements.finest().unknowns[element];
-        const ElementMatrix& matrix = systems.matrices[element];
+        const ElementMatrix matrix = systems.matrices.of(element);
         for (int row = 0; row < 8; ++row) {
             Eigen::RowVector3d product = Eigen::RowVector3d::Zero();
             for (int corner = 0; corner < 8; ++corner) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "filter_tracked_mcf/core/element_matrix.h"
+#include "filter_tracked_mcf/core/matrix_blocks.h"
 #include "filter_tracked_mcf/core/tracked_elements.h"
 
 namespace tracked_mcf {
@@ -18,7 +19,7 @@ struct SystemWeights {
 
 /// The finest level's element matrices and right sides, and what was noticed on the way.
 struct ElementSystems {
-    std::vector<ElementMatrix> matrices;
+    MatrixBlocks matrices;
     std::vector<ElementVector> right_sides;
     std::vector<float> areas;  ///< of the embedded surface in each element, grid units²
     double area = 0;           ///< their sum

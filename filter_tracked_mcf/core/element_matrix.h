@@ -6,9 +6,39 @@
 
 namespace tracked_mcf {
 
-/// The matrix of one element: a row and a column for each of its cell's eight functions. Symmetric.
+/// The matrix of one element, whole: a row and a column for each of its cell's eight functions.
+/// Symmetric. A level's are stored in MatrixBlocks.
 struct ElementMatrix {
     alignas(32) float entry[8][8];
+};
+
+/// Entries of such a matrix on and above the diagonal, row by row.
+inline constexpr int kMatrixEntries = 36;
+
+/// Where among them the entry of a row and a column is, in either order.
+struct EntryPlaces {
+    std::uint8_t of[8][8];
+};
+
+constexpr EntryPlaces make_entry_places() {
+    EntryPlaces places{};
+    std::uint8_t next = 0;
+    for (int row = 0; row < 8; ++row) {
+        for (int column = row; column < 8; ++column) {
+            places.of[row][column] = places.of[column][row] = next++;
+        }
+    }
+    return places;
+}
+
+inline constexpr EntryPlaces kEntryPlaces = make_entry_places();
+
+/// Consecutive elements whose matrices are stored side by side.
+inline constexpr int kBlockElements = 16;
+
+/// Their matrices, entry by entry, so that kernels can work on several elements at a time.
+struct MatrixBlock {
+    alignas(64) float entry[kMatrixEntries][kBlockElements];
 };
 
 /// The displacement system's right side of one element: for each coordinate the eight functions'.

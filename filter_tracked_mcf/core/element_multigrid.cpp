@@ -46,13 +46,12 @@ ElementMultigrid::ElementMultigrid(const TrackedElements& elements,
     for (const Level& level : elements.levels) levels_.emplace_back(level);
     for (std::size_t l = 1; l < levels_.size(); ++l) {
         levels_[l].transfer = ElementTransfer(levels_[l].level, levels_[l - 1].level);
-        resize(levels_[l - 1].own_matrices, levels_[l - 1].level.element_count());
+        levels_[l - 1].own_matrices.resize(levels_[l - 1].level.element_count());
     }
 }
 
-void ElementMultigrid::refresh(std::vector<ElementMatrix>& finest, double stiffness,
-                               Effort effort) {
-    std::vector<ElementMatrix>* matrices = &finest;
+void ElementMultigrid::refresh(MatrixBlocks& finest, double stiffness, Effort effort) {
+    MatrixBlocks* matrices = &finest;
     for (coarsest_ = levels_.size() - 1;; --coarsest_, stiffness /= 4) {
         LevelData& here = levels_[coarsest_];
         leave_out_frozen(here.level, frozen_[coarsest_], *matrices);

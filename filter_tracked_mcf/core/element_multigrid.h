@@ -44,8 +44,7 @@ public:
     /// unknowns to zero, and makes from them those of all levels that the cycle needs for
     /// `stiffness`, the ratio of stiffness to mass on the finest level: δ / h². They must stay
     /// until the next refresh.
-    void refresh(std::vector<ElementMatrix>& finest, double stiffness,
-                 Effort effort = Effort::Usual);
+    void refresh(MatrixBlocks& finest, double stiffness, Effort effort = Effort::Usual);
 
     /// From now on, thorough V-cycles are for spectra that are wider by half: for when the power
     /// method has missed the largest eigenvalue, and V-cycles are not positive.
@@ -85,9 +84,9 @@ private:
         ElementPartition partition;
         ElementSmoother smoother;
         ElementTransfer transfer;  ///< from the next coarser level; unused at level 0
-        const std::vector<ElementMatrix>* matrices = nullptr;
-        std::vector<ElementMatrix> own_matrices;  ///< unused at the finest level
-        std::vector<float> steps;  ///< of the smoother, on one side of the coarse correction
+        const MatrixBlocks* matrices = nullptr;
+        MatrixBlocks own_matrices;  ///< unused at the finest level
+        std::vector<float> steps;   ///< of the smoother, on one side of the coarse correction
         Field residual;
         Field coarse_right_side, coarse_x;  ///< of the next coarser level; unused at level 0
     };

@@ -28,33 +28,41 @@ void ElementPartition::find_parts() {
     }
 }
 
-/// Finds the elements that have unknowns of earlier parts, and gives these slots.
+/// Whether the block of elements that begins here has no unknowns of earlier parts.
+bool ElementPartition::owns_all(const Part& part, std::int32_t first) const {
+    const std::int32_t end = std::min(part.end, first + kBlockElements);
+    return std::all_of(
+        level_.unknowns.begin() + first, level_.unknowns.begin() + end, [&](const auto& unknowns) {
+            return *std::min_element(unknowns.begin(), unknowns.end()) >= part.unknown_begin;
+        });
+}
+
+/// Finds the blocks that have unknowns of earlier parts, and gives these slots.
 void ElementPartition::send_elsewhere() {
     constexpr std::int32_t none = -1;
     std::vector<KeyValue> slots;  // an unknown, and a slot of it
     std::vector<std::int32_t> slot_of(static_cast<std::size_t>(level_.unknown_count()), none);
-    resize(detours_, level_.element_count());
+    const auto target_of = [&](const Part& part, std::int32_t unknown) {
+        if (unknown >= part.unknown_begin) return unknown;
+        std::int32_t& slot = slot_of[unknown];
+        if (slot < part.slot_begin) {
+            slot = static_cast<std::int32_t>(slots.size());
+            slots.push_back(
+                {static_cast<std::uint64_t>(unknown), static_cast<std::uint64_t>(slot)});
+        }
+        return -1 - slot;
+    };
     for (Part& part : parts_) {
         part.slot_begin = static_cast<std::int32_t>(slots.size());
         serial_for(part.begin, part.end, [&](std::int64_t element) {
-            const auto& unknowns = level_.unknowns[element];
-            const bool own =
-                *std::min_element(unknowns.begin(), unknowns.end()) >= part.unknown_begin;
-            detours_[element] =
-                own ? ElementRange::kStraight : static_cast<std::int32_t>(targets_.size());
-            if (own) return;
-            for (const std::int32_t unknown : unknowns) {
-                if (unknown >= part.unknown_begin) {
-                    targets_.push_back(unknown);
-                    continue;
-                }
-                std::int32_t& slot = slot_of[unknown];
-                if (slot < part.slot_begin) {
-                    slot = static_cast<std::int32_t>(slots.size());
-                    slots.push_back(
-                        {static_cast<std::uint64_t>(unknown), static_cast<std::uint64_t>(slot)});
-                }
-                targets_.push_back(-1 - slot);
+            const auto i = static_cast<std::int32_t>(element);
+            if (i % kBlockElements == 0) {
+                detours_.push_back(owns_all(part, i) ? ElementRange::kStraight
+                                                     : static_cast<std::int64_t>(targets_.size()));
+            }
+            if (detours_.back() == ElementRange::kStraight) return;
+            for (const std::int32_t unknown : level_.unknowns[i]) {
+                targets_.push_back(target_of(part, unknown));
             }
         });
         part.slot_end = static_cast<std::int32_t>(slots.size());

@@ -48,13 +48,14 @@ private:
 
     void find_parts();
     void send_elsewhere();
+    bool owns_all(const Part& part, std::int32_t first) const;
     void open(const Part& part, const Field* base, Field& result) const;
     void add_slots(Field& result) const;
     ElementRange range(const Part& part) const;
 
     const Level& level_;
     std::vector<Part> parts_;
-    std::vector<std::int32_t> detours_;  ///< see ElementRange
+    std::vector<std::int64_t> detours_;  ///< see ElementRange
     std::vector<std::int32_t> targets_;
     std::vector<Shared> shared_;
     std::vector<std::int32_t> shared_slots_;

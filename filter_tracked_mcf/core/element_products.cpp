@@ -6,17 +6,16 @@
 
 namespace tracked_mcf {
 
-void subtract_products(const ElementPartition& partition,
-                       const std::vector<ElementMatrix>& matrices, const Field& right_side,
-                       const Field& x, Field& residual) {
+void subtract_products(const ElementPartition& partition, const MatrixBlocks& matrices,
+                       const Field& right_side, const Field& x, Field& residual) {
     partition.sum(&right_side, residual, [&](const ElementRange& range, float* sum) {
-        kernels().add_element_products(range, matrices.data(), -1, x.data(), sum);
+        kernels().add_element_products(range, matrices.blocks(), -1, x.data(), sum);
         return 0.0;
     });
 }
 
-void subtract_products(const Level& level, const std::vector<ElementMatrix>& matrices,
-                       const Field& right_side, const Coefficients& x, Field& residual) {
+void subtract_products(const Level& level, const MatrixBlocks& matrices, const Field& right_side,
+                       const Coefficients& x, Field& residual) {
     Coefficients sum = right_side.topRows<3>().transpose().cast<double>();
     ElementBlocks(level).for_each([&](std::int32_t begin, std::int32_t end) {
         for (std::int32_t element = begin; element < end; ++element) {
@@ -24,7 +23,7 @@ void subtract_products(const Level& level, const std::vector<ElementMatrix>& mat
             for (int i = 0; i < 8; ++i) {
                 Eigen::RowVector3d product = Eigen::RowVector3d::Zero();
                 for (int j = 0; j < 8; ++j) {
-                    product += matrices[element].entry[i][j] * x.row(unknowns[j]);
+                    product += matrices.at(element, i, j) * x.row(unknowns[j]);
                 }
                 sum.row(unknowns[i]) -= product;
             }
@@ -36,10 +35,10 @@ void subtract_products(const Level& level, const std::vector<ElementMatrix>& mat
     });
 }
 
-double multiply(const ElementPartition& partition, const std::vector<ElementMatrix>& matrices,
-                const Field& x, Field& y) {
+double multiply(const ElementPartition& partition, const MatrixBlocks& matrices, const Field& x,
+                Field& y) {
     return partition.sum(nullptr, y, [&](const ElementRange& range, float* sum) {
-        return kernels().add_element_products_and_dot(range, matrices.data(), x.data(), sum);
+        return kernels().add_element_products_and_dot(range, matrices.blocks(), x.data(), sum);
     });
 }
 

@@ -13,17 +13,16 @@ namespace tracked_mcf {
 // is never assembled, R_e picking an element's eight unknowns: half the memory of A, and streamed.
 
 /// residual = right_side - A x.
-void subtract_products(const ElementPartition& partition,
-                       const std::vector<ElementMatrix>& matrices, const Field& right_side,
-                       const Field& x, Field& residual);
+void subtract_products(const ElementPartition& partition, const MatrixBlocks& matrices,
+                       const Field& right_side, const Field& x, Field& residual);
 
 /// The same for x in double precision, a row per unknown, computed in double.
-void subtract_products(const Level& level, const std::vector<ElementMatrix>& matrices,
-                       const Field& right_side, const Coefficients& x, Field& residual);
+void subtract_products(const Level& level, const MatrixBlocks& matrices, const Field& right_side,
+                       const Coefficients& x, Field& residual);
 
 /// y = A x; returns x · y, summed over the coordinates.
-double multiply(const ElementPartition& partition, const std::vector<ElementMatrix>& matrices,
-                const Field& x, Field& y);
+double multiply(const ElementPartition& partition, const MatrixBlocks& matrices, const Field& x,
+                Field& y);
 
 /// Σ_e R_eᵀ v_e of element vectors.
 void sum_vectors(const ElementPartition& partition, const std::vector<ElementVector>& vectors,

@@ -79,7 +79,7 @@ ElementSmoother::ElementSmoother(const Level& level, const ElementBlocks& blocks
       partition_(partition),
       shares_(shares_of(level)),
       apart_(entries_apart(level, blocks)) {
-    resize(inverses_, level.element_count());
+    inverses_.resize(level.element_count());
     resize(movable_, level.unknown_count());
 }
 
@@ -87,15 +87,14 @@ CoupledElements ElementSmoother::coupled(std::int32_t begin, std::int32_t end) c
     return {level_.unknowns.front().data(), apart_.data(), begin, end};
 }
 
-void ElementSmoother::refresh(const std::vector<ElementMatrix>& matrices,
-                              std::vector<Couplings>& workspace) {
+void ElementSmoother::refresh(const MatrixBlocks& matrices, std::vector<Couplings>& workspace) {
     if (static_cast<std::int64_t>(workspace.size()) < level_.unknown_count()) {
         resize(workspace, level_.unknown_count());
     }
     parallel_for_rows(level_.unknown_count(),
                       [&](std::int32_t unknown) { workspace[unknown] = Couplings{}; });
     blocks_.for_each([&](std::int32_t begin, std::int32_t end) {
-        kernels().sum_couplings(coupled(begin, end), matrices.data(), workspace.data());
+        kernels().sum_couplings(coupled(begin, end), matrices.blocks(), workspace.data());
     });
     parallel_for_rows(level_.unknown_count(), [&](std::int32_t unknown) {
         // What is not a number must not pass for a function that stays.
@@ -104,7 +103,7 @@ void ElementSmoother::refresh(const std::vector<ElementMatrix>& matrices,
     parallel_for_blocks(level_.element_count(), [&](std::int64_t begin, std::int64_t end) {
         kernels().invert_locally(
             coupled(static_cast<std::int32_t>(begin), static_cast<std::int32_t>(end)),
-            matrices.data(), workspace.data(), shares_.data(), inverses_.data());
+            matrices.blocks(), workspace.data(), shares_.data(), inverses_.blocks());
     });
 }
 
@@ -116,7 +115,7 @@ void ElementSmoother::correct(float factor, const Field& residual, Field& x) con
     correct(nullptr, factor, residual, x);
 }
 
-double ElementSmoother::largest_eigenvalue(const std::vector<ElementMatrix>& matrices) const {
+double ElementSmoother::largest_eigenvalue(const MatrixBlocks& matrices) const {
     constexpr int steps = 12;
     Field x;
     Field product;
@@ -142,7 +141,7 @@ double ElementSmoother::largest_eigenvalue(const std::vector<ElementMatrix>& mat
 void ElementSmoother::correct(const Field* base, float factor, const Field& residual,
                               Field& x) const {
     partition_.sum(base, x, [&](const ElementRange& range, float* sum) {
-        kernels().add_packed_products(range, inverses_.data(), factor, residual.data(), sum);
+        kernels().add_element_products(range, inverses_.blocks(), factor, residual.data(), sum);
         return 0.0;
     });
 }

@@ -4,10 +4,10 @@
 #include <vector>
 
 #include "filter_tracked_mcf/core/element_blocks.h"
-#include "filter_tracked_mcf/core/element_matrix.h"
 #include "filter_tracked_mcf/core/element_partition.h"
 #include "filter_tracked_mcf/core/field.h"
 #include "filter_tracked_mcf/core/kernels/local_systems.h"
+#include "filter_tracked_mcf/core/matrix_blocks.h"
 #include "filter_tracked_mcf/core/octree.h"
 
 namespace tracked_mcf {
@@ -29,7 +29,7 @@ public:
 
     /// Takes the level's element matrices, in which the rows and columns of unknowns that must not
     /// move are zero. `workspace` is for use during the call; its content does not matter.
-    void refresh(const std::vector<ElementMatrix>& matrices, std::vector<Couplings>& workspace);
+    void refresh(const MatrixBlocks& matrices, std::vector<Couplings>& workspace);
 
     /// x += factor * S residual. What may not move, does not.
     void add_correction(float factor, const Field& residual, Field& x) const;
@@ -39,7 +39,7 @@ public:
 
     /// An estimate of the largest eigenvalue of S A from below, A being the matrix of these element
     /// matrices: by some steps of the power method, always from the same start.
-    double largest_eigenvalue(const std::vector<ElementMatrix>& matrices) const;
+    double largest_eigenvalue(const MatrixBlocks& matrices) const;
 
     /// Of every unknown: whether something constrains it (not 0); what may not move has nothing.
     const std::vector<std::uint8_t>& movable() const { return movable_; }
@@ -53,7 +53,7 @@ private:
     const ElementPartition& partition_;
     std::vector<float> shares_;         ///< of every element, 1 / m_e
     std::vector<std::uint32_t> apart_;  ///< of every element, see CoupledElements
-    std::vector<PackedMatrix> inverses_;
+    MatrixBlocks inverses_;
     std::vector<std::uint8_t> movable_;
 };
 

@@ -61,13 +61,18 @@ int lowest_bit(int mask) {
     return __builtin_ctz(static_cast<unsigned>(mask));
 }
 
-/// Where to add what an element contributes to its i-th unknown.
-float* target_of(const ElementRange& range, std::int32_t element, int i, float* sums) {
-    const std::int32_t detour = range.detours[element];
-    const std::int64_t target = detour == ElementRange::kStraight
-                                    ? range.unknowns[std::int64_t{8} * element + i]
-                                    : range.targets[detour + i];
-    return target >= 0 ? sums + 4 * target : range.slots + 4 * (-1 - target);
+/// Where to add what an element contributes to its eight unknowns.
+std::array<float*, 8> places_of(const ElementRange& range, std::int32_t element, float* sums) {
+    const std::int64_t detour = range.detours[element / kBlockElements];
+    const std::int32_t* const targets =
+        detour == ElementRange::kStraight ? range.unknowns + std::int64_t{8} * element
+                                          : range.targets + detour + 8 * (element % kBlockElements);
+    std::array<float*, 8> places;
+    for (int i = 0; i < 8; ++i) {
+        const std::int64_t target = targets[i];
+        places[i] = target >= 0 ? sums + 4 * target : range.slots + 4 * (-1 - target);
+    }
+    return places;
 }
 
 }  // namespace
@@ -102,8 +107,7 @@ void ElementTransfer::restrict(const Field& residual, const ElementPartition& co
     const ContainingTable& containing = table();
     coarse_parts.sum(nullptr, coarse_residual, [&](const ElementRange& range, float* sums) {
         for (std::int32_t parent = range.begin; parent < range.end; ++parent) {
-            std::array<float*, 8> to;
-            for (int i = 0; i < 8; ++i) to[i] = target_of(range, parent, i, sums);
+            const std::array<float*, 8> to = places_of(range, parent, sums);
             for (const std::int32_t child : children_.members(parent)) {
                 const auto& of_corner = containing[octant_of(fine_->cells[child])];
                 for (int owned = owned_[child]; owned != 0; owned &= owned - 1) {

@@ -14,12 +14,11 @@ namespace tracked_mcf {
 ///
 /// `fine` is the finer level, `children` its elements grouped by parent.
 void coarsen_element_matrices(const Level& fine, const Groups& children,
-                              const std::vector<ElementMatrix>& fine_matrices,
-                              std::vector<ElementMatrix>& coarse_matrices);
+                              const MatrixBlocks& fine_matrices, MatrixBlocks& coarse_matrices);
 
 /// Sets the rows and columns of a level's frozen unknowns to zero in its element matrices, so that
 /// coarse corrections are made for what can follow them.
 void leave_out_frozen(const Level& level, const std::vector<std::uint8_t>& frozen,
-                      std::vector<ElementMatrix>& matrices);
+                      MatrixBlocks& matrices);
 
 }  // namespace tracked_mcf

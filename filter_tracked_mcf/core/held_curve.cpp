@@ -8,15 +8,17 @@ namespace tracked_mcf {
 
 namespace {
 
-/// Adds weight * B_I B_J at a point to the matrix, and force * B_I to the right side.
+/// Adds weight * B_I B_J at a point to an element's matrix, and force * B_I to its right side.
 void add_at(const CornerValues& values, double weight, const Eigen::Vector3d& force,
-            ElementMatrix& matrix, ElementVector& right_side) {
+            std::int32_t element, ElementSystems& systems) {
     for (int row = 0; row < 8; ++row) {
-        for (int column = 0; column < 8; ++column) {
-            matrix.entry[row][column] += static_cast<float>(weight * values[row] * values[column]);
+        for (int column = row; column < 8; ++column) {
+            systems.matrices.at(element, row, column) +=
+                static_cast<float>(weight * values[row] * values[column]);
         }
         for (int axis = 0; axis < 3; ++axis) {
-            right_side.entry[axis][row] += static_cast<float>(force[axis] * values[row]);
+            systems.right_sides[element].entry[axis][row] +=
+                static_cast<float>(force[axis] * values[row]);
         }
     }
 }
@@ -46,7 +48,7 @@ void HeldCurve::add(const Coefficients& displacement, double step_size,
                                                  spring_ * displacement_at(sample, displacement);
                     add_at(bspline_values(sample.local.cast<double>()),
                            sample.weight * step_size * spring_, sample.weight * step_size * pull,
-                           systems.matrices[support.element], systems.right_sides[support.element]);
+                           support.element, systems);
                 }
             }
         });

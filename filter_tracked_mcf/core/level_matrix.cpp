@@ -64,8 +64,7 @@ void LevelMatrix::make_pattern() {
     });
 }
 
-void LevelMatrix::assemble(const std::vector<ElementMatrix>& elements,
-                           const std::vector<std::uint8_t>& frozen) {
+void LevelMatrix::assemble(const MatrixBlocks& elements, const std::vector<std::uint8_t>& frozen) {
     inverse_diagonal_.resize(static_cast<std::size_t>(level_.unknown_count()));
     // One number for every unknown: where the entries of a row are summed.
     const auto no_sums = [&] {
@@ -84,12 +83,14 @@ void LevelMatrix::assemble(const std::vector<ElementMatrix>& elements,
     parallel_for_blocks_with(level_.unknown_count(), no_sums, assemble_rows);
 }
 
-void LevelMatrix::assemble_row(std::int32_t row, const std::vector<ElementMatrix>& elements,
+void LevelMatrix::assemble_row(std::int32_t row, const MatrixBlocks& elements,
                                std::vector<float>& sums) const {
     for (const std::int32_t place : places_.members(row)) {
-        const auto& unknowns = level_.unknowns[place / 8];
-        const float* const entries = elements[place / 8].entry[place % 8];
-        for (int corner = 0; corner < 8; ++corner) sums[unknowns[corner]] += entries[corner];
+        const std::int32_t element = place / 8;
+        const auto& unknowns = level_.unknowns[element];
+        for (int corner = 0; corner < 8; ++corner) {
+            sums[unknowns[corner]] += elements.at(element, place % 8, corner);
+        }
     }
 }
 

@@ -22,8 +22,7 @@ public:
     /// Sums the element matrices, one per element of the level. Afterwards frozen unknowns, and
     /// those whose row has nothing on its diagonal (no sample in their support contributes), have
     /// inverse_diagonal 0, so that no smoother ever moves them.
-    void assemble(const std::vector<ElementMatrix>& elements,
-                  const std::vector<std::uint8_t>& frozen);
+    void assemble(const MatrixBlocks& elements, const std::vector<std::uint8_t>& frozen);
 
     const SparseMatrix& matrix() const { return matrix_; }
     const std::vector<float>& inverse_diagonal() const { return inverse_diagonal_; }
@@ -42,7 +41,7 @@ public:
 
 private:
     void make_pattern();
-    void assemble_row(std::int32_t row, const std::vector<ElementMatrix>& elements,
+    void assemble_row(std::int32_t row, const MatrixBlocks& elements,
                       std::vector<float>& sums) const;
     void store_row(std::int32_t row, std::vector<float>& sums);
 

@@ -49,9 +49,12 @@ constexpr double kTrackedPerVertex = sizeof(VertexPlace) + 1;
 /// Sampling: the clipped surface, and who claims a vertex.
 constexpr double kSamplingPerVertex = kPosition + kIndex;
 
+/// MatrixBlocks.
+constexpr double kPerMatrix = sizeof(MatrixBlock) / static_cast<double>(kBlockElements);
+
 /// ElementSystems, and the stabilisation's tensors.
 constexpr double kSystemPerElement =
-    sizeof(ElementMatrix) + sizeof(ElementVector) + sizeof(float) + 6 * sizeof(float);
+    kPerMatrix + sizeof(ElementVector) + sizeof(float) + 6 * sizeof(float);
 /// Flow: displacement, the one before, and the solution.
 constexpr double kEmbeddingPerUnknown = 3.0 * 3 * sizeof(double);
 /// Flow: what rescaling has the next step expect, and what that is made from.
@@ -60,14 +63,14 @@ constexpr double kGuessPerUnknown = 2.0 * 3 * sizeof(double);
 constexpr double kFieldPerUnknown = 4 * sizeof(float);
 
 /// ElementMultigrid at every level: inverse, share and entries apart, children.
-constexpr double kSmootherPerElement = sizeof(PackedMatrix) + 2 * kIndex + kIndex + 1;
+constexpr double kSmootherPerElement = kPerMatrix + 2 * kIndex + kIndex + 1;
 /// At every level: a residual and flags. And at all but the finest: right side and solution.
 constexpr double kCyclePerUnknown = kFieldPerUnknown + 2;
 constexpr double kCoarsePerUnknown = 2 * kFieldPerUnknown;
 /// CoarseSolver: a pseudo-inverse, and what points to it.
 constexpr double kCoarsestPerElement = 8 * 8 * sizeof(double) + 48;
 /// At the finest: the vectors of conjugate gradients, and the workspace of the smoother.
-constexpr double kIterationPerUnknown = 6 * kFieldPerUnknown + sizeof(Couplings);
+constexpr double kIterationPerUnknown = 7 * kFieldPerUnknown + sizeof(Couplings);
 
 /// Multigrid at every level: a number and its column.
 constexpr double kPerEntry = sizeof(float) + kIndex;
@@ -155,7 +158,7 @@ double sampling_bytes(const SurfaceSize& size, const ExpectedCounts& counts) {
 }
 
 double solver_bytes(const ExpectedCounts& counts, Solver solver) {
-    const double coarse_bytes = sizeof(ElementMatrix) * (counts.all_elements - counts.elements) +
+    const double coarse_bytes = kPerMatrix * (counts.all_elements - counts.elements) +
                                 kCoarsePerUnknown * (counts.all_unknowns - counts.unknowns) +
                                 kCyclePerUnknown * counts.all_unknowns +
                                 kCoarsestPerElement * counts.coarsest_elements;

@@ -28,7 +28,7 @@ Multigrid::LevelData::LevelData(const TrackedElements& elements, std::size_t lev
     if (level + 1 < elements.levels.size()) {
         const std::int32_t count = elements.levels[level].element_count();
         children = Groups(elements.levels[level + 1].parents, count);
-        resize(element_matrices, count);
+        element_matrices.resize(count);
     }
 }
 
@@ -44,13 +44,13 @@ Multigrid::Multigrid(const TrackedElements& elements, std::vector<std::vector<st
     }
 }
 
-void Multigrid::refresh(std::vector<ElementMatrix>& finest) {
-    std::vector<ElementMatrix>* matrices = &finest;
+void Multigrid::refresh(MatrixBlocks& finest) {
+    MatrixBlocks* matrices = &finest;
     for (std::size_t level = levels_.size(); level-- > 0;) {
         leave_out_frozen(elements_.levels[level], frozen_[level], *matrices);
         levels_[level].matrix.assemble(*matrices, frozen_[level]);
         if (level == 0) break;
-        std::vector<ElementMatrix>& coarse = levels_[level - 1].element_matrices;
+        MatrixBlocks& coarse = levels_[level - 1].element_matrices;
         coarsen_element_matrices(elements_.levels[level], levels_[level - 1].children, *matrices,
                                  coarse);
         matrices = &coarse;

@@ -36,7 +36,7 @@ public:
 
     /// Takes the finest level's element matrices, after setting the rows and columns of frozen
     /// unknowns to zero, and makes every level's matrix from them.
-    void refresh(std::vector<ElementMatrix>& finest);
+    void refresh(MatrixBlocks& finest);
 
     /// The finest level's frozen unknowns; more may be frozen before a refresh.
     std::vector<std::uint8_t>& frozen() { return frozen_.back(); }
@@ -54,11 +54,11 @@ private:
 
         LevelMatrix matrix;
         GaussSeidel smoother;
-        Groups children;            ///< of this level's elements, in the next finer one
-        SparseMatrix prolongation;  ///< from the next coarser level; empty at level 0
-        SparseMatrix restriction;   ///< its transpose
-        std::vector<ElementMatrix> element_matrices;  ///< unused at the finest level
-        Field right_side, x, residual;                ///< the coarse problem of a cycle
+        Groups children;                ///< of this level's elements, in the next finer one
+        SparseMatrix prolongation;      ///< from the next coarser level; empty at level 0
+        SparseMatrix restriction;       ///< its transpose
+        MatrixBlocks element_matrices;  ///< unused at the finest level
+        Field right_side, x, residual;  ///< the coarse problem of a cycle
     };
 
     void cycle(std::size_t level, const Field& right_side, Field& x);

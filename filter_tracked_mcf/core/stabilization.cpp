@@ -5,6 +5,7 @@
 
 #include "filter_tracked_mcf/core/bspline.h"
 #include "filter_tracked_mcf/core/interruptible.h"
+#include "filter_tracked_mcf/core/kernels/kernels.h"
 #include "filter_tracked_mcf/core/parallel.h"
 
 namespace tracked_mcf {
@@ -14,8 +15,6 @@ namespace {
 /// What the mass matrix contributes to the weight, beside the stiffness's δ'.
 constexpr double kMassShare = 0.1;
 
-using CornerMatrix = Eigen::Matrix<float, 8, 8>;
-
 /// ∫ f(s) g(s) ds over [0, 1] for the two linear functions f of an edge, or their derivatives, and
 /// g.
 struct EdgeIntegrals {
@@ -24,38 +23,44 @@ struct EdgeIntegrals {
     double slope_value[2][2] = {{-0.5, -0.5}, {0.5, 0.5}};
 };
 
-/// ∫_cell ∂_a B_I ∂_b B_J dV, made symmetric in a and b.
-CornerMatrix gradient_product(int a, int b) {
+/// ∫_cell ∂_a B_I ∂_b B_J dV
+double gradient_product(int row, int column, int a, int b) {
     static const EdgeIntegrals edge;
-    CornerMatrix result;
-    for (int row = 0; row < 8; ++row) {
-        for (int column = 0; column < 8; ++column) {
-            const auto integral = [&](int slope_of_row, int slope_of_column) {
-                double product = 1;
-                for (int axis = 0; axis < 3; ++axis) {
-                    const int i = corner_bit(row, axis), j = corner_bit(column, axis);
-                    if (axis == slope_of_row && axis == slope_of_column) {
-                        product *= edge.slope_slope[i][j];
-                    } else if (axis == slope_of_row) {
-                        product *= edge.slope_value[i][j];
-                    } else if (axis == slope_of_column) {
-                        product *= edge.slope_value[j][i];
-                    } else {
-                        product *= edge.value_value[i][j];
-                    }
-                }
-                return product;
-            };
-            result(row, column) =
-                static_cast<float>(a == b ? integral(a, a) : integral(a, b) + integral(b, a));
+    double product = 1;
+    for (int axis = 0; axis < 3; ++axis) {
+        const int i = corner_bit(row, axis), j = corner_bit(column, axis);
+        if (axis == a && axis == b) {
+            product *= edge.slope_slope[i][j];
+        } else if (axis == a) {
+            product *= edge.slope_value[i][j];
+        } else if (axis == b) {
+            product *= edge.slope_value[j][i];
+        } else {
+            product *= edge.value_value[i][j];
         }
     }
-    return result;
+    return product;
 }
 
 /// Axes of a tensor's entries, in their order.
-constexpr std::array<std::array<int, 2>, 6> kEntries = {
+constexpr std::array<std::array<int, 2>, kTensorEntries> kEntries = {
     {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}}};
+
+/// factor * ∫_cell ∇B_Iᵀ N ∇B_J dV
+TensorProducts tensor_products(double factor) {
+    TensorProducts products;
+    for (std::size_t entry = 0; entry < kEntries.size(); ++entry) {
+        const auto [a, b] = kEntries[entry];
+        for (int row = 0; row < 8; ++row) {
+            for (int column = row; column < 8; ++column) {
+                double sum = gradient_product(row, column, a, b);
+                if (a != b) sum += gradient_product(row, column, b, a);
+                products.of[entry][kEntryPlaces.of[row][column]] = static_cast<float>(factor * sum);
+            }
+        }
+    }
+    return products;
+}
 
 /// ∫ n nᵀ over the element's surface: the same whichever way faces are oriented.
 Eigen::Matrix3d normal_product(const TrackedElements& elements, std::int64_t element) {
@@ -86,39 +91,32 @@ Eigen::Matrix3d normal_tensor(const Eigen::Matrix3d& normal_product) {
 }  // namespace
 
 Stabilization::Stabilization(const TrackedElements& elements) {
-    resize(normal_tensors_, elements.finest().element_count());
-    parallel_for_blocks(
-        elements.finest().element_count(), [&](std::int64_t begin, std::int64_t end) {
-            Pacer pacer;
-            for (std::int64_t element = begin; element < end; ++element) {
-                const Eigen::Matrix3d tensor = normal_tensor(normal_product(elements, element));
-                for (std::size_t entry = 0; entry < kEntries.size(); ++entry) {
-                    const auto [row, column] = kEntries[entry];
-                    normal_tensors_[element][entry] = static_cast<float>(tensor(row, column));
-                }
-                pacer.did(elements.sample_begin[element + 1] - elements.sample_begin[element]);
+    const std::int64_t count = elements.finest().element_count();
+    normal_tensors_.resize(static_cast<std::size_t>((count + kBlockElements - 1) / kBlockElements));
+    if (count > 0) normal_tensors_.back() = TensorBlock{};
+    parallel_for_blocks(count, [&](std::int64_t begin, std::int64_t end) {
+        Pacer pacer;
+        for (std::int64_t element = begin; element < end; ++element) {
+            const Eigen::Matrix3d tensor = normal_tensor(normal_product(elements, element));
+            TensorBlock& block = normal_tensors_[element / kBlockElements];
+            for (std::size_t entry = 0; entry < kEntries.size(); ++entry) {
+                const auto [row, column] = kEntries[entry];
+                block.entry[entry][element % kBlockElements] =
+                    static_cast<float>(tensor(row, column));
             }
-        });
+            pacer.did(elements.sample_begin[element + 1] - elements.sample_begin[element]);
+        }
+    });
 }
 
-void Stabilization::add(double weight, double step_size,
-                        std::vector<ElementMatrix>& matrices) const {
+void Stabilization::add(double weight, double step_size, MatrixBlocks& matrices) const {
     if (weight == 0) return;
-    const auto factor = static_cast<float>(weight * (step_size + kMassShare));
-    std::array<CornerMatrix, 6> products;
-    for (std::size_t entry = 0; entry < kEntries.size(); ++entry) {
-        products[entry] = gradient_product(kEntries[entry][0], kEntries[entry][1]);
-    }
-    parallel_for_blocks(
-        static_cast<std::int64_t>(matrices.size()), [&](std::int64_t begin, std::int64_t end) {
-            for (std::int64_t element = begin; element < end; ++element) {
-                CornerMatrix sum = CornerMatrix::Zero();
-                for (std::size_t entry = 0; entry < kEntries.size(); ++entry) {
-                    sum += normal_tensors_[element][entry] * products[entry];
-                }
-                Eigen::Map<CornerMatrix>(&matrices[element].entry[0][0]) += factor * sum;
-            }
-        });
+    const TensorProducts products = tensor_products(weight * (step_size + kMassShare));
+    parallel_for_blocks(matrices.size(), [&](std::int64_t begin, std::int64_t end) {
+        kernels().add_tensor_products(normal_tensors_.data(), products, begin / kBlockElements,
+                                      (end + kBlockElements - 1) / kBlockElements,
+                                      matrices.blocks());
+    });
 }
 
 }  // namespace tracked_mcf

@@ -1,9 +1,8 @@
 #pragma once
 
-#include <array>
-#include <vector>
-
-#include "filter_tracked_mcf/core/element_matrices.h"
+#include "filter_tracked_mcf/core/kernels/tensor_products.h"
+#include "filter_tracked_mcf/core/matrix_blocks.h"
+#include "filter_tracked_mcf/core/raw_vector.h"
 #include "filter_tracked_mcf/core/tracked_elements.h"
 
 namespace tracked_mcf {
@@ -32,13 +31,10 @@ public:
 
     /// Adds the stabilisation with weight κ for the step size δ' (grid units) to the finest level's
     /// element matrices; nothing if κ is 0.
-    void add(double weight, double step_size, std::vector<ElementMatrix>& matrices) const;
+    void add(double weight, double step_size, MatrixBlocks& matrices) const;
 
 private:
-    /// xx, yy, zz, xy, yz, zx.
-    using SymmetricTensor = std::array<float, 6>;
-
-    std::vector<SymmetricTensor> normal_tensors_;
+    RawVector<TensorBlock> normal_tensors_;
 };
 
 }  // namespace tracked_mcf

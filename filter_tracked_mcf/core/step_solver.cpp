@@ -74,7 +74,7 @@ private:
     double first_area_ = 0;  ///< of the surface, grid units²
     double stiffness_ = 0;   ///< see ElementMultigrid::refresh
     Effort effort_ = Effort::Usual;
-    std::vector<ElementMatrix>* matrices_ = nullptr;
+    MatrixBlocks* matrices_ = nullptr;
     Field right_side_;
 };
 

@@ -54,7 +54,7 @@ void print_bytes(const Flow& flow) {
     print_quantity("sample_bytes", 0, Samples::kBytesPerSample * elements.samples.size());
     print_quantity("fragment_bytes", 0, bytes_of(elements.fragments));
     print_quantity("element_system_bytes", 0,
-                   element_count * (sizeof(ElementMatrix) + sizeof(ElementVector)));
+                   element_count * (sizeof(MatrixBlock) / kBlockElements + sizeof(ElementVector)));
     print_quantity("coefficient_bytes", 0, 3 * sizeof(double) * flow.displacement().rows());
 }
 

@@ -40,7 +40,7 @@ public:
 
     Convergence solve(const FlowParameters& parameters) {
         // The multigrid works with these matrices until the solve is over.
-        std::vector<ElementMatrix> matrices = systems_.matrices;
+        MatrixBlocks matrices = systems_.matrices;
         stabilization_.add(stabilization_of(parameters), step_size_, matrices);
         multigrid_.refresh(matrices, step_size_);
         multigrid_.assemble(systems_.right_sides, right_side_);

@@ -41,13 +41,12 @@ TEST(Conformalized, StiffnessIsTheInitialOneAndMassThePresentOne) {
         assemble_elements(elements, at, {mass, stiffness, flow}, systems);
         return systems.matrices;
     };
-    const auto expect_equal = [](const std::vector<ElementMatrix>& a,
-                                 const std::vector<ElementMatrix>& b) {
+    const auto expect_equal = [](const MatrixBlocks& a, const MatrixBlocks& b) {
         ASSERT_EQ(a.size(), b.size());
-        for (std::size_t element = 0; element < a.size(); ++element) {
+        for (std::int64_t element = 0; element < a.size(); ++element) {
             for (int row = 0; row < 8; ++row) {
                 for (int column = 0; column < 8; ++column) {
-                    EXPECT_NEAR(a[element].entry[row][column], b[element].entry[row][column], 1e-5);
+                    EXPECT_NEAR(a.at(element, row, column), b.at(element, row, column), 1e-5);
                 }
             }
         }

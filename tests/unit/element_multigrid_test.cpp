@@ -24,7 +24,7 @@ SparseDouble sparse(const FirstStep& step) {
         for (int i = 0; i < 8; ++i) {
             for (int j = 0; j < 8; ++j) {
                 entries.emplace_back(unknowns[i], unknowns[j],
-                                     step.systems.matrices[element].entry[i][j]);
+                                     step.systems.matrices.at(element, i, j));
             }
         }
     }

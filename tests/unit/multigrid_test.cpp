@@ -52,18 +52,20 @@ TEST(Hierarchy, ParentsElementMatrixIsTheSumOverItsChildren) {
     const System system(shapes::bumpy_sphere(8), 4, 0.5F);
     const Level& fine = system.elements.levels[4];
     const std::int32_t parents = system.elements.levels[3].element_count();
-    std::vector<ElementMatrix> coarse(static_cast<std::size_t>(parents));
+    MatrixBlocks coarse(parents);
     coarsen_element_matrices(fine, Groups(fine.parents, parents), system.systems.matrices, coarse);
 
     using Matrix8 = Eigen::Matrix<float, 8, 8, Eigen::RowMajor>;
     std::vector<Matrix8> expected(static_cast<std::size_t>(parents), Matrix8::Zero());
     for (std::int32_t child = 0; child < fine.element_count(); ++child) {
         const Matrix8 p = refinement_weights(octant_of(fine.cells[child])).cast<float>();
-        const Eigen::Map<const Matrix8> k(system.systems.matrices[child].entry[0]);
+        const ElementMatrix of_child = system.systems.matrices.of(child);
+        const Eigen::Map<const Matrix8> k(of_child.entry[0]);
         expected[fine.parents[child]] += p.transpose() * k * p;
     }
     for (std::int32_t parent = 0; parent < parents; ++parent) {
-        const Eigen::Map<const Matrix8> sum(coarse[parent].entry[0]);
+        const ElementMatrix of_parent = coarse.of(parent);
+        const Eigen::Map<const Matrix8> sum(of_parent.entry[0]);
         EXPECT_LT((sum - expected[parent]).norm(), 1e-6F * expected[parent].norm());
     }
 }
@@ -101,7 +103,7 @@ TEST(GaussSeidel, IsAForwardSubstitution) {
 TEST(CoarseSolver, SolvesASingularSystemInTheLeastSquaresSense) {
     // A flat patch in a grid plane: the four functions off the plane have empty rows.
     const System system(shapes::square(4), 1, 0.5F);
-    std::vector<ElementMatrix> coarsest(1);
+    MatrixBlocks coarsest(1);
     coarsen_element_matrices(system.elements.levels[1],
                              Groups(system.elements.levels[1].parents, 1), system.systems.matrices,
                              coarsest);

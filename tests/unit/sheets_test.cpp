@@ -606,8 +606,8 @@ TEST(Sheets, OfTwoClosePiecesAreThoseOfEachAlone) {
              {std::pair(&a, elements[0]), std::pair(&b, elements[1])}) {
             expect_same_tree(part->elements, both.elements, same_elements);
             for (std::int32_t i = 0; i < part->elements.finest().element_count(); ++i) {
-                const ElementMatrix& alone = part->systems.matrices[i];
-                const ElementMatrix& together = both.systems.matrices[same_elements.of_whole(i)];
+                const ElementMatrix alone = part->systems.matrices.of(i);
+                const ElementMatrix together = both.systems.matrices.of(same_elements.of_whole(i));
                 EXPECT_TRUE(std::equal(alone.entry[0], alone.entry[0] + 64, together.entry[0]));
             }
         }

@@ -87,13 +87,13 @@ inline Dense dense(const SparseMatrix& matrix) {
 }
 
 /// The sum of a level's element matrices.
-inline Dense assembled(const Level& level, const std::vector<ElementMatrix>& matrices) {
+inline Dense assembled(const Level& level, const MatrixBlocks& matrices) {
     Dense sum = Dense::Zero(level.unknown_count(), level.unknown_count());
     for (std::int32_t element = 0; element < level.element_count(); ++element) {
         const auto& unknowns = level.unknowns[element];
         for (int i = 0; i < 8; ++i) {
             for (int j = 0; j < 8; ++j) {
-                sum(unknowns[i], unknowns[j]) += matrices[element].entry[i][j];
+                sum(unknowns[i], unknowns[j]) += matrices.at(element, i, j);
             }
         }
     }

@@ -8,15 +8,16 @@ namespace tracked_mcf {
 
 /// The elements of a level as children of the next coarser one's.
 struct ChildElements {
-    const ElementMatrix* matrices;
+    const MatrixBlock* matrices;
     const std::uint64_t* cells;  ///< of every child, a MortonCode: its last three bits, the octant
     const std::int32_t* children;  ///< of all parents, one after the other
     const std::int64_t* begin;     ///< of every parent's in that, and the end
 };
 
-/// parents[p] = Σ_c P_cᵀ M_c P_c over the children c of p, for p from `begin` to `end`, with P_c
-/// the refinement weights of the child's octant (bspline.h).
+/// Σ_c P_cᵀ M_c P_c over the children c of p is the matrix of p, for p from `begin`, a multiple of
+/// kBlockElements, to `end`, with P_c the refinement weights of the child's octant (bspline.h).
+/// Fastest where children are in the order of their parents.
 using CoarsenElements = void(const ChildElements& elements, std::int32_t begin, std::int32_t end,
-                             ElementMatrix* parents);
+                             MatrixBlock* parents);
 
 }  // namespace tracked_mcf

@@ -117,24 +117,29 @@ TRACKED_MCF_INLINE Lanes area_of(const Lanes (&moments)[kMomentRows]) {
     return area;
 }
 
-/// Everything that is written of an element: matrix, right side, area.
-constexpr int kMatrix = 0;
-constexpr int kRightSide = 64;
-constexpr int kArea = 88;
-constexpr int kResults = 96;  ///< rounded up to whole variables
-
-TRACKED_MCF_INLINE void expand(const IntegrationInput& input, const Lanes (&moments)[kMomentRows],
-                               Lanes (&results)[kResults]) {
+/// The matrices of as many elements as there are lanes, the first of them in this lane of a block.
+TRACKED_MCF_INLINE void write_matrices(const IntegrationInput& input,
+                                       const Lanes (&moments)[kMomentRows], MatrixBlock& block,
+                                       std::int64_t lane) {
+    float* entry = block.entry[0] + lane;
 #pragma GCC unroll 8
     for (int row = 0; row < 8; ++row) {
 #pragma GCC unroll 8
-        for (int column = 0; column <= row; ++column) {
+        for (int column = row; column < 8; ++column, entry += kBlockElements) {
             const Lanes stiffness = input.stiffness * stiffness_entry(moments, row, column);
-            const Lanes entry = stiffness + input.mass * mass_entry(moments, row, column);
-            results[kMatrix + 8 * row + column] = entry;
-            results[kMatrix + 8 * column + row] = entry;
+            store(stiffness + input.mass * mass_entry(moments, row, column), entry);
         }
     }
+}
+
+/// Everything else that is written of an element: right side, area.
+constexpr int kRightSide = 0;
+constexpr int kArea = 24;
+constexpr int kResults = 32;  ///< rounded up to whole variables
+
+TRACKED_MCF_INLINE void find_results(const IntegrationInput& input,
+                                     const Lanes (&moments)[kMomentRows],
+                                     Lanes (&results)[kResults]) {
     for (int axis = 0; axis < 3; ++axis) {
         for (int row = 0; row < 8; ++row) {
             results[kRightSide + 8 * axis + row] = -input.stiffness * pull_on(moments, axis, row);
@@ -159,8 +164,9 @@ TRACKED_MCF_INLINE void write_systems(const IntegrationInput& input, std::int64_
                                       const ElementBatch& batch, const IntegrationOutput& output) {
     Lanes moments[kMomentRows];
     transpose_moments(batch, moments);
+    write_matrices(input, moments, output.matrices[begin / kBlockElements], begin % kBlockElements);
     Lanes results[kResults];
-    expand(input, moments, results);
+    find_results(input, moments, results);
     alignas(64) float rows[kLanes][kResults];
     for (int r = 0; r < kResults; r += kLanes) {
         Lanes block[kLanes];
@@ -169,8 +175,6 @@ TRACKED_MCF_INLINE void write_systems(const IntegrationInput& input, std::int64_
         for (int lane = 0; lane < kLanes; ++lane) store(block[lane], rows[lane] + r);
     }
     for (int lane = 0; lane < count; ++lane) {
-        __builtin_memcpy(output.matrices + begin + lane, rows[lane] + kMatrix,
-                         sizeof(ElementMatrix));
         __builtin_memcpy(output.right_sides + begin + lane, rows[lane] + kRightSide,
                          sizeof(ElementVector));
         output.areas[begin + lane] = rows[lane][kArea];

@@ -1,150 +1,182 @@
 #include "filter_tracked_mcf/core/kernels/element_products.h"
 
+#include "filter_tracked_mcf/core/kernels/element_columns.h"
 #include "filter_tracked_mcf/core/kernels/kernel_table.h"
 
-namespace tracked_mcf {
+namespace tracked_mcf::TRACKED_MCF_KERNELS {
 
 namespace {
 
-// What is called for every element must be a part of the loop over them: calls would pass the
-// columns through memory.
-#define TRACKED_MCF_INLINE inline __attribute__((always_inline))
+/// What all elements of a block have at their corners.
+using CornerLanes = Lanes[3][8];
 
-/// One number for each of an element's eight unknowns.
-using Lanes = float __attribute__((vector_size(32)));
-
-/// What a field has for one unknown: x, y, z, and a zero.
-using Column = float __attribute__((vector_size(16)));
-
-struct Columns {
-    Column of_unknown[8];
+/// A block of a range's elements.
+struct Block {
+    const MatrixBlock* matrices;
+    const MatrixBlock* later;      ///< matrices that are worked on soon
+    const std::int32_t* unknowns;  ///< eight of each of kBlockElements
+    const std::int32_t* targets;   ///< likewise
+    int count;                     ///< of elements, the rest of a last block being none
+    bool detours;                  ///< some targets may be slots
 };
 
-TRACKED_MCF_INLINE Columns transposed(Lanes x, Lanes y, Lanes z) {
-    const Lanes zero = {};
-    const Lanes xy_even = __builtin_shufflevector(x, y, 0, 8, 1, 9, 4, 12, 5, 13);
-    const Lanes xy_odd = __builtin_shufflevector(x, y, 2, 10, 3, 11, 6, 14, 7, 15);
-    const Lanes z_even = __builtin_shufflevector(z, zero, 0, 8, 1, 9, 4, 12, 5, 13);
-    const Lanes z_odd = __builtin_shufflevector(z, zero, 2, 10, 3, 11, 6, 14, 7, 15);
-    const Lanes c04 = __builtin_shufflevector(xy_even, z_even, 0, 1, 8, 9, 4, 5, 12, 13);
-    const Lanes c15 = __builtin_shufflevector(xy_even, z_even, 2, 3, 10, 11, 6, 7, 14, 15);
-    const Lanes c26 = __builtin_shufflevector(xy_odd, z_odd, 0, 1, 8, 9, 4, 5, 12, 13);
-    const Lanes c37 = __builtin_shufflevector(xy_odd, z_odd, 2, 3, 10, 11, 6, 7, 14, 15);
-    const auto low = [](Lanes v) { return __builtin_shufflevector(v, v, 0, 1, 2, 3); };
-    const auto high = [](Lanes v) { return __builtin_shufflevector(v, v, 4, 5, 6, 7); };
-    return {{low(c04), low(c15), low(c26), low(c37), high(c04), high(c15), high(c26), high(c37)}};
-}
+/// What is read for elements beyond the end, which have matrices of zero: any unknowns.
+using Padding = std::int32_t[8 * kBlockElements];
 
-/// M_e R_e x. The matrix being symmetric, its rows serve as its columns.
-TRACKED_MCF_INLINE Columns product(const ElementMatrix& matrix, const std::int32_t* unknowns,
-                                   const float* x) {
-    Lanes sum_x = {};
-    Lanes sum_y = {};
-    Lanes sum_z = {};
-#pragma GCC unroll 8
-    for (int j = 0; j < 8; ++j) {
-        Lanes row;
-        __builtin_memcpy(&row, matrix.entry[j], sizeof row);
-        const float* const of_unknown = x + std::int64_t{4} * unknowns[j];
-        sum_x += row * of_unknown[0];
-        sum_y += row * of_unknown[1];
-        sum_z += row * of_unknown[2];
+TRACKED_MCF_INLINE Block block_at(const ElementRange& range, const MatrixBlock* matrices,
+                                  std::int32_t first, Padding& padding) {
+    const std::int32_t left = range.end - first;
+    const std::int64_t detour = range.detours[first / kBlockElements];
+    const bool detours = detour != ElementRange::kStraight;
+    const std::int32_t* const unknowns = range.unknowns + std::int64_t{8} * first;
+    const MatrixBlock* const here = matrices + first / kBlockElements;
+    Block block = {here,
+                   left > 2 * kBlockElements ? here + 2 : here,
+                   unknowns,
+                   detours ? range.targets + detour : unknowns,
+                   left < kBlockElements ? left : kBlockElements,
+                   detours};
+    if (left < kBlockElements) {
+        for (int i = 0; i < 8 * kBlockElements; ++i) {
+            padding[i] = unknowns[i < 8 * left ? i : 0];
+        }
+        block.unknowns = padding;
     }
-    return transposed(sum_x, sum_y, sum_z);
+    return block;
 }
 
-TRACKED_MCF_INLINE Column load(const float* from) {
-    Column column;
-    __builtin_memcpy(&column, __builtin_assume_aligned(from, 16), sizeof column);
-    return column;
+/// Asks for a part of a block that is worked on later: what is done with one takes longer than
+/// processors look ahead by themselves.
+TRACKED_MCF_INLINE void prefetch(const MatrixBlock& block, int part, int parts) {
+    for (int entry = part; entry < kMatrixEntries; entry += parts) {
+        __builtin_prefetch(block.entry[entry]);
+    }
 }
 
-TRACKED_MCF_INLINE void store(const Column& column, float* to) {
-    __builtin_memcpy(__builtin_assume_aligned(to, 16), &column, sizeof column);
+TRACKED_MCF_INLINE void read_corners(const float* x, const Block& block, int lane,
+                                     CornerLanes& corners) {
+    constexpr int parts = 8 * kBlockElements / kLanes;
+#pragma GCC unroll 8
+    for (int corner = 0; corner < 8; ++corner) {
+        prefetch(*block.later, 8 * (lane / kLanes) + corner, parts);
+        const Coordinates c = coordinates(read_columns(x, block.unknowns + 8 * lane + corner));
+        for (int axis = 0; axis < 3; ++axis) corners[axis][corner] = c.of_axis[axis];
+    }
 }
 
-TRACKED_MCF_INLINE void add_to(float* to, const Column& column) {
-    store(load(to) + column, to);
-}
-
-/// Adds to the unknowns of an element, or to where it is to go instead.
-TRACKED_MCF_INLINE void add(const ElementRange& range, std::int32_t element, float factor,
-                            const Columns& columns, float* y) {
-    const std::int32_t detour = range.detours[element];
-    if (__builtin_expect(detour == ElementRange::kStraight, 1)) {
-        const std::int32_t* const unknowns = range.unknowns + std::int64_t{8} * element;
+/// products = factor * M x, of the elements whose lanes begin at these entries.
+TRACKED_MCF_INLINE void multiply(const float* entries, float factor, const CornerLanes& x,
+                                 CornerLanes& products) {
+#pragma GCC unroll 3
+    for (int axis = 0; axis < 3; ++axis) {
+        Lanes sums[8] = {};
+        const float* entry = entries;
 #pragma GCC unroll 8
         for (int i = 0; i < 8; ++i) {
-            add_to(y + std::int64_t{4} * unknowns[i], factor * columns.of_unknown[i]);
+            sums[i] += load(entry) * x[axis][i];
+            entry += kBlockElements;
+#pragma GCC unroll 8
+            for (int j = i + 1; j < 8; ++j, entry += kBlockElements) {
+                const Lanes m = load(entry);
+                sums[i] += m * x[axis][j];
+                sums[j] += m * x[axis][i];
+            }
         }
-        return;
+        for (int i = 0; i < 8; ++i) products[axis][i] = factor * sums[i];
     }
+}
+
+/// Calls visit(lane, its column) for all lanes.
+template <int kLane = 0, class Visit>
+TRACKED_MCF_INLINE void for_each_column(const Columns& columns, const Visit& visit) {
+    visit(kLane, column_of<kLane>(columns));
+    if constexpr (kLane + 1 < kLanes) for_each_column<kLane + 1>(columns, visit);
+}
+
+/// Adds what `count` elements contribute to their targets, given where to: at(target).
+template <class At>
+TRACKED_MCF_INLINE void add(const std::int32_t* targets, int count, const CornerLanes& products,
+                            const At& at) {
+#pragma GCC unroll 8
     for (int i = 0; i < 8; ++i) {
-        const std::int64_t target = range.targets[detour + i];
-        add_to(target >= 0 ? y + 4 * target : range.slots + 4 * (-1 - target),
-               factor * columns.of_unknown[i]);
+        for_each_column(columns_of(products[0][i], products[1][i], products[2][i]),
+                        [&](int lane, const Column& column) {
+                            if (lane < count) add_to(at(targets[8 * lane + i]), column);
+                        });
+    }
+}
+
+/// Where to add to.
+TRACKED_MCF_INLINE float* place_of(std::int64_t target, float* y, float* slots) {
+    return target >= 0 ? y + 4 * target : slots + 4 * (-1 - target);
+}
+
+/// What some blocks need, where parts meet.
+void add_with_detours(const std::int32_t* targets, int count, const CornerLanes& products, float* y,
+                      float* slots) {
+    add(targets, count, products, [&](std::int32_t target) { return place_of(target, y, slots); });
+}
+
+/// Calls visit(x at the corners, products) for as many elements as there are lanes at a time, and
+/// adds the products.
+template <class Visit>
+TRACKED_MCF_INLINE void add_products(const ElementRange& range, const MatrixBlock* matrices,
+                                     float factor, const float* x, float* y, const Visit& visit) {
+    Padding padding;
+    for (std::int32_t first = range.begin; first < range.end; first += kBlockElements) {
+        const Block block = block_at(range, matrices, first, padding);
+        for (int lane = 0; lane < block.count; lane += kLanes) {
+            const std::int32_t* const targets = block.targets + 8 * lane;
+            const int count = block.count - lane;
+            CornerLanes at_corners;
+            CornerLanes products;
+            read_corners(x, block, lane, at_corners);
+            multiply(block.matrices->entry[0] + lane, factor, at_corners, products);
+            visit(at_corners, products);
+            if (block.detours || count < kLanes) {
+                add_with_detours(targets, count, products, y, range.slots);
+            } else {
+                add(targets, kLanes, products, [&](std::int64_t target) { return y + 4 * target; });
+            }
+        }
     }
 }
 
 }  // namespace
 
-namespace TRACKED_MCF_KERNELS {
-
-void add_element_products(const ElementRange& range, const ElementMatrix* matrices, float factor,
+void add_element_products(const ElementRange& range, const MatrixBlock* matrices, float factor,
                           const float* x, float* y) {
-    for (std::int32_t element = range.begin; element < range.end; ++element) {
-        const std::int32_t* const unknowns = range.unknowns + std::int64_t{8} * element;
-        add(range, element, factor, product(matrices[element], unknowns, x), y);
-    }
+    add_products(range, matrices, factor, x, y,
+                 [](const CornerLanes& /*x*/, const CornerLanes& /*products*/) {});
 }
 
-double add_element_products_and_dot(const ElementRange& range, const ElementMatrix* matrices,
+double add_element_products_and_dot(const ElementRange& range, const MatrixBlock* matrices,
                                     const float* x, float* y) {
     double dot = 0;
-    for (std::int32_t element = range.begin; element < range.end; ++element) {
-        const std::int32_t* const unknowns = range.unknowns + std::int64_t{8} * element;
-        const Columns products = product(matrices[element], unknowns, x);
-        Column of_element = {};
-#pragma GCC unroll 8
-        for (int i = 0; i < 8; ++i) {
-            of_element += load(x + std::int64_t{4} * unknowns[i]) * products.of_unknown[i];
-        }
-        dot += of_element[0] + of_element[1] + of_element[2];
-        add(range, element, 1, products, y);
-    }
+    add_products(range, matrices, 1, x, y,
+                 [&](const CornerLanes& at_corners, const CornerLanes& products) {
+                     Lanes sum = {};
+                     for (int axis = 0; axis < 3; ++axis) {
+                         for (int i = 0; i < 8; ++i) sum += at_corners[axis][i] * products[axis][i];
+                     }
+                     for (int lane = 0; lane < kLanes; ++lane) dot += sum[lane];
+                 });
     return dot;
-}
-
-void add_packed_products(const ElementRange& range, const PackedMatrix* matrices, float factor,
-                         const float* x, float* y) {
-    for (std::int32_t element = range.begin; element < range.end; ++element) {
-        const std::int32_t* const unknowns = range.unknowns + std::int64_t{8} * element;
-        const float* entry = matrices[element].entry;
-        Column columns[8];
-        Columns products = {};
-#pragma GCC unroll 8
-        for (int i = 0; i < 8; ++i) columns[i] = load(x + std::int64_t{4} * unknowns[i]);
-#pragma GCC unroll 8
-        for (int i = 0; i < 8; ++i) {
-            products.of_unknown[i] += *entry++ * columns[i];
-#pragma GCC unroll 8
-            for (int j = i + 1; j < 8; ++j) {
-                products.of_unknown[i] += *entry * columns[j];
-                products.of_unknown[j] += *entry++ * columns[i];
-            }
-        }
-        add(range, element, factor, products, y);
-    }
 }
 
 void add_element_vectors(const ElementRange& range, const ElementVector* vectors, float* y) {
     for (std::int32_t element = range.begin; element < range.end; ++element) {
-        Lanes entry[3];
-        __builtin_memcpy(entry, vectors[element].entry, sizeof entry);
-        add(range, element, 1, transposed(entry[0], entry[1], entry[2]), y);
+        const std::int64_t detour = range.detours[element / kBlockElements];
+        const std::int32_t* const targets =
+            detour == ElementRange::kStraight
+                ? range.unknowns + std::int64_t{8} * element
+                : range.targets + detour + 8 * (element % kBlockElements);
+        const auto& entry = vectors[element].entry;
+        for (int i = 0; i < 8; ++i) {
+            const Column column = {entry[0][i], entry[1][i], entry[2][i], 0};
+            add_to(place_of(targets[i], y, range.slots), column);
+        }
     }
 }
 
-}  // namespace TRACKED_MCF_KERNELS
-
-}  // namespace tracked_mcf
+}  // namespace tracked_mcf::TRACKED_MCF_KERNELS

@@ -8,12 +8,12 @@
 namespace tracked_mcf {
 
 /// As many elements as are integrated together at most.
-inline constexpr int kElementBatch = 16;
+inline constexpr int kElementBatch = kBlockElements;
 
 /// What the integrals over consecutive elements need.
 struct IntegrationInput {
-    std::int64_t begin;  ///< the first element, and behind the last: at most kElementBatch
-    std::int64_t end;
+    std::int64_t begin;            ///< the first element, a multiple of kElementBatch
+    std::int64_t end;              ///< behind the last: at most kElementBatch more
     const std::int32_t* unknowns;  ///< of every element's eight corners
     const double* displacement;    ///< of the embedding X_t, three for every unknown, grid units
     SampleArrays samples;
@@ -22,9 +22,10 @@ struct IntegrationInput {
     bool initial_metric;  ///< the stiffness is that of the initial surface; then nothing collapses
 };
 
-/// Where the results go: arrays of all elements, of which those from begin to end are set.
+/// Where the results go: arrays of all elements, of which those from begin to end are set; of
+/// matrices beyond the end, some are set to zero.
 struct IntegrationOutput {
-    ElementMatrix* matrices;
+    MatrixBlock* matrices;  ///< blocks of them
     ElementVector* right_sides;
     float* areas;  ///< of the embedded surface in each element, grid units²
 };

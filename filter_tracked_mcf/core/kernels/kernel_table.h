@@ -4,6 +4,7 @@
 #include "filter_tracked_mcf/core/kernels/element_products.h"
 #include "filter_tracked_mcf/core/kernels/integrate_elements.h"
 #include "filter_tracked_mcf/core/kernels/local_systems.h"
+#include "filter_tracked_mcf/core/kernels/tensor_products.h"
 
 namespace tracked_mcf {
 
@@ -20,11 +21,11 @@ struct Kernels {
     IntegrateElements* integrate_elements;
     AddElementProducts* add_element_products;
     AddElementProductsAndDot* add_element_products_and_dot;
-    AddPackedProducts* add_packed_products;
     AddElementVectors* add_element_vectors;
     CoarsenElements* coarsen_elements;
     SumCouplings* sum_couplings;
     InvertLocally* invert_locally;
+    AddTensorProducts* add_tensor_products;
 };
 
 }  // namespace tracked_mcf

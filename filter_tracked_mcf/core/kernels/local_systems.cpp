@@ -11,9 +11,8 @@ namespace {
 /// function depends on those before it, and is left to them.
 constexpr float kDependent = 1e-5F;
 
-/// The same entry of as many elements' matrices, which are inverted side by side.
-constexpr int kElements = 16;
-using Lanes = float __attribute__((vector_size(4 * kElements)));
+/// The same entry of the matrices of a block, which are inverted side by side.
+using Lanes = float __attribute__((vector_size(4 * kBlockElements)));
 
 /// Their lower triangles.
 struct Triangles {
@@ -25,7 +24,7 @@ bool is_apart(std::uint32_t apart, int i, int j) {
 }
 
 /// The lower triangle of the assembled matrix, restricted to the unknowns of one element.
-void restrict(const CoupledElements& range, std::int32_t element, const ElementMatrix& own,
+void restrict(const CoupledElements& range, std::int32_t element, const MatrixBlock& own,
               const Couplings* couplings, Triangles& triangles, int lane) {
     const std::int32_t* const unknowns = range.unknowns + std::int64_t{8} * element;
 #pragma GCC unroll 8
@@ -41,7 +40,8 @@ void restrict(const CoupledElements& range, std::int32_t element, const ElementM
     if (apart == 0) return;
     for (int i = 0; i < 8; ++i) {
         for (int j = 0; j < i; ++j) {
-            if (is_apart(apart, i, j)) triangles.entry[i][j][lane] = own.entry[i][j];
+            if (is_apart(apart, i, j))
+                triangles.entry[i][j][lane] = own.entry[kEntryPlaces.of[i][j]][lane];
         }
     }
 }
@@ -95,12 +95,15 @@ void invert(Triangles& m) {
     }
 }
 
-void store(const Triangles& triangles, int lane, float factor, PackedMatrix& inverse) {
-    float* entry = inverse.entry;
+void store(const Triangles& triangles, const Lanes& factors, MatrixBlock& inverses) {
+    float* entry = inverses.entry[0];
 #pragma GCC unroll 8
     for (int j = 0; j < 8; ++j) {
 #pragma GCC unroll 8
-        for (int i = j; i < 8; ++i) *entry++ = factor * triangles.entry[i][j][lane];
+        for (int i = j; i < 8; ++i, entry += kBlockElements) {
+            const Lanes scaled = factors * triangles.entry[i][j];
+            __builtin_memcpy(entry, &scaled, sizeof scaled);
+        }
     }
 }
 
@@ -108,36 +111,40 @@ void store(const Triangles& triangles, int lane, float factor, PackedMatrix& inv
 
 namespace TRACKED_MCF_KERNELS {
 
-void sum_couplings(const CoupledElements& range, const ElementMatrix* matrices,
+void sum_couplings(const CoupledElements& range, const MatrixBlock* matrices,
                    Couplings* couplings) {
     for (std::int32_t element = range.begin; element < range.end; ++element) {
         const std::int32_t* const unknowns = range.unknowns + std::int64_t{8} * element;
         const std::uint32_t apart = range.apart[element];
-        const ElementMatrix& matrix = matrices[element];
+        const MatrixBlock& block = matrices[element / kBlockElements];
+        const int lane = element % kBlockElements;
 #pragma GCC unroll 8
         for (int i = 0; i < 8; ++i) {
             float* const sum = couplings[unknowns[i]].sum;
 #pragma GCC unroll 8
             for (int j = i; j < 8; ++j) {
                 if (apart != 0 && is_apart(apart, i, j)) continue;
-                sum[kCouplingPlaces.place[i][j]] += matrix.entry[i][j];
+                sum[kCouplingPlaces.place[i][j]] += block.entry[kEntryPlaces.of[i][j]][lane];
             }
         }
     }
 }
 
-void invert_locally(const CoupledElements& range, const ElementMatrix* matrices,
-                    const Couplings* couplings, const float* shares, PackedMatrix* inverses) {
-    Triangles triangles = {};
-    for (std::int32_t first = range.begin; first < range.end; first += kElements) {
-        const int count = range.end - first < kElements ? range.end - first : kElements;
+void invert_locally(const CoupledElements& range, const MatrixBlock* matrices,
+                    const Couplings* couplings, const float* shares, MatrixBlock* inverses) {
+    for (std::int32_t first = range.begin; first < range.end; first += kBlockElements) {
+        const std::int32_t left = range.end - first;
+        const int count = left < kBlockElements ? left : kBlockElements;
+        const std::int32_t block = first / kBlockElements;
+        Triangles triangles;
+        if (count < kBlockElements) triangles = Triangles{};
+        Lanes factors = {};
         for (int lane = 0; lane < count; ++lane) {
-            restrict(range, first + lane, matrices[first + lane], couplings, triangles, lane);
+            restrict(range, first + lane, matrices[block], couplings, triangles, lane);
+            factors[lane] = shares[first + lane];
         }
         invert(triangles);
-        for (int lane = 0; lane < count; ++lane) {
-            store(triangles, lane, shares[first + lane], inverses[first + lane]);
-        }
+        store(triangles, factors, inverses[block]);
     }
 }
 

@@ -3,7 +3,6 @@
 #include <cstdint>
 
 #include "filter_tracked_mcf/core/element_matrix.h"
-#include "filter_tracked_mcf/core/kernels/element_products.h"
 
 namespace tracked_mcf {
 
@@ -24,13 +23,13 @@ struct CoupledElements {
 };
 
 /// Adds the entries of the elements' matrices to the couplings of their unknowns.
-using SumCouplings = void(const CoupledElements& range, const ElementMatrix* matrices,
+using SumCouplings = void(const CoupledElements& range, const MatrixBlock* matrices,
                           Couplings* couplings);
 
-/// inverses[e] = shares[e] * A_e⁻¹ for the elements of the range, A_e being the assembled matrix
-/// restricted to the element's unknowns. Rows that are zero, or depend on those before, are left
-/// out, and zero in the inverse.
-using InvertLocally = void(const CoupledElements& range, const ElementMatrix* matrices,
-                           const Couplings* couplings, const float* shares, PackedMatrix* inverses);
+/// The inverse of an element is shares[e] * A_e⁻¹, for the elements of the range, which begins at a
+/// multiple of kBlockElements, A_e being the assembled matrix restricted to the element's unknowns.
+/// Rows that are zero, or depend on those before, are left out, and zero in the inverse.
+using InvertLocally = void(const CoupledElements& range, const MatrixBlock* matrices,
+                           const Couplings* couplings, const float* shares, MatrixBlock* inverses);
 
 }  // namespace tracked_mcf

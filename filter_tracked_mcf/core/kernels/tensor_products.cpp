@@ -1,0 +1,26 @@
+#include "filter_tracked_mcf/core/kernels/tensor_products.h"
+
+#include "filter_tracked_mcf/core/kernels/kernel_table.h"
+#include "filter_tracked_mcf/core/kernels/lanes.h"
+
+namespace tracked_mcf::TRACKED_MCF_KERNELS {
+
+void add_tensor_products(const TensorBlock* tensors, const TensorProducts& products,
+                         std::int64_t begin, std::int64_t end, MatrixBlock* matrices) {
+    for (std::int64_t block = begin; block < end; ++block) {
+        for (int lane = 0; lane < kBlockElements; lane += kLanes) {
+            Lanes tensor[kTensorEntries];
+            for (int t = 0; t < kTensorEntries; ++t) {
+                tensor[t] = load(tensors[block].entry[t] + lane);
+            }
+            for (int entry = 0; entry < kMatrixEntries; ++entry) {
+                float* const place = matrices[block].entry[entry] + lane;
+                Lanes sum = load(place);
+                for (int t = 0; t < kTensorEntries; ++t) sum += products.of[t][entry] * tensor[t];
+                store(sum, place);
+            }
+        }
+    }
+}
+
+}  // namespace tracked_mcf::TRACKED_MCF_KERNELS

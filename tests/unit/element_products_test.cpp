@@ -1,0 +1,182 @@
+// The kernels that work on element matrices, each with every instruction set that this machine has,
+// against plain loops in double precision.
+
+#include "filter_tracked_mcf/core/kernels/element_products.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "filter_tracked_mcf/core/field.h"
+#include "filter_tracked_mcf/core/kernels/kernels.h"
+#include "filter_tracked_mcf/core/matrix_blocks.h"
+
+namespace tracked_mcf {
+namespace {
+
+using Dense = Eigen::MatrixXd;
+
+/// Elements of a level with random unknowns and matrices, as many as do not fill the last block.
+/// In the second block, what belongs to the first unknowns goes to slots.
+struct RandomElements {
+    static constexpr std::int32_t kCount = 2 * kBlockElements + 5;
+    static constexpr std::int32_t kUnknowns = 60;
+    static constexpr std::int32_t kElsewhere = 20;
+
+    RandomElements() : matrices(kCount), vectors(kCount) {
+        for (std::int32_t element = 0; element < kCount; ++element) {
+            std::vector<std::int32_t> all(kUnknowns);
+            for (std::int32_t i = 0; i < kUnknowns; ++i) all[i] = i;
+            std::shuffle(all.begin(), all.end(), random);
+            unknowns.insert(unknowns.end(), all.begin(), all.begin() + 8);
+            for (int i = 0; i < 8; ++i) {
+                for (int j = i; j < 8; ++j) matrices.at(element, i, j) = number(random);
+                for (int axis = 0; axis < 3; ++axis) {
+                    vectors[element].entry[axis][i] = number(random);
+                }
+            }
+        }
+        for (int i = 0; i < 8 * kBlockElements; ++i) {
+            const std::int32_t unknown = unknowns[8 * kBlockElements + i];
+            targets.push_back(unknown < kElsewhere ? -1 - unknown : unknown);
+        }
+    }
+
+    ElementRange range(Field& slots) const {
+        return {unknowns.data(), detours.data(), targets.data(), slots.data(), 0, kCount};
+    }
+    Field field() {
+        Field result = Field::Zero(4, kUnknowns);
+        for (int i = 0; i < kUnknowns; ++i) {
+            for (int axis = 0; axis < 3; ++axis) result(axis, i) = number(random);
+        }
+        return result;
+    }
+    /// Σ_e R_eᵀ M_e R_e
+    Dense assembled() const {
+        Dense sum = Dense::Zero(kUnknowns, kUnknowns);
+        for (std::int32_t element = 0; element < kCount; ++element) {
+            for (int i = 0; i < 8; ++i) {
+                for (int j = 0; j < 8; ++j) {
+                    sum(unknowns[8 * element + i], unknowns[8 * element + j]) +=
+                        matrices.at(element, i, j);
+                }
+            }
+        }
+        return sum;
+    }
+
+    std::mt19937 random{5};
+    std::uniform_real_distribution<float> number{-1, 1};
+    std::vector<std::int32_t> unknowns;
+    std::vector<std::int64_t> detours = {ElementRange::kStraight, 0, ElementRange::kStraight};
+    std::vector<std::int32_t> targets;
+    MatrixBlocks matrices;
+    std::vector<ElementVector> vectors;
+};
+
+Dense rows(const Field& field) {
+    return field.topRows<3>().transpose().cast<double>();
+}
+
+class ElementProducts : public testing::TestWithParam<InstructionSet> {
+protected:
+    const Kernels& chosen() const { return kernels_for(GetParam()); }
+
+    /// What a kernel has added, slots included, must be this; nothing else may have changed.
+    void expect_added(const Field& before, const Field& after, const Dense& expected) {
+        Field sum = after;
+        sum.leftCols<RandomElements::kElsewhere>() += slots_;
+        EXPECT_LT((rows(sum) - rows(before) - expected).norm(), 1e-5 * expected.norm());
+        EXPECT_TRUE(after.row(3).isZero(0));
+        EXPECT_FALSE(slots_.isZero(0));
+    }
+
+    RandomElements elements_;
+    Field slots_ = Field::Zero(4, RandomElements::kElsewhere);
+};
+
+TEST_P(ElementProducts, AreThoseOfTheAssembledMatrix) {
+    const Field x = elements_.field();
+    const Field before = elements_.field();
+    Field y = before;
+    chosen().add_element_products(elements_.range(slots_), elements_.matrices.blocks(), -0.5F,
+                                  x.data(), y.data());
+    expect_added(before, y, -0.5 * elements_.assembled() * rows(x));
+}
+
+TEST_P(ElementProducts, ComeWithTheirScalarProduct) {
+    const Field x = elements_.field();
+    Field y = Field::Zero(4, RandomElements::kUnknowns);
+    const double dot = chosen().add_element_products_and_dot(
+        elements_.range(slots_), elements_.matrices.blocks(), x.data(), y.data());
+    const Dense expected = elements_.assembled() * rows(x);
+    expect_added(Field::Zero(4, x.cols()), y, expected);
+    EXPECT_NEAR(dot, rows(x).cwiseProduct(expected).sum(), 1e-5 * rows(x).norm() * expected.norm());
+}
+
+TEST_P(ElementProducts, OfRangesOfOneBlockAddUp) {
+    const Field x = elements_.field();
+    Field y = Field::Zero(4, RandomElements::kUnknowns);
+    for (std::int32_t begin = 0; begin < RandomElements::kCount; begin += kBlockElements) {
+        ElementRange range = elements_.range(slots_);
+        range.begin = begin;
+        range.end = std::min(begin + kBlockElements, RandomElements::kCount);
+        chosen().add_element_products(range, elements_.matrices.blocks(), 1, x.data(), y.data());
+    }
+    expect_added(Field::Zero(4, x.cols()), y, elements_.assembled() * rows(x));
+}
+
+TEST_P(ElementProducts, VectorsAddUp) {
+    Field y = Field::Zero(4, RandomElements::kUnknowns);
+    chosen().add_element_vectors(elements_.range(slots_), elements_.vectors.data(), y.data());
+    Dense expected = Dense::Zero(RandomElements::kUnknowns, 3);
+    for (std::int32_t element = 0; element < RandomElements::kCount; ++element) {
+        for (int i = 0; i < 8; ++i) {
+            for (int axis = 0; axis < 3; ++axis) {
+                expected(elements_.unknowns[8 * element + i], axis) +=
+                    elements_.vectors[element].entry[axis][i];
+            }
+        }
+    }
+    expect_added(Field::Zero(4, y.cols()), y, expected);
+}
+
+TEST_P(ElementProducts, TensorsAddToMatrices) {
+    std::vector<TensorBlock> tensors(static_cast<std::size_t>(elements_.matrices.block_count()));
+    TensorProducts products;
+    for (auto& of_entry : products.of) {
+        for (float& product : of_entry) product = elements_.number(elements_.random);
+    }
+    for (TensorBlock& block : tensors) {
+        for (auto& entry : block.entry) {
+            for (float& of_element : entry) of_element = elements_.number(elements_.random);
+        }
+    }
+    MatrixBlocks sums = elements_.matrices;
+    chosen().add_tensor_products(tensors.data(), products, 1, 2, sums.blocks());
+    for (std::int64_t element = 0; element < sums.size(); ++element) {
+        const std::int64_t block = element / kBlockElements;
+        for (int i = 0; i < 8; ++i) {
+            for (int j = i; j < 8; ++j) {
+                double expected = elements_.matrices.at(element, i, j);
+                for (int t = 0; t < kTensorEntries && block == 1; ++t) {
+                    expected += tensors[block].entry[t][element % kBlockElements] *
+                                products.of[t][kEntryPlaces.of[i][j]];
+                }
+                EXPECT_NEAR(sums.at(element, i, j), expected, 1e-6);
+            }
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(InstructionSets, ElementProducts,
+                         testing::ValuesIn(available_instruction_sets()),
+                         [](const auto& instance) { return std::string(name_of(instance.param)); });
+
+}  // namespace
+}  // namespace tracked_mcf
