@@ -17,7 +17,7 @@ namespace tracked_mcf {
 namespace {
 
 /// Setting up takes about as long as this many steps.
-constexpr double kSetupInSteps = 2;
+constexpr double kSetupInSteps = 5;
 
 /// Moving the vertices takes about as long as this part of a step.
 constexpr double kFinishInSteps = 0.03;

@@ -55,7 +55,15 @@ void print_bytes(const Flow& flow) {
     print_quantity("fragment_bytes", 0, bytes_of(elements.fragments));
     print_quantity("element_system_bytes", 0,
                    element_count * (sizeof(MatrixBlock) / kBlockElements + sizeof(ElementVector)));
-    print_quantity("coefficient_bytes", 0, 3 * sizeof(double) * flow.displacement().rows());
+    const auto unknown_count = static_cast<std::size_t>(flow.displacement().rows());
+    print_quantity("coefficient_bytes", 0, 3 * sizeof(double) * unknown_count);
+    // A product with the finest level's matrix, or with the smoother's: matrices and unknowns of
+    // the elements, one vector read, another read and written.
+    print_quantity(
+        "product_bytes", 0,
+        element_count * (sizeof(MatrixBlock) / kBlockElements + 8 * sizeof(std::int32_t)) +
+            unknown_count * 3 * 4 * sizeof(float));
+    print_quantity("squared_cells", 0, flow.grid_step_size());
 }
 
 bool step(Flow& flow, int number) {
@@ -68,27 +76,6 @@ bool step(Flow& flow, int number) {
     print_quantity("iterations", number, report.solver_iterations);
     print_quantity("relative_residual", number, report.relative_residual);
     return true;
-}
-
-/// Entries of the finest level's matrix, right of the diagonal and on it.
-std::int64_t count_matrix_entries(const Level& level) {
-    std::vector<std::vector<std::int32_t>> elements_of(level.unknown_count());
-    for (std::int32_t element = 0; element < level.element_count(); ++element) {
-        for (const std::int32_t unknown : level.unknowns[element]) {
-            elements_of[unknown].push_back(element);
-        }
-    }
-    std::int64_t count = 0;
-    std::vector<std::int32_t> counted_for(level.unknown_count(), -1);
-    for (std::int32_t row = 0; row < level.unknown_count(); ++row) {
-        for (const std::int32_t element : elements_of[row]) {
-            for (const std::int32_t column : level.unknowns[element]) {
-                count += column >= row && counted_for[column] != row ? 1 : 0;
-                counted_for[column] = row;
-            }
-        }
-    }
-    return count;
 }
 
 /// The elements' matrices alone, without what follows in a step.
@@ -122,7 +109,6 @@ void run(const TrackedOptions& options) {
     print_seconds("move", 0, stopwatch.seconds());
     print_quantity("peak_memory_bytes", 0, peak_memory_bytes());
     print_sphere_error(options.mesh, mesh.positions, options.step_size, options.steps);
-    print_quantity("matrix_entries", 0, count_matrix_entries(flow->elements().finest()));
     print_assembly(*flow);
 }
 

@@ -5,6 +5,8 @@ from measurements import (BASELINE_INSTRUCTIONS, CGAL, IC, MIC, OTHER_BINARY, OU
 
 PROTOTYPE_NANOSECONDS = 41  # of assembly a sample
 
+SMOOTHER_ALONE = 4  # squared cells of δ up to which the V-cycle has no coarser levels
+
 BYTES_OF_ITERATION = 252  # of IC(0)-CG, for a vertex
 
 
@@ -20,17 +22,16 @@ def ratio(a, b):
 
 
 class Page:
-    """`main` is the mesh of the targets, `middle` the step size of most tables, `command` what was
-    run."""
+    """`main` is the mesh of the targets, `middle` the step size of most tables, of `steps` steps
+    each, `command` what was run."""
 
-    def __init__(self, measurements, build, main, step_sizes, middle, core_knows_instructions,
-                 command):
+    def __init__(self, measurements, build, main, step_sizes, middle, steps, command):
         self._of = measurements
         self._build = build
         self._main = main
         self._step_sizes = step_sizes
         self._middle = middle
-        self._core_knows_instructions = core_knows_instructions
+        self._steps_made = steps
         self._command = command
         self._lines = []
 
@@ -158,7 +159,9 @@ class Page:
         self._say("Item 8 is the table of floors below; the rest of item 3 is in the tests.\n")
 
     def _steps(self):
-        self._title("Steps", "Processor seconds of a step (and wall seconds), iterations, memory. "
+        self._title("Steps", "Processor seconds of a step (and wall seconds), iterations, memory. Steps "
+                    "get cheaper as the displacement becomes predictable; these are medians over a "
+                    "flow's. "
                     f"{MIC} is the same peer with what its factorisation leaves out put on the "
                     "diagonal: stronger on good triangles, useless on bad ones.")
         rows = []
@@ -233,9 +236,9 @@ class Page:
         """Of the mean radius, relative to how far the sphere has shrunk."""
         chosen, forced = (self._ours("mean_radius_error", peer=peer)
                           for peer in (OURS, BASELINE_INSTRUCTIONS))
-        if chosen is None or forced is None or not self._core_knows_instructions:
+        if chosen is None or forced is None:
             return None
-        return abs(chosen - forced) / (2 * 4 * self._middle / 0.5)
+        return abs(chosen - forced) / (2 * self._steps_made * self._middle / 0.5)
 
     def _instructions(self):
         self._title("Instructions", "Forced by `TRACKED_MCF_INSTRUCTIONS=baseline`; the other binary is "
@@ -245,8 +248,6 @@ class Page:
              digits(self._ours("kernel_cpu_seconds", peer=peer)),
              digits(self._ours("mean_radius_error", peer=peer))]
             for peer in (OURS, BASELINE_INSTRUCTIONS, OTHER_BINARY)])
-        if not self._core_knows_instructions:
-            self._say("As yet the core has nothing to choose from: the first two are the same.\n")
 
     def _accuracy(self):
         self._title("Geometric error at equal time", "Spheres of radius 0.5 without noise after steps of "
@@ -313,12 +314,11 @@ class Page:
     def _floors(self):
         self._title("Floors", "What a step must at least move, over the best bandwidth that the triad "
                     "reached. Assembly: samples, fragments and coefficients read, elements' matrices and "
-                    "right sides written. Solver: of the finest matrix the symmetric half in single "
-                    "precision without indices, three times an iteration (product, sweep before with the "
-                    "residual, sweep after) and once more at either end, and a third more for coarser "
-                    "levels. "
-                    f"{IC}: {BYTES_OF_ITERATION} bytes a vertex and iteration, matrix, factor and five "
-                    "vectors.")
+                    "right sides written. Solver: products with the finest level's matrix or the "
+                    "smoother's, each with the elements' unknowns and two vectors; six an iteration, or, "
+                    "where there are coarser levels, nine and a third more for these, and two for the "
+                    f"guess. {IC}: {BYTES_OF_ITERATION} bytes a vertex and iteration, matrix, factor "
+                    "and five vectors.")
         bandwidth = self._bandwidth()
         rows = []
 
@@ -335,11 +335,13 @@ class Page:
                                     for quantity in ("vertices", "iterations"))
             own = [self._of.median(quantity, peer=OURS, **case) for quantity in (
                 "sample_bytes", "fragment_bytes", "element_system_bytes", "coefficient_bytes")]
-            entries, own_iterations = (self._of.median(quantity, peer=OURS, **case)
-                                       for quantity in ("matrix_entries", "iterations"))
-            if None not in (vertices, iterations, entries, own_iterations, *own):
+            product, own_iterations, squared_cells = (
+                self._of.median(quantity, peer=OURS, **case)
+                for quantity in ("product_bytes", "iterations", "squared_cells"))
+            if None not in (vertices, iterations, product, own_iterations, squared_cells, *own):
                 floor(step_size, OURS, "assemble", sum(own))
-                floor(step_size, OURS, "solve", 4 * entries * (3 * own_iterations + 2) * 4 / 3)
+                products = 9 * 4 / 3 if squared_cells > SMOOTHER_ALONE else 6
+                floor(step_size, OURS, "solve", product * (products * own_iterations + 2))
                 floor(step_size, IC, "solve", BYTES_OF_ITERATION * vertices * iterations)
         self._table(["δ", "phase", "bytes", "floor", "measured", "times the floor"], rows)
 

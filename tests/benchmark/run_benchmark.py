@@ -19,6 +19,7 @@ from results_page import Page
 TOP = pathlib.Path(__file__).resolve().parents[2]
 STEP_SIZES = (1e-5, 5e-4, 5e-3)
 MIDDLE = 5e-4
+STEPS = 10  # as many as a flow makes unless told otherwise
 NOISE = 0.2  # mean edges' length
 LARGE_SCAN = "bunny_scan_871k"
 
@@ -63,13 +64,13 @@ def label(frequency):
     return f"sphere, {vertices / 1e6:.1f} M" if vertices >= 1e6 else f"sphere, {vertices // 1000} k"
 
 
-def ours(mesh, name, step_size, threads=1, steps=4, peer=OURS, more=(), environment=()):
+def ours(mesh, name, step_size, threads=1, steps=STEPS, peer=OURS, more=(), environment=()):
     return Case(peer, name, step_size, threads,
                 ("rebuilt" if peer == REBUILT else "flow", mesh, "--step-size", step_size, "--threads",
                  threads, "--steps", steps, *more), environment)
 
 
-def baseline(mesh, name, step_size, threads=1, steps=4, peer=IC):
+def baseline(mesh, name, step_size, threads=1, steps=STEPS, peer=IC):
     relaxation = 1 if peer == MIC else 0
     return Case(peer, name, step_size, threads,
                 ("baseline", mesh, "--step-size", step_size, "--threads", threads, "--steps", steps,
@@ -88,13 +89,6 @@ def has_cgal(build):
     """Whether the driver was built with it."""
     cache = (build / "CMakeCache.txt").read_text(encoding="utf-8")
     return "TRACKED_MCF_BENCHMARK:BOOL=ON" in cache
-
-
-def core_knows_instructions():
-    """Whether the core has paths to choose from; else forcing one would say nothing."""
-    core = TOP / "filter_tracked_mcf" / "core"
-    return any("TRACKED_MCF_INSTRUCTIONS" in path.read_text(encoding="utf-8")
-               for path in core.glob("*.cpp"))
 
 
 def cgal(mesh, name, step_size):
@@ -151,8 +145,8 @@ class Benchmark:
         return [ours(sphere(self._frequency), self.main, MIDDLE, steps=2, peer=REBUILT)]
 
     def _accuracy(self):
-        """Ten steps, of which the exact radius is known; coarser grids and meshes, too."""
-        steps = 10
+        """Of steps of which the exact radius is known; on coarser grids and meshes, too."""
+        steps = STEPS
         cases = []
         for frequency in (self._frequency // 2, self._frequency):
             name = f"{label(frequency)}, without noise, {steps} steps"
@@ -234,8 +228,8 @@ def main():
         finally:
             measurements.write(figures)
     beside = output if arguments.quick else pathlib.Path(__file__).parent
-    page = Page(measurements, arguments.build, benchmark.main, STEP_SIZES, MIDDLE,
-                core_knows_instructions(), command_line(arguments))
+    page = Page(measurements, arguments.build, benchmark.main, STEP_SIZES, MIDDLE, STEPS,
+                command_line(arguments))
     (arguments.page or beside / "results.md").write_text(page.text(), encoding="utf-8")
     if measurements.failures:
         sys.exit("These did not succeed:\n" + "\n".join(measurements.failures))
