@@ -31,7 +31,7 @@ constexpr EntryPlaces make_entry_places() {
     return places;
 }
 
-inline constexpr EntryPlaces kEntryPlaces = make_entry_places();
+constexpr EntryPlaces kEntryPlaces = make_entry_places();
 
 /// Consecutive elements whose matrices are stored side by side.
 inline constexpr int kBlockElements = 16;

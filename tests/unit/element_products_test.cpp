@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <numeric>
 #include <random>
 #include <string>
 #include <vector>
@@ -30,7 +31,7 @@ struct RandomElements {
     RandomElements() : matrices(kCount), vectors(kCount) {
         for (std::int32_t element = 0; element < kCount; ++element) {
             std::vector<std::int32_t> all(kUnknowns);
-            for (std::int32_t i = 0; i < kUnknowns; ++i) all[i] = i;
+            std::iota(all.begin(), all.end(), 0);
             std::shuffle(all.begin(), all.end(), random);
             unknowns.insert(unknowns.end(), all.begin(), all.begin() + 8);
             for (int i = 0; i < 8; ++i) {
