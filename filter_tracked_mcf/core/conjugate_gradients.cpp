@@ -20,7 +20,7 @@ constexpr double kSinglePrecision = 1e-5;
 constexpr double kWorthRefining = 0.5;
 
 /// How the square of the error falls from one iteration to the next, as long as it is not known.
-constexpr double kUsualFall = 0.2;
+constexpr double kUsualFall = 0.1;
 
 /// a / b where b is positive, else 0: nothing is left to solve.
 double ratio(double a, double b) {
@@ -29,13 +29,15 @@ double ratio(double a, double b) {
 
 /// What the terms to come of a geometric series add up to.
 double rest_of_series(double last, double fall) {
-    if (last == 0) return 0;
     return fall < 1 ? last * fall / (1 - fall) : std::numeric_limits<double>::max();
 }
 
-}  // namespace
+/// Whether a vector can be multiplied by this.
+bool is_factor(double number) {
+    return std::abs(number) <= std::numeric_limits<float>::max();
+}
 
-ConjugateGradients::ConjugateGradients() : fall_(kUsualFall) {}
+}  // namespace
 
 void ConjugateGradients::begin(ElementMultigrid& multigrid, const Field& right_side,
                                const Coefficients& guess) {
@@ -50,11 +52,13 @@ void ConjugateGradients::begin(ElementMultigrid& multigrid, const Field& right_s
     });
     copy(z_, p_);
     const double energy = go_along(multigrid);
-    if (earlier_guess_.cols() == r_.cols()) {
-        // What it has in common with the other has been gone along.
-        const auto common = static_cast<float>(ratio(dot(q_, earlier_guess_).sum(), energy));
+    // What the earlier guess has in common with this one has been gone along.
+    const bool has_earlier = earlier_guess_.cols() == r_.cols();
+    const double common = has_earlier ? ratio(dot(q_, earlier_guess_).sum(), energy) : 0;
+    if (has_earlier && is_factor(common)) {
+        const auto share = static_cast<float>(common);
         parallel_for_rows(r_.cols(), [&](std::int32_t row) {
-            if (movable(row)) p_.col(row) = earlier_guess_.col(row) - common * p_.col(row);
+            if (movable(row)) p_.col(row) = earlier_guess_.col(row) - share * p_.col(row);
         });
         go_along(multigrid);
     }
@@ -66,7 +70,7 @@ double ConjugateGradients::go_along(ElementMultigrid& multigrid) {
     const double energy = multigrid.multiply(p_, q_);
     const double pull = dot(r_, p_).sum();
     const double scale = ratio(pull, energy);
-    if (!std::isfinite(scale)) return 0;
+    if (!(energy > 0) || !is_factor(scale)) return 0;
     const auto step = static_cast<float>(scale);
     parallel_for_rows(r_.cols(), [&](std::int32_t row) {
         x_.col(row) += step * p_.col(row);
@@ -101,7 +105,11 @@ double ConjugateGradients::descend(ElementMultigrid& multigrid, double goal, dou
             });
         }
         ++iterations;
-        const double scale = ratio(rz, multigrid.multiply(p_, q_));
+        const double energy = multigrid.multiply(p_, q_);
+        const double scale = ratio(rz, energy);
+        if (!std::isfinite(energy)) return energy;
+        // Nothing can be gained along what rounding has left without energy.
+        if (energy <= 0 || !is_factor(scale)) return std::numeric_limits<double>::max();
         const auto step = static_cast<float>(scale);
         parallel_for_rows(r_.cols(), [&](std::int32_t row) {
             x_.col(row) += step * p_.col(row);
@@ -109,8 +117,10 @@ double ConjugateGradients::descend(ElementMultigrid& multigrid, double goal, dou
         });
         const double gain_before = std::exchange(gain, scale * rz);
         solved_ += gain;
-        if (gain_before > 0) fall_ = gain / gain_before;
-        error = std::sqrt(rest_of_series(gain, fall_));
+        if (gain > 0 && gain_before > 0) fall_ = gain / gain_before;
+        // What an earlier solve's iterations gained says little about a first one's: be careful.
+        const double fall = gain_before > 0 ? fall_ : std::max(fall_, kUsualFall);
+        error = std::sqrt(rest_of_series(gain, fall));
         tell_progress(error, goal);
         if (error <= std::max(goal * whole(error), factor * start)) break;
     }

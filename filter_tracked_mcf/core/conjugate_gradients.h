@@ -16,7 +16,8 @@ struct Convergence {
     /// The error that is left, over the three coordinates, relative to that of x = 0; not finite
     /// if the numbers are not. An estimate: every iteration lessens the square of the error by a
     /// known number (Hestenes and Stiefel 1952, theorem 6:1); those to come are taken for a
-    /// geometric series that goes on as the last two that followed each other did.
+    /// geometric series that goes on as the last two did or, after the first iteration, as an
+    /// earlier solve's, and not better than is usual.
     double relative_error = 0;
     bool reached_tolerance = true;
     double residual = 0;  ///< 2-norm of the residual at the end, over the three coordinates
@@ -30,15 +31,13 @@ struct Convergence {
 /// reached by iterative refinement: the solution is summed and its residual computed in double.
 class ConjugateGradients {
 public:
-    ConjugateGradients();
-
     /// Solves A x = right_side on the finest level of `multigrid`, as last refreshed, until the
     /// error has fallen to `tolerance` of that of x = 0. Stops without that after
     /// `maximum_iterations`, or when refinement gets no further.
     ///
     /// x, a row per unknown, is a guess when this is called, such as the last step's solution; if
-    /// empty, there is none. The best combination of it and of the last call's guess is taken: what
-    /// changes smoothly from step to step is mostly that.
+    /// empty, there is none. The best combination of it and of an earlier call's guess is taken:
+    /// what changes smoothly from step to step is mostly that.
     Convergence solve(ElementMultigrid& multigrid, const Field& right_side, double tolerance,
                       int maximum_iterations, Coefficients& x);
 
@@ -56,7 +55,7 @@ private:
 
     Field x_, r_, z_, p_, q_;
     Field earlier_guess_;
-    double fall_;             ///< of the square of the error, from one iteration to the next
+    double fall_ = 0;         ///< of the square of the error, from one iteration to the next
     double solved_ = 0;       ///< square of the energy norm of what has been got right
     double first_error_ = 0;  ///< with which this solve began; 0 before
 };

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-// Plain structs only: the kernels include this (see kernels/kernels.h).
+// Plain structs and constants only: the kernels include this (see kernels/kernel_table.h).
 
 namespace tracked_mcf {
 

@@ -30,6 +30,7 @@ public:
 private:
     /// Elements of a part: their unknowns' columns fit in a second-level cache.
     static constexpr std::int32_t kPartSize = 4096;
+    static_assert(kPartSize % kBlockElements == 0);
 
     /// Parts that outweigh waking and joining threads.
     static constexpr std::int64_t kPartsWorthThreads = 4;

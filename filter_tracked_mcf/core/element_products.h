@@ -10,7 +10,8 @@
 namespace tracked_mcf {
 
 // Products with the matrix A = Σ_e R_eᵀ M_e R_e of a level's symmetric element matrices M_e, which
-// is never assembled, R_e picking an element's eight unknowns: less memory than A takes, and streamed.
+// is never assembled, R_e picking an element's eight unknowns: less memory than A takes, and
+// streamed.
 
 /// residual = right_side - A x.
 void subtract_products(const ElementPartition& partition, const MatrixBlocks& matrices,

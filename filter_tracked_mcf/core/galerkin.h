@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "filter_tracked_mcf/core/element_matrices.h"
+#include "filter_tracked_mcf/core/matrix_blocks.h"
 #include "filter_tracked_mcf/core/octree.h"
 #include "filter_tracked_mcf/core/sorting.h"
 

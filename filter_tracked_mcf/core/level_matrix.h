@@ -5,6 +5,7 @@
 
 #include "filter_tracked_mcf/core/element_matrices.h"
 #include "filter_tracked_mcf/core/field.h"
+#include "filter_tracked_mcf/core/matrix_blocks.h"
 #include "filter_tracked_mcf/core/octree.h"
 #include "filter_tracked_mcf/core/sorting.h"
 #include "filter_tracked_mcf/core/sparse_matrix.h"

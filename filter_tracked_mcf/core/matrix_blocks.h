@@ -3,12 +3,13 @@
 #include <cstdint>
 
 #include "filter_tracked_mcf/core/element_matrix.h"
+#include "filter_tracked_mcf/core/parallel.h"
 #include "filter_tracked_mcf/core/raw_vector.h"
 
 namespace tracked_mcf {
 
-/// One symmetric matrix for each of a level's elements, in blocks of sixteen: half the memory of
-/// whole matrices.
+/// One symmetric matrix for each of a level's elements, in blocks of sixteen: little more than
+/// half the memory of whole matrices.
 class MatrixBlocks {
 public:
     MatrixBlocks() = default;
@@ -43,5 +44,8 @@ private:
     std::int64_t count_ = 0;
     RawVector<MatrixBlock> blocks_;
 };
+
+// Threads share out elements by these blocks, and must not share a block of matrices.
+static_assert(kBlockSize % kBlockElements == 0);
 
 }  // namespace tracked_mcf

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "filter_tracked_mcf/core/coarse_solver.h"
-#include "filter_tracked_mcf/core/element_matrices.h"
 #include "filter_tracked_mcf/core/gauss_seidel.h"
 #include "filter_tracked_mcf/core/level_matrix.h"
+#include "filter_tracked_mcf/core/matrix_blocks.h"
 #include "filter_tracked_mcf/core/tracked_elements.h"
 #include "filter_tracked_mcf/core/transfer.h"
 

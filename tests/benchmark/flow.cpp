@@ -63,7 +63,7 @@ void print_bytes(const Flow& flow) {
         "product_bytes", 0,
         element_count * (sizeof(MatrixBlock) / kBlockElements + 8 * sizeof(std::int32_t)) +
             unknown_count * 3 * 4 * sizeof(float));
-    print_quantity("squared_cells", 0, flow.grid_step_size());
+    print_quantity("grid_step_size", 0, flow.grid_step_size());
 }
 
 bool step(Flow& flow, int number) {

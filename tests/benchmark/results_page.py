@@ -5,7 +5,7 @@ from measurements import (BASELINE_INSTRUCTIONS, CGAL, IC, MIC, OTHER_BINARY, OU
 
 PROTOTYPE_NANOSECONDS = 41  # of assembly a sample
 
-SMOOTHER_ALONE = 4  # squared cells of δ up to which the V-cycle has no coarser levels
+SMOOTHER_ALONE = 4  # δ in squared cells up to which V-cycles stay on a level: kStiff of the core
 
 BYTES_OF_ITERATION = 252  # of IC(0)-CG, for a vertex
 
@@ -315,9 +315,10 @@ class Page:
         self._title("Floors", "What a step must at least move, over the best bandwidth that the triad "
                     "reached. Assembly: samples, fragments and coefficients read, elements' matrices and "
                     "right sides written. Solver: products with the finest level's matrix or the "
-                    "smoother's, each with the elements' unknowns and two vectors; six an iteration, or, "
-                    "where there are coarser levels, nine and a third more for these, and two for the "
-                    f"guess. {IC}: {BYTES_OF_ITERATION} bytes a vertex and iteration, matrix, factor "
+                    "smoother's, each with the elements' unknowns and two vectors: one an iteration for "
+                    "conjugate gradients and five for the V-cycle or, where it has coarser levels, eight "
+                    "and a third more for these; and two for the guess. "
+                    f"{IC}: {BYTES_OF_ITERATION} bytes a vertex and iteration, matrix, factor "
                     "and five vectors.")
         bandwidth = self._bandwidth()
         rows = []
@@ -335,12 +336,12 @@ class Page:
                                     for quantity in ("vertices", "iterations"))
             own = [self._of.median(quantity, peer=OURS, **case) for quantity in (
                 "sample_bytes", "fragment_bytes", "element_system_bytes", "coefficient_bytes")]
-            product, own_iterations, squared_cells = (
+            product, own_iterations, grid_step_size = (
                 self._of.median(quantity, peer=OURS, **case)
-                for quantity in ("product_bytes", "iterations", "squared_cells"))
-            if None not in (vertices, iterations, product, own_iterations, squared_cells, *own):
+                for quantity in ("product_bytes", "iterations", "grid_step_size"))
+            if None not in (vertices, iterations, product, own_iterations, grid_step_size, *own):
                 floor(step_size, OURS, "assemble", sum(own))
-                products = 9 * 4 / 3 if squared_cells > SMOOTHER_ALONE else 6
+                products = 1 + 8 * 4 / 3 if grid_step_size > SMOOTHER_ALONE else 6
                 floor(step_size, OURS, "solve", product * (products * own_iterations + 2))
                 floor(step_size, IC, "solve", BYTES_OF_ITERATION * vertices * iterations)
         self._table(["δ", "phase", "bytes", "floor", "measured", "times the floor"], rows)

@@ -45,7 +45,7 @@ public:
         multigrid_.refresh(matrices, step_size_);
         multigrid_.assemble(systems_.right_sides, right_side_);
         Coefficients solution;
-        return conjugate_gradients_.solve(multigrid_, right_side_, parameters.tolerance,
+        return ConjugateGradients().solve(multigrid_, right_side_, parameters.tolerance,
                                           kMaximumSolverIterations, solution);
     }
 
@@ -59,7 +59,6 @@ private:
     ElementMultigrid multigrid_;
     double step_size_ = 0;
     ElementSystems systems_;
-    ConjugateGradients conjugate_gradients_;
     Field right_side_;
 };
 

@@ -15,8 +15,8 @@ struct ChildElements {
 };
 
 /// Σ_c P_cᵀ M_c P_c over the children c of p is the matrix of p, for p from `begin`, a multiple of
-/// kBlockElements, to `end`, with P_c the refinement weights of the child's octant (bspline.h).
-/// Fastest where children are in the order of their parents.
+/// kBlockElements, to `end`, another or all parents' number, with P_c the refinement weights of the
+/// child's octant (bspline.h). Fastest where children are in the order of their parents.
 using CoarsenElements = void(const ChildElements& elements, std::int32_t begin, std::int32_t end,
                              MatrixBlock* parents);
 

@@ -6,15 +6,16 @@
 
 namespace tracked_mcf {
 
-/// Consecutive elements of a level, from a multiple of kBlockElements on, and where what they add
-/// goes.
+/// Consecutive elements of a level, from a multiple of kBlockElements to another or the level's
+/// last, and where what they add goes.
 struct ElementRange {
     /// Of elements that all add to their unknowns straight away.
     static constexpr std::int64_t kStraight = -1;
 
     const std::int32_t* unknowns;  ///< eight of each of the level's elements
     /// Of every kBlockElements of the level: kStraight, or where their targets begin, eight of each
-    /// element. A target is an unknown, or -1 - a slot, to add to instead of an unknown.
+    /// element, one element after the other. A target is an unknown, or -1 - a slot, to add to
+    /// instead of an unknown.
     const std::int64_t* detours;
     const std::int32_t* targets;
     float* slots;  ///< four floats each

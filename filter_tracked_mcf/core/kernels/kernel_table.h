@@ -14,9 +14,9 @@ namespace tracked_mcf {
 ///
 /// A kernel has a header with its signature, a source file, a member here, and a line in
 /// kernel_table.cpp. What kernels include must not define anything but plain structs and constants:
-/// no inline functions, no templates of the standard library or Eigen, no default member
-/// initializers. Compilers need not inline those, and of several copies of one the linker keeps
-/// any, perhaps the one that needs AVX-512. The test kernel_symbols watches over it.
+/// no inline functions but to make constants, no templates of the standard library or Eigen, no
+/// default member initializers. Compilers need not inline those, and of several copies of one the
+/// linker keeps any, perhaps the one that needs AVX-512. The test kernel_symbols watches over it.
 struct Kernels {
     IntegrateElements* integrate_elements;
     AddElementProducts* add_element_products;

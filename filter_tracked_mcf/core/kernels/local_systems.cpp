@@ -40,8 +40,8 @@ void restrict(const CoupledElements& range, std::int32_t element, const MatrixBl
     if (apart == 0) return;
     for (int i = 0; i < 8; ++i) {
         for (int j = 0; j < i; ++j) {
-            if (is_apart(apart, i, j))
-                triangles.entry[i][j][lane] = own.entry[kEntryPlaces.of[i][j]][lane];
+            if (!is_apart(apart, i, j)) continue;
+            triangles.entry[i][j][lane] = own.entry[kEntryPlaces.of[i][j]][lane];
         }
     }
 }

@@ -26,9 +26,10 @@ struct CoupledElements {
 using SumCouplings = void(const CoupledElements& range, const MatrixBlock* matrices,
                           Couplings* couplings);
 
-/// The inverse of an element is shares[e] * A_e⁻¹, for the elements of the range, which begins at a
-/// multiple of kBlockElements, A_e being the assembled matrix restricted to the element's unknowns.
-/// Rows that are zero, or depend on those before, are left out, and zero in the inverse.
+/// The inverse of an element is shares[e] * A_e⁻¹, for the elements of the range, which goes from a
+/// multiple of kBlockElements to another or the level's last, A_e being the assembled matrix
+/// restricted to the element's unknowns. Rows that are zero, or depend on those before, are left
+/// out, and zero in the inverse.
 using InvertLocally = void(const CoupledElements& range, const MatrixBlock* matrices,
                            const Couplings* couplings, const float* shares, MatrixBlock* inverses);
 

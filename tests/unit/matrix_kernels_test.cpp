@@ -1,17 +1,17 @@
 // The kernels that work on element matrices, each with every instruction set that this machine has,
 // against plain loops in double precision.
 
-#include "filter_tracked_mcf/core/kernels/element_products.h"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <limits>
 #include <numeric>
 #include <random>
 #include <string>
 #include <vector>
 
+#include "filter_tracked_mcf/core/bspline.h"
 #include "filter_tracked_mcf/core/field.h"
 #include "filter_tracked_mcf/core/kernels/kernels.h"
 #include "filter_tracked_mcf/core/matrix_blocks.h"
@@ -21,8 +21,11 @@ namespace {
 
 using Dense = Eigen::MatrixXd;
 
+using Matrix8 = Eigen::Matrix<double, 8, 8>;
+
 /// Elements of a level with random unknowns and matrices, as many as do not fill the last block.
-/// In the second block, what belongs to the first unknowns goes to slots.
+/// From the second block on, what belongs to the first unknowns goes to slots, or so does that of
+/// the second block alone.
 struct RandomElements {
     static constexpr std::int32_t kCount = 2 * kBlockElements + 5;
     static constexpr std::int32_t kUnknowns = 60;
@@ -41,9 +44,9 @@ struct RandomElements {
                 }
             }
         }
-        for (int i = 0; i < 8 * kBlockElements; ++i) {
-            const std::int32_t unknown = unknowns[8 * kBlockElements + i];
-            targets.push_back(unknown < kElsewhere ? -1 - unknown : unknown);
+        for (auto unknown = unknowns.begin() + 8 * kBlockElements; unknown != unknowns.end();
+             ++unknown) {
+            targets.push_back(*unknown < kElsewhere ? -1 - *unknown : *unknown);
         }
     }
 
@@ -74,7 +77,7 @@ struct RandomElements {
     std::mt19937 random{5};
     std::uniform_real_distribution<float> number{-1, 1};
     std::vector<std::int32_t> unknowns;
-    std::vector<std::int64_t> detours = {ElementRange::kStraight, 0, ElementRange::kStraight};
+    std::vector<std::int64_t> detours = {ElementRange::kStraight, 0, 8 * kBlockElements};
     std::vector<std::int32_t> targets;
     MatrixBlocks matrices;
     std::vector<ElementVector> vectors;
@@ -84,7 +87,7 @@ Dense rows(const Field& field) {
     return field.topRows<3>().transpose().cast<double>();
 }
 
-class ElementProducts : public testing::TestWithParam<InstructionSet> {
+class MatrixKernels : public testing::TestWithParam<InstructionSet> {
 protected:
     const Kernels& chosen() const { return kernels_for(GetParam()); }
 
@@ -101,7 +104,7 @@ protected:
     Field slots_ = Field::Zero(4, RandomElements::kElsewhere);
 };
 
-TEST_P(ElementProducts, AreThoseOfTheAssembledMatrix) {
+TEST_P(MatrixKernels, ProductsAreThoseOfTheAssembledMatrix) {
     const Field x = elements_.field();
     const Field before = elements_.field();
     Field y = before;
@@ -110,7 +113,16 @@ TEST_P(ElementProducts, AreThoseOfTheAssembledMatrix) {
     expect_added(before, y, -0.5 * elements_.assembled() * rows(x));
 }
 
-TEST_P(ElementProducts, ComeWithTheirScalarProduct) {
+TEST_P(MatrixKernels, ProductsOfALastBlockThatGoesStraight) {
+    elements_.detours.back() = ElementRange::kStraight;
+    const Field x = elements_.field();
+    Field y = Field::Zero(4, RandomElements::kUnknowns);
+    chosen().add_element_products(elements_.range(slots_), elements_.matrices.blocks(), 1, x.data(),
+                                  y.data());
+    expect_added(Field::Zero(4, x.cols()), y, elements_.assembled() * rows(x));
+}
+
+TEST_P(MatrixKernels, ProductsComeWithTheirScalarProduct) {
     const Field x = elements_.field();
     Field y = Field::Zero(4, RandomElements::kUnknowns);
     const double dot = chosen().add_element_products_and_dot(
@@ -120,19 +132,23 @@ TEST_P(ElementProducts, ComeWithTheirScalarProduct) {
     EXPECT_NEAR(dot, rows(x).cwiseProduct(expected).sum(), 1e-5 * rows(x).norm() * expected.norm());
 }
 
-TEST_P(ElementProducts, OfRangesOfOneBlockAddUp) {
+TEST_P(MatrixKernels, ProductsOfRangesAddUp) {
     const Field x = elements_.field();
     Field y = Field::Zero(4, RandomElements::kUnknowns);
+    double dot = 0;
     for (std::int32_t begin = 0; begin < RandomElements::kCount; begin += kBlockElements) {
         ElementRange range = elements_.range(slots_);
         range.begin = begin;
         range.end = std::min(begin + kBlockElements, RandomElements::kCount);
-        chosen().add_element_products(range, elements_.matrices.blocks(), 1, x.data(), y.data());
+        dot += chosen().add_element_products_and_dot(range, elements_.matrices.blocks(), x.data(),
+                                                     y.data());
     }
-    expect_added(Field::Zero(4, x.cols()), y, elements_.assembled() * rows(x));
+    const Dense expected = elements_.assembled() * rows(x);
+    expect_added(Field::Zero(4, x.cols()), y, expected);
+    EXPECT_NEAR(dot, rows(x).cwiseProduct(expected).sum(), 1e-5 * rows(x).norm() * expected.norm());
 }
 
-TEST_P(ElementProducts, VectorsAddUp) {
+TEST_P(MatrixKernels, VectorsAddUp) {
     Field y = Field::Zero(4, RandomElements::kUnknowns);
     chosen().add_element_vectors(elements_.range(slots_), elements_.vectors.data(), y.data());
     Dense expected = Dense::Zero(RandomElements::kUnknowns, 3);
@@ -147,7 +163,7 @@ TEST_P(ElementProducts, VectorsAddUp) {
     expect_added(Field::Zero(4, y.cols()), y, expected);
 }
 
-TEST_P(ElementProducts, TensorsAddToMatrices) {
+TEST_P(MatrixKernels, TensorsAddToMatrices) {
     std::vector<TensorBlock> tensors(static_cast<std::size_t>(elements_.matrices.block_count()));
     TensorProducts products;
     for (auto& of_entry : products.of) {
@@ -175,7 +191,82 @@ TEST_P(ElementProducts, TensorsAddToMatrices) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(InstructionSets, ElementProducts,
+Matrix8 whole(const MatrixBlocks& matrices, std::int64_t element) {
+    const ElementMatrix matrix = matrices.of(element);
+    return Eigen::Map<const Eigen::Matrix<float, 8, 8>>(matrix.entry[0]).cast<double>();
+}
+
+/// Matrices that hold what must not be left there.
+MatrixBlocks unset(std::int64_t count) {
+    MatrixBlocks matrices(count);
+    MatrixBlock nothing;
+    std::fill_n(nothing.entry[0], kMatrixEntries * kBlockElements,
+                std::numeric_limits<float>::quiet_NaN());
+    std::fill_n(matrices.blocks(), matrices.block_count(), nothing);
+    return matrices;
+}
+
+/// What of the last block belongs to no element must be zero.
+void expect_zero_behind(const MatrixBlocks& matrices) {
+    for (std::int64_t lane = matrices.size(); lane < kBlockElements * matrices.block_count();
+         ++lane) {
+        EXPECT_TRUE(whole(matrices, lane).isZero(0));
+    }
+}
+
+TEST_P(MatrixKernels, ParentsAreSumsOverTheirChildren) {
+    // Every parent has one or two of the children, not all in order.
+    constexpr std::int32_t parents = 19;
+    std::vector<std::uint64_t> cells(RandomElements::kCount);
+    for (std::uint64_t& cell : cells) cell = elements_.random();
+    std::vector<std::int32_t> children(RandomElements::kCount);
+    std::iota(children.begin(), children.end(), 0);
+    std::swap(children[3], children[30]);
+    std::vector<std::int64_t> begins;
+    for (std::int64_t parent = 0; parent <= parents; ++parent) {
+        begins.push_back(parent * RandomElements::kCount / parents);
+    }
+    MatrixBlocks sums = unset(parents);
+    const ChildElements elements = {elements_.matrices.blocks(), cells.data(), children.data(),
+                                    begins.data()};
+    chosen().coarsen_elements(elements, 0, kBlockElements, sums.blocks());
+    chosen().coarsen_elements(elements, kBlockElements, parents, sums.blocks());
+    for (std::int32_t parent = 0; parent < parents; ++parent) {
+        Matrix8 expected = Matrix8::Zero();
+        for (std::int64_t k = begins[parent]; k < begins[parent + 1]; ++k) {
+            const Matrix8 p = refinement_weights(static_cast<int>(cells[children[k]] % 8));
+            expected += p.transpose() * whole(elements_.matrices, children[k]) * p;
+        }
+        EXPECT_LT((whole(sums, parent) - expected).norm(), 1e-5 * expected.norm());
+    }
+    expect_zero_behind(sums);
+}
+
+TEST_P(MatrixKernels, LocalInversesOfElementsThatShareNothingAreTheirOwn) {
+    std::vector<float> shares;
+    std::iota(elements_.unknowns.begin(), elements_.unknowns.end(), 0);
+    for (std::int32_t element = 0; element < RandomElements::kCount; ++element) {
+        shares.push_back(0.1F + elements_.number(elements_.random) / 20);
+        for (int i = 0; i < 8; ++i) elements_.matrices.at(element, i, i) += 10;
+    }
+    // Every other one has entries of its own anyway.
+    std::vector<std::uint32_t> apart(RandomElements::kCount, 0);
+    for (std::size_t i = 0; i < apart.size(); i += 2) apart[i] = 0x0F5A5A5A;
+    std::vector<Couplings> couplings(elements_.unknowns.size(), Couplings{});
+    MatrixBlocks inverses = unset(RandomElements::kCount);
+    const CoupledElements range = {elements_.unknowns.data(), apart.data(), 0,
+                                   RandomElements::kCount};
+    chosen().sum_couplings(range, elements_.matrices.blocks(), couplings.data());
+    chosen().invert_locally(range, elements_.matrices.blocks(), couplings.data(), shares.data(),
+                            inverses.blocks());
+    for (std::int32_t element = 0; element < RandomElements::kCount; ++element) {
+        const Matrix8 product = whole(inverses, element) * whole(elements_.matrices, element);
+        EXPECT_LT((product - shares[element] * Matrix8::Identity()).norm(), 1e-5);
+    }
+    expect_zero_behind(inverses);
+}
+
+INSTANTIATE_TEST_SUITE_P(InstructionSets, MatrixKernels,
                          testing::ValuesIn(available_instruction_sets()),
                          [](const auto& instance) { return std::string(name_of(instance.param)); });
 
