@@ -163,8 +163,9 @@ class Benchmark:
         largest = 2 * self._frequency if self._arguments.quick else self._arguments.largest
         frequencies = [f for f in (16, 32, 64, 128, 256, 512, 1024, 2048)
                        if self._frequency // 4 <= f <= largest]
-        # δ in squared cells is the same for all, and with it the solver's work.
-        return [ours(sphere(f), f"{label(f)}, scaled", MIDDLE * (256 / f)**2, steps=2)
+        # δ in squared cells is the same for all, and with it the solver's work. The first step has
+        # to fetch memory.
+        return [ours(sphere(f), f"{label(f)}, scaled", MIDDLE * (256 / f)**2, steps=4)
                 for f in frequencies]
 
     def _other_meshes(self):
@@ -209,6 +210,8 @@ def command_line(arguments):
         words.append("--quick")
     if arguments.frequency:
         words.append(f"--frequency {arguments.frequency}")
+    if arguments.binary:
+        words.append("--binary DRIVER")
     return " ".join(words)
 
 
