@@ -102,7 +102,7 @@ void run(const TrackedOptions& options) {
     print_sizes(flow->report());
     print_bytes(*flow);
     for (int number = 1; number <= options.steps; ++number) {
-        if (!step(*flow, number)) return;
+        if (!step(*flow, number)) break;
     }
     const ProcessStopwatch stopwatch;
     flow->move_vertices(mesh);

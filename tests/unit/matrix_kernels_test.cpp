@@ -32,17 +32,17 @@ struct RandomElements {
     static constexpr std::int32_t kElsewhere = 20;
 
     RandomElements() : matrices(kCount), vectors(kCount) {
+        std::vector<std::int32_t> all(kUnknowns);
+        std::iota(all.begin(), all.end(), 0);
         for (std::int32_t element = 0; element < kCount; ++element) {
-            std::vector<std::int32_t> all(kUnknowns);
-            std::iota(all.begin(), all.end(), 0);
             std::shuffle(all.begin(), all.end(), random);
             unknowns.insert(unknowns.end(), all.begin(), all.begin() + 8);
             for (int i = 0; i < 8; ++i) {
                 for (int j = i; j < 8; ++j) matrices.at(element, i, j) = number(random);
-                for (int axis = 0; axis < 3; ++axis) {
-                    vectors[element].entry[axis][i] = number(random);
-                }
             }
+        }
+        for (ElementVector& vector : vectors) {
+            std::generate_n(vector.entry[0], 24, [&] { return number(random); });
         }
         for (auto unknown = unknowns.begin() + 8 * kBlockElements; unknown != unknowns.end();
              ++unknown) {
