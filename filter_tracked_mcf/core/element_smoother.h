@@ -19,8 +19,8 @@ namespace tracked_mcf {
 /// What makes these systems hard is that the functions around an element are nearly dependent on
 /// the surface in it; Gauss-Seidel, which moves one of them at a time, takes tens of sweeps for
 /// what a solve of all eight does at once. With these divisors, one for an element and not one for
-/// an unknown, what is nearly dependent stays so, and the largest eigenvalue of S A is between 1
-/// and 1.7 on all surfaces and levels tried, so nothing has to be estimated. S is symmetric.
+/// an unknown, what is nearly dependent stays so, and the largest eigenvalue of S A is less
+/// than 2, unless parts of the surface have pinched. S is symmetric.
 class ElementSmoother {
 public:
     /// All must outlive this.

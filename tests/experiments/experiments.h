@@ -20,9 +20,6 @@ void add_boundary(CLI::App& app);
 /// Iterations of the solver in the first step.
 void add_iterations(CLI::App& app);
 
-/// Time of the assembly alone.
-void add_kernel(CLI::App& app);
-
 /// Distance to a minimal surface that a held boundary spans.
 void add_minimal(CLI::App& app);
 

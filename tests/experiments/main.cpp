@@ -14,7 +14,6 @@ int main(int argc, char** argv) {
     add_aligned(app);
     add_boundary(app);
     add_iterations(app);
-    add_kernel(app);
     add_minimal(app);
     add_pieces(app);
     add_pinches(app);

@@ -109,8 +109,8 @@ protected:
         if (TRACKED_MCF_SANITIZED) GTEST_SKIP() << "sanitizers need memory of their own";
     }
 
-    /// Expects that a flow needs what is estimated, within a factor of 0.8 to 1.3. Of what has been
-    /// tried it was 0.93 to 1.11; other allocators and pages leave more or less unused.
+    /// Expects that a flow needs what is estimated, within a factor of 0.8 to 1.3: allocators and
+    /// pages leave more or less unused.
     static void expect_estimate(TriangleMesh mesh, FlowParameters p) {
         p.iterations = 1;
         p.threads = 2;
