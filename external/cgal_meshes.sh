@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
-# Gets the example meshes of CGAL (scans among them, as .off files) that Debian's package libcgal-demo
-# carries: cgal_meshes.sh DESTINATION
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Fetches the example meshes of Debian's package libcgal-demo, .off files with scans among them:
+# cgal_meshes.sh DESTINATION
 #
-# The package is downloaded and unpacked rather than installed: slim Debian systems leave
-# documentation, which these files count as, out when they install.
+# The script unpacks the package instead of installing it: slim Debian systems do not install
+# documentation, and the meshes count as documentation.
 set -euo pipefail
 
 destination=${1:?usage: cgal_meshes.sh DESTINATION}
@@ -12,14 +13,14 @@ if [ -e "$stamp" ]; then
     exit 0
 fi
 command -v apt-get > /dev/null && command -v dpkg-deb > /dev/null || {
-    echo "cgal_meshes.sh: needs Debian's apt-get and dpkg-deb; elsewhere, take the .off files of" \
-        "data/meshes from CGAL's source release" >&2
+    echo "cgal_meshes.sh: this system has no apt-get or dpkg-deb. Copy the .off files of data/meshes" \
+        "from CGAL's source release to $destination, then touch $stamp." >&2
     exit 1
 }
 
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-# apt's own user cannot write to our folder: say so now instead of being warned about it.
+# Without this option apt warns that its own user cannot write to our folder.
 (cd "$work" && apt-get -q -o APT::Sandbox::User=root download libcgal-demo)
 dpkg-deb -x "$work"/libcgal-demo_*.deb "$work/package"
 tar -xzf "$work/package/usr/share/doc/libcgal-dev/data.tar.gz" -C "$work"

@@ -1,16 +1,17 @@
 #!/usr/bin/env bash
-# Installs what a task needs, on Debian: install_debian.sh TASK...
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Installs the Debian packages for a task: install_debian.sh TASK...
 #
 #   core         building the core: a compiler, CMake, Eigen
-#   program      also the command-line program
-#   plugin       also the MeshLab plugin, and MeshLab itself
+#   program      building the command-line program, too
+#   plugin       building the MeshLab plugin, too, and MeshLab itself
 #   demo         running the plugin without a screen and drawing pictures of surfaces
 #   tests        building and running all tests
 #   experiments  building and running tests/experiments
 #   benchmark    building and running tests/benchmark, CGAL included
-#   checks       formatting and static analysis
+#   checks       formatting, static analysis and ThreadSanitizer
 #
-# Asks apt only if something is missing; with sudo unless run as root.
+# Runs apt only if a package is missing, with sudo unless run as root.
 set -euo pipefail
 
 packages_of() {
@@ -20,18 +21,19 @@ packages_of() {
         plugin) echo "$(packages_of program)" meshlab "$(libraries_recommended_by meshlab)" \
             qtbase5-dev libqt5opengl5-dev libglew-dev libglu1-mesa-dev ;;
         demo) echo "$(packages_of plugin)" xvfb xauth python3-vtk9 python3-numpy ;;
-        tests) echo "$(packages_of plugin)" libgtest-dev libgmock-dev xvfb xauth xdotool \
-            imagemagick python3 python3-matplotlib debootstrap ;;
-        experiments) echo "$(packages_of program)" libgtest-dev libgmock-dev python3-matplotlib \
-            python3-vtk9 python3-numpy xvfb xauth ;;
-        benchmark) echo "$(packages_of program)" libgtest-dev libgmock-dev libcgal-dev python3 ;;
-        checks) echo clang-format clang-tidy libomp-dev git ;;
+        tests) echo "$(packages_of plugin)" libgtest-dev libgmock-dev libboost-dev \
+            xvfb xauth xdotool imagemagick python3 python3-matplotlib debootstrap ;;
+        experiments) echo "$(packages_of program)" libgtest-dev libgmock-dev libboost-dev \
+            python3-matplotlib python3-vtk9 python3-numpy xvfb xauth ;;
+        benchmark) echo "$(packages_of program)" libgtest-dev libgmock-dev libboost-dev \
+            libcgal-dev python3 ;;
+        checks) echo clang clang-format clang-tidy-22 libclang-rt-dev libomp-dev git ;;
         *) echo "install_debian.sh: unknown task '$1'" >&2 && return 1 ;;
     esac
 }
 
-# Some Debians' meshlab only recommends what its own plugins need. Where one of those cannot be loaded,
-# MeshLab does not look for a user's plugins either.
+# On some Debians, meshlab only recommends libraries of its own plugins. If MeshLab cannot load one of
+# its plugins, it does not load a user's plugins either.
 libraries_recommended_by() {
     apt-cache show --no-all-versions "$1" 2> /dev/null | awk -F ', ' 'sub(/^Recommends: /, "") {
         for (i = 1; i <= NF; ++i) if ($i ~ /^lib/) { sub(/ .*/, "", $i); print $i } }'
@@ -39,11 +41,10 @@ libraries_recommended_by() {
 
 is_installed() { dpkg-query -W -f '${db:Status-Status}\n' "$1" 2> /dev/null | grep -qx installed; }
 
-# Whether apt has its package lists, which the scripts beside this one need; images often come
-# without.
+# Images of Debian often have no package lists. The other scripts of this folder need them, too.
 has_lists() { [ -n "$(apt-get indextargets 'Created-By: Packages')" ]; }
 
-[ $# -gt 0 ] || { sed -n '2,13s/^# \{0,1\}//p' "$0" >&2 && exit 2; }
+[ $# -gt 0 ] || { sed -n '/^# Installs/,/^$/s/^# \{0,1\}//p' "$0" >&2 && exit 2; }
 if ! command -v apt-get > /dev/null; then
     echo "install_debian.sh: this system has no apt-get. Install the equivalents of these Debian" \
         "packages, then go on: $(for task in "$@"; do packages_of "$task"; done)" >&2

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # libmeshlab-common, in two targets. meshlab::common is the real library, for programs that act as a
 # host: the caller's own if given, or the installed one if it is of the release and precision that the
 # plugin is for; MESHLAB_LIBRARY_DIR is where it lies, or empty if there is none.

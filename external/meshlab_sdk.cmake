@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # meshlab::sdk: what is compiled for a MeshLab release needs: the headers of MESHLAB_SOURCE_DIR, Qt 5
 # and OpenGL; libmeshlab-common is apart. The sources say which release (MESHLAB_SDK_RELEASE, such as
 # 2025.07), and so which adapter is built.

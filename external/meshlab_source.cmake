@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # MESHLAB_SOURCE_DIR: a MeshLab source tree, for MeshLab's headers and vcglib. The user's own where
 # given; else Debian's sources of MESHLAB_RELEASE, or of this Debian's release, fetched once into the
 # build folder. Sets MESHLAB_SOURCE_RELEASE to the release that they are of.
@@ -19,8 +20,8 @@ if(NOT MESHLAB_SOURCE_DIR)
     message(FATAL_ERROR
             "No MeshLab source tree. On Debian, apt-get could not fetch it (below). Elsewhere, unpack "
             "the sources of your MeshLab release, vcglib included, and configure with "
-            "-DMESHLAB_SOURCE_DIR=/path/to/meshlab; or leave out what needs them with "
-            "-DTRACKED_MCF_TOOL=OFF -DTRACKED_MCF_PLUGIN=OFF.\n${output}")
+            "-DMESHLAB_SOURCE_DIR=/path/to/meshlab; or leave the plugin out: "
+            "-DTRACKED_MCF_PLUGIN=OFF.\n${output}")
   endif()
   set(MESHLAB_SOURCE_DIR "${fetched}")
 endif()

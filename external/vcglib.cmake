@@ -1,5 +1,6 @@
-# vcglib: the headers, and plylib, the one source file that reading and writing PLY needs. It lies
-# beside MeshLab's src in 2020.09 and inside it in later releases.
+# SPDX-License-Identifier: GPL-3.0-or-later
+# vcglib, for the plugin and its tests: the headers, and plylib, the one source file that reading and
+# writing PLY needs. It lies beside MeshLab's src in 2020.09 and inside it in later releases.
 
 find_path(VCGLIB_INCLUDE_DIR vcg/complex/complex.h
           PATHS "${MESHLAB_SOURCE_DIR}/vcglib" "${MESHLAB_SOURCE_DIR}/src/vcglib"

@@ -1,14 +1,26 @@
 #!/usr/bin/env bash
-# README's second command: installs what is needed, builds everything into build/, and runs all
-# tests: run.sh [arguments for ctest, such as -L unit]
+# SPDX-License-Identifier: GPL-3.0-or-later
+# README's second command: installs what is needed, builds everything into build/, and runs all tests:
+# run.sh [-DOPTION=VALUE]... [ARGUMENT]...
+#
+# Options go to CMake, arguments to ctest, such as -L unit. -DTRACKED_MCF_OTHER_HOSTS=ON adds the
+# tests in double precision, which need PyMeshLab's MeshLab, and, as root, those on other Debians.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
+options=() arguments=()
+for word in "$@"; do
+    case $word in
+        -D*=*) options+=("$word") ;;
+        *) arguments+=("$word") ;;
+    esac
+done
 external/install_debian.sh tests
 external/cgal_meshes.sh build/cgal-meshes
-cmake -S . -B build -DTRACKED_MCF_TOOL=ON -DTRACKED_MCF_PLUGIN=ON -DTRACKED_MCF_TESTS=ON
+cmake -S . -B build -DTRACKED_MCF_TOOL=ON -DTRACKED_MCF_PLUGIN=ON -DTRACKED_MCF_TESTS=ON \
+    "${options[@]}"
 cmake --build build -j "$(nproc)"
-ctest --test-dir build --output-on-failure "$@"
-# Why, where a test was skipped: ctest itself does not tell.
+ctest --test-dir build --output-on-failure -j "$(nproc)" "${arguments[@]}"
+# ctest does not tell why a test was skipped.
 grep -h '^skipped: ' build/Testing/Temporary/LastTest.log || true
 tests/hosts/host_table.py build

@@ -1,44 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include <stdexcept>
 
 namespace tracked_mcf {
 
-/// Base of what the core throws by itself (memory can run out besides, and a callback's own
-/// exceptions pass through). what() says, in one sentence a user can act on, what is wrong and what
-/// to do. Whenever one is thrown the caller's mesh has not been touched.
-class Error : public std::runtime_error {
-public:
+/// Base class of the core's own exceptions.
+///
+/// what() says in words for a user what is wrong and what to do. The caller's mesh is unchanged
+/// whenever one is thrown. Besides these, std::bad_alloc and a callback's own exceptions may leave
+/// the core.
+struct Error : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// The mesh cannot be flowed: empty, not finite, all triangles degenerate.
-class InvalidMesh : public Error {
-public:
+/// The mesh cannot flow: it is empty, has coordinates that are not finite, or no area.
+struct InvalidMesh : Error {
     using Error::Error;
 };
 
-/// A parameter lies outside its range.
-class InvalidParameter : public Error {
-public:
+/// A parameter is outside its range.
+struct InvalidParameter : Error {
     using Error::Error;
 };
 
-/// The numbers stopped being finite during the flow.
-class NumericalFailure : public Error {
-public:
+/// The solution is no longer finite.
+struct NumericalFailure : Error {
     using Error::Error;
 };
 
-/// The flow is expected to need more memory than there is.
-class NotEnoughMemory : public Error {
-public:
+/// The flow is expected to need more memory than is free.
+struct NotEnoughMemory : Error {
     using Error::Error;
 };
 
 /// The progress callback asked to stop.
-class Cancelled : public Error {
-public:
+struct Cancelled : Error {
     using Error::Error;
 };
 

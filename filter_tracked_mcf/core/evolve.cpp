@@ -1,114 +1,161 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "filter_tracked_mcf/core/evolve.h"
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
 #include <string>
 
-#include "filter_tracked_mcf/core/flow.h"
-#include "filter_tracked_mcf/core/interruptible.h"
-#include "filter_tracked_mcf/core/parallel.h"
-#include "filter_tracked_mcf/core/peak_memory.h"
-#include "filter_tracked_mcf/core/progress_meter.h"
-#include "filter_tracked_mcf/core/rescaling.h"
-#include "filter_tracked_mcf/core/setup_phases.h"
-#include "filter_tracked_mcf/core/stopwatch.h"
+#include "filter_tracked_mcf/core/flow/flow.h"
+#include "filter_tracked_mcf/core/flow/preserving.h"
+#include "filter_tracked_mcf/core/memory/process_memory.h"
+#include "filter_tracked_mcf/core/mesh/domain.h"
+#include "filter_tracked_mcf/core/mesh/measures.h"
+#include "filter_tracked_mcf/core/mesh/mesh_topology.h"
+#include "filter_tracked_mcf/core/parallel/parallel.h"
+#include "filter_tracked_mcf/core/parallel/progress_meter.h"
+#include "filter_tracked_mcf/core/parallel/setup_phases.h"
+#include "filter_tracked_mcf/core/parallel/stopwatch.h"
 
 namespace tracked_mcf {
 
 namespace {
 
-/// Setting up takes about as long as this many steps.
+// Durations for the progress bar, relative to one step.
 constexpr double kSetupInSteps = 5;
-
-/// Moving the vertices takes about as long as this part of a step.
 constexpr double kFinishInSteps = 0.03;
 
-/// How the work is shared out.
-struct Shares {
-    explicit Shares(int iterations) : total(kSetupInSteps + iterations + kFinishInSteps) {}
+/// Returns the fraction of the work that is done before this step, counted from 0.
+double progress_before(int step, int iterations) {
+    return (kSetupInSteps + step) / (kSetupInSteps + iterations + kFinishInSteps);
+}
 
-    /// Where this step, from 0, begins and the one before, or the set-up, ends.
-    double step_begin(int step) const { return (kSetupInSteps + step) / total; }
-
-    double total;
-};
-
-/// A flow, and what rescales it if so asked.
+/// A flow, and what preserves its area or volume if the parameters ask for it.
 struct Run {
-    std::optional<Rescaler> rescaler;
     std::optional<Flow> flow;
+    std::optional<Preserver> preserver;
+    bool oriented_consistently = true;
 };
 
 void set_up(const TriangleMesh& mesh, const Selection& selection, const FlowParameters& parameters,
             Run& run) {
-    enter_setup_phase(SetupPhase::CheckMesh);
+    enter_setup_phase(kCheckMesh);
     validate(mesh);
-    if (parameters.rescale != Rescaling::None) {
-        enter_setup_phase(SetupPhase::MeasureSurface);
-        run.rescaler.emplace(mesh, selection, parameters);
+    enter_setup_phase(kFindEdges);
+    const Domain domain(mesh, selection, parameters.boundary);
+    enter_setup_phase(kMeasureSurface);
+    check_preservable(domain, parameters);
+    run.oriented_consistently = is_oriented_consistently(domain.topology());
+    run.flow.emplace(domain, parameters);
+    if (parameters.preserve != Preserve::None) {
+        run.preserver.emplace(domain, parameters, *run.flow);
     }
-    run.flow.emplace(mesh, parameters, selection);
 }
 
-/// Makes the steps, until the last or until there is nothing left to do.
-void make_steps(Run& run, int iterations, const Shares& shares) {
+/// Makes all steps, or fewer if nothing is left to do.
+void make_steps(Run& run, int iterations) {
     for (int step = 0; step < iterations; ++step) {
-        const ProgressSpan span(shares.step_begin(step), shares.step_begin(step + 1));
+        const ProgressSpan span(progress_before(step, iterations),
+                                progress_before(step + 1, iterations));
         enter_phase(0, "Step " + std::to_string(step + 1) + " of " + std::to_string(iterations));
         if (!run.flow->step()) return;
-        if (run.rescaler && !run.rescaler->restore(*run.flow)) return;
+        if (run.preserver && !run.preserver->restore(*run.flow)) return;
     }
 }
 
-/// A copy of the mesh where the flow has led, or where it was before the last step if the surface
-/// has vanished in that one, which the flow itself would notice in the next.
-TriangleMesh moved(const TriangleMesh& mesh, const Selection& selection, Flow& flow,
-                   double area_before) {
-    TriangleMesh result{copy_of(mesh.positions), copy_of(mesh.triangles)};
-    flow.move_vertices(result);
+/// Returns the positions to which the flow has moved the mesh. If the last step has made the
+/// surface vanish, which the flow itself would notice only in the next step, undoes that step.
+std::vector<Eigen::Vector3d> moved_positions(const TriangleMesh& mesh, const Selection& selection,
+                                             Flow& flow, double area_before) {
+    std::vector<Eigen::Vector3d> positions = mesh.positions;
+    flow.move_vertices(positions);
     if (flow.report().stop == Stop::None &&
-        surface_area(result, selection) <= kVanishedArea * area_before) {
-        flow.take_back(Stop::Vanished);
-        result.positions = copy_of(mesh.positions);
-        flow.move_vertices(result);
+        surface_area({positions, mesh.triangles}, selection) <= kVanishedArea * area_before) {
+        flow.undo_step(Stop::Vanished);
+        positions = mesh.positions;
+        flow.move_vertices(positions);
     }
-    return result;
+    return positions;
+}
+
+/// Sets the report's measures of the change from `before` to `after`.
+void compare(const TriangleMesh& before, const std::vector<Eigen::Vector3d>& after,
+             const Selection& selection, FlowReport& report) {
+    double largest = 0, squares = 0;
+    for (std::size_t i = 0; i < after.size(); ++i) {
+        const double square = (after[i] - before.positions[i]).squaredNorm();
+        squares += square;
+        largest = std::max(largest, square);
+    }
+    report.largest_displacement = std::sqrt(largest);
+    report.rms_displacement = std::sqrt(squares / static_cast<double>(report.vertices));
+    report.volume_change =
+        parallel_sum(static_cast<std::int64_t>(before.triangles.size()), 0.0,
+                     [&](std::int64_t begin, std::int64_t end) {
+                         double sum = 0;
+                         for (std::int64_t i = begin; i < end; ++i) {
+                             if (!selection.empty() && selection[i] == 0) continue;
+                             const Triangle& triangle = before.triangles[i];
+                             sum += swept_volume(corners_of(before.positions, triangle),
+                                                 corners_of(after, triangle));
+                         }
+                         return sum;
+                     });
+}
+
+/// Returns what FlowReport::quality holds after the surface has moved from `before` to `after`.
+std::vector<double> measure_quality(Quality quality, const Flow& flow, const TriangleMesh& before,
+                                    const std::vector<Eigen::Vector3d>& after,
+                                    const Selection& selection) {
+    if (quality == Quality::None) return {};
+    std::vector<Eigen::Vector3d> vectors(after.size(), Eigen::Vector3d::Zero());
+    if (quality == Quality::MeanCurvature) {
+        vectors = flow.velocities(after.size());
+        for (Eigen::Vector3d& velocity : vectors) velocity *= -0.5;
+    } else {
+        for (std::size_t i = 0; i < after.size(); ++i) vectors[i] = after[i] - before.positions[i];
+    }
+    return along_normals(vectors, {after, before.triangles}, selection);
 }
 
 }  // namespace
 
-FlowReport evolve(TriangleMesh& mesh, const Selection& selection, const FlowParameters& parameters,
-                  ProgressMeter& meter) {
-    validate(parameters);
-    const ThreadCountScope threads(parameters.threads);
-    const Shares shares(parameters.iterations);
-    Run run;
-
-    const Stopwatch setup;
-    {
-        const ProgressSpan span(0, shares.step_begin(0));
-        set_up(mesh, selection, parameters, run);
-    }
-    const double setup_seconds = setup.seconds();
-    make_steps(run, parameters.iterations, shares);
-
-    enter_phase(shares.step_begin(parameters.iterations), "Moving the vertices");
-    const double area_before = surface_area(mesh, selection);
-    TriangleMesh result = moved(mesh, selection, *run.flow, area_before);
-    FlowReport report = run.flow->report();
-    report.setup_seconds = setup_seconds;
-    report.area_before = area_before;
-    report.area_after = surface_area(result, selection);
-    report.peak_memory_bytes = peak_memory_bytes();
-    meter.done();
-    // Nothing from here on can fail.
-    mesh.positions.swap(result.positions);
-    return report;
+double default_detail_size(const TriangleMesh& mesh, const Selection& selection) {
+    return kDefaultDetailInEdges * mean_edge_length(mesh, selection);
 }
 
 FlowReport evolve(TriangleMesh& mesh, const Selection& selection, const FlowParameters& parameters,
                   const Progress& progress) {
-    ProgressMeter meter(progress);
-    return evolve(mesh, selection, parameters, meter);
+    std::optional<ProgressMeter> meter;
+    if (progress) meter.emplace(progress);
+    validate(parameters);
+    const ThreadCountScope threads(parameters.threads);
+    Run run;
+
+    const Stopwatch setup;
+    {
+        const ProgressSpan span(0, progress_before(0, parameters.iterations));
+        set_up(mesh, selection, parameters, run);
+    }
+    const double setup_seconds = setup.seconds();
+    make_steps(run, parameters.iterations);
+
+    enter_phase(progress_before(parameters.iterations, parameters.iterations),
+                "Moving the vertices");
+    const double area_before = surface_area(mesh, selection);
+    auto positions = moved_positions(mesh, selection, *run.flow, area_before);
+    FlowReport report = run.flow->report();
+    report.setup_seconds = setup_seconds;
+    report.area_before = area_before;
+    report.area_after = surface_area({positions, mesh.triangles}, selection);
+    report.oriented_consistently = run.oriented_consistently;
+    compare(mesh, positions, selection, report);
+    report.quality = measure_quality(parameters.quality, *run.flow, mesh, positions, selection);
+    report.peak_memory_bytes = peak_memory_bytes();
+    enter_phase(1, "Done");
+    // Nothing can fail from here on.
+    mesh.positions.swap(positions);
+    return report;
 }
 
 FlowReport evolve(TriangleMesh& mesh, const FlowParameters& parameters, const Progress& progress) {

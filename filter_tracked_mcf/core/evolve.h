@@ -1,6 +1,6 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "filter_tracked_mcf/core/domain.h"
 #include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/flow_parameters.h"
 #include "filter_tracked_mcf/core/flow_report.h"
@@ -9,24 +9,24 @@
 
 namespace tracked_mcf {
 
-class ProgressMeter;
-
 /// Smooths `mesh`, or only its selected triangles, by mean-curvature flow with tracked octree
-/// finite elements: the one call that hosts make. Positions are written only after the last step
-/// has succeeded and the last call of `progress` has not objected; vertices that do not move, those
-/// that are held or that no selected triangle uses among them, keep their bits. A flow that has
-/// nothing left to do ends before its last step, as FlowReport::stop says.
+/// finite elements. This is the only call that a host makes.
 ///
-/// Throws InvalidMesh, InvalidParameter, NotEnoughMemory, NumericalFailure or Cancelled (errors.h),
-/// leaving the mesh as it was.
+/// Positions are written at the very end, after all steps have succeeded and the last call of
+/// `progress` has returned true. Vertices that do not move keep their bits: constrained ones, and
+/// those that no selected triangle uses. If nothing is left to do, the flow ends before its last
+/// step and FlowReport::stop says why.
+///
+/// Throws InvalidMesh, InvalidParameter, NotEnoughMemory, NumericalFailure or Cancelled (errors.h)
+/// and leaves the mesh unchanged.
 FlowReport evolve(TriangleMesh& mesh, const Selection& selection, const FlowParameters& parameters,
                   const Progress& progress = {});
 
-/// The same, reporting to a meter that the calling thread has made for this (progress_meter.h).
-FlowReport evolve(TriangleMesh& mesh, const Selection& selection, const FlowParameters& parameters,
-                  ProgressMeter& meter);
+/// Returns the detail size that a flow of these triangles takes by default, see
+/// FlowParameters::detail_size.
+double default_detail_size(const TriangleMesh& mesh, const Selection& selection = {});
 
-/// The same for all of the mesh.
+/// Smooths all of the mesh.
 FlowReport evolve(TriangleMesh& mesh, const FlowParameters& parameters,
                   const Progress& progress = {});
 

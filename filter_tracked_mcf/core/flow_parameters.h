@@ -1,115 +1,157 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include <optional>
 
 namespace tracked_mcf {
 
-/// What happens at the boundary of an open mesh: the edges of one triangle only, once coincident
-/// vertices are one.
+/// What happens at the boundary of an open mesh: at the edges that have only one triangle after
+/// coincident vertices have been welded.
 enum class BoundaryCondition {
-    Locked,       ///< the boundary is held, and nothing beside it (held_curve.h)
-    LockedCells,  ///< test functions whose support meets the boundary keep their coefficient (5.3)
-    Free          ///< nothing is held
+    Locked,       ///< boundary vertices stay, the surface beside them moves (curve_constraint.h)
+    LockedCells,  ///< unknowns whose function meets the boundary are constrained (section 5.3)
+    Free          ///< the boundary moves
 };
 
-/// Which flow. Both start alike.
+/// The kind of flow. The first step is the same for both.
 enum class FlowKind {
-    MeanCurvature,  ///< mass and stiffness of the present metric
-    /// Mass of the present metric, stiffness of the initial one (Kazhdan, Solomon and Ben-Chen,
-    /// "Can Mean-Curvature Flow be Modified to be Non-singular?", 2012): nothing pinches, and a
-    /// closed surface without handles becomes a sphere.
+    MeanCurvature,  ///< mass and stiffness use the present metric
+    /// The mass uses the present metric, the stiffness the initial one (Kazhdan, Solomon and
+    /// Ben-Chen, "Can Mean-Curvature Flow be Modified to be Non-singular?", 2012). Nothing pinches,
+    /// and a closed surface without handles becomes a sphere.
     Conformalized
 };
 
-/// What every step restores by scaling the surface about its centroid.
-enum class Rescaling { None, KeepArea, KeepVolume };
+/// What each step preserves of every connected component of the surface.
+enum class Preserve {
+    None,
+    Area,   ///< scales the component about its centroid
+    Volume  ///< pushes the component along its normals; a conformalized flow scales it
+};
 
-/// Where a triangle of a clipped polygon is sampled (section 4.2, Figure 8).
+/// The quadrature rule on each split triangle (section 4.2, Figure 8).
 enum class Cubature {
-    OnePoint,     ///< the centroid: exact to degree 1; for comparison only, it is inaccurate
-    ThreePoints,  ///< the paper's rule: exact to degree 2
-    Degree6       ///< exact to degree 6, as many as the mass matrix needs; for validation
+    OnePoint,     ///< the centroid, exact to degree 1; inaccurate, for comparison only
+    ThreePoints,  ///< the paper's rule, exact to degree 2
+    Degree6       ///< 12 points, exact to degree 6, which the mass matrix needs; for validation
 };
 
 /// How each step's linear system is solved.
 enum class Solver {
-    Converged,  ///< conjugate gradients preconditioned by a V-cycle, until the tolerance is reached
-    OneWCycle   ///< as in the paper (section 5.2): W-cycles from zero, however far they come
+    Converged,  ///< conjugate gradients with a V-cycle as preconditioner, to a tolerance
+    OneWCycle   ///< the paper's solver (section 5.2): a fixed number of W-cycles from zero
+};
+
+/// What a flow measures at each vertex, beside moving it.
+enum class Quality {
+    None,
+    /// How far the vertex has moved along the normal of the result, mesh units.
+    Displacement,
+    /// Mean curvature, half the sum of the principal curvatures, in 1 / mesh units; positive on a
+    /// sphere whose normals point outwards. It is that of the surface after the last step, from
+    /// d = 2 δ H n, and so leaves out what the step has removed.
+    MeanCurvature
 };
 
 inline constexpr int kMaximumDepth = 12;
 inline constexpr double kMaximumStepSize = 1e9;
 inline constexpr int kMaximumIterations = 1000000;
+inline constexpr int kMaximumOrder = 4;
+/// The default detail size, in mean edge lengths of the triangles that flow.
+inline constexpr double kDefaultDetailInEdges = 2.5;
 inline constexpr int kMaximumCycles = 1000;
 inline constexpr double kMaximumStabilization = 1e3;
 inline constexpr double kDefaultStabilization = 0.01;
-inline constexpr double kMaximumSpring = 1e6;
+inline constexpr double kMaximumPenalty = 1e6;
 inline constexpr int kMaximumThreads = 1024;
 
-/// The knobs of the flow, with the defaults that suit a scan.
+/// The parameters of a flow, with defaults for a scan.
 struct FlowParameters {
-    /// Octree depth: 2^depth cells along the side of its cube. 0 chooses the depth whose number of
-    /// unknowns is nearest the number of referenced vertices; else 1 to kMaximumDepth.
+    /// Octree depth, 1 to kMaximumDepth: the octree's cube has 2^depth cells along each side. 0
+    /// chooses the depth whose number of unknowns is nearest to the number of referenced vertices.
     int depth = 0;
 
-    /// Step size δ for the model scaled so that the longest side of its bounding box is 1. δ is a
-    /// time, so a squared length: detail smaller than about √δ is smoothed away by one step.
-    /// Greater than 0 and at most kMaximumStepSize; from 1e5 squared cells on, where all of the
-    /// step is long since the Laplacian, larger steps act like that one.
-    double step_size = 1e-5;
+    /// Detail size ℓ, mesh units: after all steps, a wave of length ℓ on a plane keeps half its
+    /// amplitude. Shorter waves keep less, longer ones more. Finite and at least 0, where 0 is
+    /// kDefaultDetailInEdges mean edge lengths.
+    double detail_size = 0;
 
-    /// Whether step_size is in squared units of the mesh instead: then finite and greater than 0.
+    /// Step size δ for the mesh scaled so that the longest side of its bounding box is 1; 0 to
+    /// kMaximumStepSize. δ is a squared length, see step_size_for(). 0 takes the one that belongs
+    /// to the detail size; any other replaces it. Steps above 1e5 squared cells act like one of
+    /// that size.
+    double step_size = 0;
+
+    /// Whether step_size is in squared units of the mesh instead; it must then be finite and at
+    /// least 0.
     bool absolute = false;
 
     /// Number of semi-implicit steps, 1 to kMaximumIterations.
-    int iterations = 10;
+    int iterations = 3;
+
+    /// Order m of a step, 1 to kMaximumOrder. With h = (D + δS)⁻¹ δS, which is nearly 0 for waves
+    /// much longer than √δ and nearly 1 for much shorter ones, a step takes x to x - hᵐ x. Order 1
+    /// is equation 2. A greater order takes one more solve each, and keeps long waves better.
+    int order = 1;
 
     FlowKind flow = FlowKind::MeanCurvature;
     BoundaryCondition boundary = BoundaryCondition::Locked;
 
-    /// Stiffness η of the spring that holds a Locked boundary (held_curve.h), greater than 0, at
-    /// most kMaximumSpring; and whether what it holds is taken up after each step. If not, or with
-    /// another stiffness: for comparison only.
-    double boundary_spring = 10;
-    bool take_up_boundary = true;
+    /// Locked: the penalty η of the constraint (curve_constraint.h), greater than 0 and at most
+    /// kMaximumPenalty, and whether its multipliers are updated after each step. For comparison
+    /// only.
+    double boundary_penalty = 10;
+    bool update_boundary_multipliers = true;
 
-    /// KeepVolume wants a closed surface with consistently oriented triangles; neither goes with
-    /// anything held.
-    Rescaling rescale = Rescaling::None;
+    /// Volume needs consistently oriented triangles. The volume between the initial surface and the
+    /// present one stays zero, so the surface may be open or constrained. Area, and Volume in a
+    /// conformalized flow, allow no constrained vertices; the latter needs a closed surface.
+    Preserve preserve = Preserve::None;
+
+    /// For FlowReport::quality. A conformalized flow does not know the mean curvature.
+    Quality quality = Quality::None;
 
     Cubature cubature = Cubature::ThreePoints;
 
-    /// Whether parts of the surface that share a cell, but are not connected inside it, get
-    /// functions of their own. If not, as in the paper, they move together.
+    /// Whether sheets, parts of the surface that are not connected inside a cell, get functions of
+    /// their own. Otherwise they move together, as in the paper.
     bool separate_sheets = true;
 
     Solver solver = Solver::Converged;
 
-    /// Converged: a step is solved when the error's energy norm, as conjugate_gradients.h estimates
-    /// it, is at most this fraction of the solution's. Greater than 0, less than 1.
+    /// Converged: the solver stops when its estimate of the error (conjugate_gradients.h) is at
+    /// most this fraction of the solution, both in the energy norm. Greater than 0, less than 1.
     double tolerance = 1e-3;
 
     /// Weight κ of the stabilisation (stabilization.h), 0 to kMaximumStabilization; 0 is the
-    /// paper's system. Unset: kDefaultStabilization if the solver is Converged, which it makes
-    /// possible, else 0.
+    /// paper's system. If unset, it is kDefaultStabilization for the Converged solver, which needs
+    /// it, and 0 for the other.
     std::optional<double> stabilization;
 
-    /// Whether test functions of which most has collapsed keep their coefficient (pinches.h). If
-    /// not, thin parts explode once they have pinched: for comparison only.
-    bool anchor_pinches = true;
+    /// Whether pinched unknowns are constrained (pinches.h). Without that, thin parts explode once
+    /// they have pinched. For comparison only.
+    bool constrain_pinches = true;
 
-    /// OneWCycle: W-cycles in each step, at least 1; the paper uses one.
+    /// OneWCycle: number of W-cycles per step, 1 to kMaximumCycles; the paper uses one.
     int cycles = 1;
 
-    /// OpenMP threads; 0 takes what OpenMP offers (OMP_NUM_THREADS is respected). The result is
-    /// the same bits whatever the number. For evolve(); a Flow leaves it to its caller.
+    /// Number of OpenMP threads; 0 leaves the choice to OpenMP, which respects OMP_NUM_THREADS. The
+    /// result has the same bits for any number. evolve() applies it; a Flow does not.
     int threads = 0;
 };
 
-/// The weight of the stabilisation that these parameters ask for.
+/// Returns the step size δ at which `iterations` steps of this order halve the amplitude of waves
+/// of length `detail_size` on a plane; in the squared unit of the detail size. A step multiplies
+/// the amplitude of waves of length λ by 1 - hᵐ, where h = δk² / (1 + δk²) and k = 2π/λ.
+double step_size_for(double detail_size, int iterations, int order);
+
+/// Returns the length of the waves whose amplitude the steps halve: the inverse of step_size_for().
+double detail_size_for(double step_size, int iterations, int order);
+
+/// Returns the weight of the stabilisation that the parameters ask for.
 double stabilization_of(const FlowParameters& parameters);
 
-/// Throws InvalidParameter naming the first knob that lies outside its range, with the range.
+/// Throws InvalidParameter if a parameter is outside its range; the message gives the range.
 void validate(const FlowParameters& parameters);
 
 }  // namespace tracked_mcf

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include <cstdint>
@@ -5,53 +6,69 @@
 
 namespace tracked_mcf {
 
-/// What one semi-implicit step did.
+/// Measurements of one semi-implicit step.
 struct StepReport {
-    double assemble_seconds = 0;  ///< metric, element matrices, Galerkin products, right side
-    double solve_seconds = 0;     ///< W-cycles and the update of the coefficients
-    /// 2-norm of the residual b - A d of the displacement's system, over the three coordinates, in
-    /// grid units, before (d = 0, so the norm of b) and after the solve.
+    double assemble_seconds = 0;  ///< element matrices of all levels and right-hand side
+    double solve_seconds = 0;     ///< the solver, and the update of the embedding
+    /// 2-norm of the residual b - A d over the three coordinates and all solves of the step, in
+    /// grid units, before the solve (where d = 0) and after it. A step has as many solves as its
+    /// order, and another one to preserve the volume.
     double residual_before = 0;
     double residual_after = 0;
-    int solver_iterations = 0;  ///< of conjugate gradients, or W-cycles
-    /// Converged: what is left of the error at the end; see FlowParameters::tolerance.
-    double relative_residual = 0;
-    bool reached_tolerance = true;  ///< false if the solver stopped short of the tolerance
-    double area = 0;  ///< of the tracked surface at the start of the step, mesh units²
-    std::int64_t collapsed_samples = 0;  ///< left out because their area has collapsed
+    int solver_iterations = 0;  ///< iterations of conjugate gradients, or W-cycles, of all solves
+    /// Converged: the largest estimated error of a solve in the energy norm, relative to its
+    /// solution.
+    double error_estimate = 0;
+    bool reached_tolerance = true;       ///< Converged: whether error_estimate <= tolerance
+    double area = 0;                     ///< area before the step, mesh units²
+    std::int64_t collapsed_samples = 0;  ///< samples ignored because their area has collapsed
 };
 
-/// Why a flow ended before it had made all its steps.
+/// Why a flow ended before its last step.
 enum class Stop {
-    None,          ///< it did not
-    Vanished,      ///< the next step would have left no area; its positions are not taken
-    Pinched,       ///< so much has pinched that rescaling blows up the rest; likewise
-    NothingMoves,  ///< every vertex is held, or every test function is locked or has pinched
+    None,          ///< it made all steps
+    Vanished,      ///< the next step would have left no area, and was undone
+    Pinched,       ///< preserving would have blown up what has pinched; the step was undone
+    NotPreserved,  ///< no pressure restores the volume after a step this large; it was undone
+    NothingMoves,  ///< all vertices or all unknowns are constrained
 };
 
-/// What a whole flow did: sizes, seconds by phase, residuals.
+/// Sizes, durations and results of a whole flow.
 struct FlowReport {
-    std::int64_t vertices = 0;  ///< that triangles refer to
-    std::int64_t triangles = 0;
-    std::int64_t degenerate_triangles = 0;  ///< without area: they have no say in the flow
+    std::int64_t vertices = 0;              ///< referenced by triangles
+    std::int64_t triangles = 0;             ///< that flow
+    std::int64_t degenerate_triangles = 0;  ///< triangles of zero area, which were ignored
     std::int64_t boundary_edges = 0;
-    std::int64_t held_vertices = 0;  ///< that triangles refer to: they keep their bits
+    std::int64_t constrained_vertices = 0;  ///< referenced vertices that keep their bits
+    double detail_size = 0;  ///< length of the waves whose amplitude all steps halve, mesh units
+    double step_size = 0;    ///< δ, mesh units²
+    double asked_step_size = 0;  ///< larger if δ was limited, see FlowParameters::step_size
     int depth = 0;
-    double cell_size = 0;              ///< of the finest level, mesh units
-    std::int64_t cells = 0;            ///< occupied cells of the finest level
-    std::int64_t elements = 0;         ///< connected parts of the surface in them, if separated
-    std::int64_t unknowns = 0;         ///< test functions of the finest level
-    std::int64_t locked_unknowns = 0;  ///< of those, held by the boundary
-    std::int64_t fragments = 0;        ///< triangles clipped to cells
-    std::int64_t split_triangles = 0;  ///< fragments fanned into triangles
-    std::int64_t samples = 0;          ///< cubature samples
-    double area_before = 0;            ///< of the triangles that flow, mesh units²
+    double cell_size = 0;                   ///< side of a finest cell, mesh units
+    std::int64_t cells = 0;                 ///< occupied cells of the finest level
+    std::int64_t elements = 0;              ///< elements of the finest level
+    std::int64_t unknowns = 0;              ///< unknowns of the finest level
+    std::int64_t constrained_unknowns = 0;  ///< of these, constrained by a boundary of locked cells
+    std::int64_t fragments = 0;             ///< non-empty intersections of triangles and cells
+    std::int64_t split_triangles = 0;       ///< triangles of the fragments' fans
+    std::int64_t samples = 0;               ///< quadrature points
+    double area_before = 0;                 ///< of the triangles that flow, mesh units²
     double area_after = 0;
+    /// Volume between the initial and the final surface, mesh units³. It is positive where the
+    /// surface has moved along its normals. Of a closed surface, it is the change of the enclosed
+    /// volume. Means nothing unless the triangles are oriented consistently.
+    double volume_change = 0;
+    bool oriented_consistently = true;
+    double largest_displacement = 0;  ///< of a vertex, mesh units
+    double rms_displacement = 0;      ///< of the referenced vertices, mesh units
+    /// One number per vertex of the mesh, see FlowParameters::quality; 0 at vertices that do not
+    /// flow. Empty if nothing was asked for.
+    std::vector<double> quality;
     double setup_seconds = 0;
-    std::vector<StepReport> steps;  ///< as many as were made
+    std::vector<StepReport> steps;  ///< one per step made
     Stop stop = Stop::None;
-    std::int64_t estimated_memory_bytes = 0;  ///< expected for the flow before it was begun
-    std::int64_t peak_memory_bytes = 0;  ///< of the whole process; 0 where the system does not say
+    std::int64_t estimated_memory_bytes = 0;  ///< estimated for the flow before it began
+    std::int64_t peak_memory_bytes = 0;       ///< of the whole process; 0 if unknown
 };
 
 }  // namespace tracked_mcf

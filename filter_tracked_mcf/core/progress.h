@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include <functional>
@@ -5,18 +6,19 @@
 
 namespace tracked_mcf {
 
-/// Called as the work goes on, with the fraction done and what is being done, for a person
-/// ("Step 3 of 10"). Returning false asks the work to stop: it throws Cancelled; what the callback
-/// throws itself passes through as it is. Either way the mesh is as it was.
+/// A callback that receives the fraction of the work that is done and the current phase, in words
+/// for the user ("Step 3 of 10"). It returns false to cancel: evolve() then throws Cancelled. An
+/// exception of the callback leaves evolve() unchanged. In both cases the mesh keeps its positions.
 ///
-/// - How often: whenever something else begins to be done, and in between about every twentieth of
-///   a second, however large the mesh.
-/// - The fraction is in [0, 1], never decreases, and is 1 in the last call, before the mesh is
-///   written.
-/// - From the thread that called the core only, though other threads may be at work on the core's
-///   own data meanwhile.
-/// - It may call the core, for other meshes, which reports to the callback it is given there, if
-///   any: never is this one called from inside itself.
+/// - Times: evolve() invokes the callback whenever a phase begins, and about 20 times a second in
+///   between. Only parallel loops poll, so serial work delays a call by up to 0.2 s for each
+///   million vertices.
+/// - Fraction: it lies in [0, 1] and never decreases. It is 1 in the last call, before evolve()
+///   writes the positions.
+/// - Thread: only the thread that called evolve() invokes the callback. Other threads may work on
+///   the core's own data meanwhile.
+/// - Nesting: the callback may call evolve() for another mesh, which reports to its own callback
+///   only. A callback is never invoked from inside itself.
 using Progress = std::function<bool(double fraction, std::string_view phase)>;
 
 }  // namespace tracked_mcf

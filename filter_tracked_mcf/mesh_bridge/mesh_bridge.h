@@ -1,43 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <type_traits>
 #include <vector>
 
-#include "filter_tracked_mcf/core/domain.h"
 #include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/triangle_mesh.h"
 
-/// Between any vcglib mesh type, of floats or doubles, and the core's plain mesh. Nothing but the
-/// members that all of vcglib's triangle meshes share is used, so that one bridge serves every
-/// host.
+/// Converts between any vcglib mesh type, of floats or doubles, and the core's plain mesh. It uses
+/// only members that all vcglib triangle meshes have, so one bridge serves every host.
 namespace tracked_mcf {
 
 namespace mesh_bridge_detail {
 
-/// No vertex has this index: the core's validation turns it into a message for the user.
+/// No vertex has this index. The core's validation turns it into a message for the user.
 inline constexpr std::int32_t kNoVertex = -1;
 
-template <class VcgMesh>
-std::size_t number_of_vertices(const VcgMesh& mesh) {
-    const auto exists = [](const auto& vertex) { return !vertex.IsD(); };
-    return static_cast<std::size_t>(std::count_if(mesh.vert.begin(), mesh.vert.end(), exists));
-}
-
-/// For every vertex in memory, its index among those that are not deleted.
-template <class VcgMesh>
-std::vector<std::int32_t> indices_without_deleted(const VcgMesh& mesh) {
-    std::vector<std::int32_t> indices;
-    indices.reserve(mesh.vert.size());
-    std::int32_t next = 0;
-    for (const auto& vertex : mesh.vert) indices.push_back(vertex.IsD() ? kNoVertex : next++);
-    return indices;
-}
-
-/// The new index of a face's vertex. A pointer that is null, or leads out of the mesh or to a
-/// deleted vertex, is a damaged mesh that some filters and files leave behind: kNoVertex.
+/// Returns the new index of a face's vertex from those of all vertices in memory, or kNoVertex if
+/// the pointer is null, leads out of the mesh, or leads to a deleted vertex. Some filters and files
+/// leave such faces behind.
 template <class VcgMesh>
 std::int32_t index_of(const typename VcgMesh::VertexType* vertex, const VcgMesh& mesh,
                       const std::vector<std::int32_t>& indices) {
@@ -50,18 +35,19 @@ std::int32_t index_of(const typename VcgMesh::VertexType* vertex, const VcgMesh&
 
 }  // namespace mesh_bridge_detail
 
-/// The vertices and faces of `mesh` that are not deleted, in their order.
+/// Returns the vertices and faces of `mesh` that are not deleted, in their order.
 template <class VcgMesh>
 TriangleMesh to_triangle_mesh(const VcgMesh& mesh) {
     using namespace mesh_bridge_detail;
     TriangleMesh result;
     result.positions.reserve(mesh.vert.size());
-    for (const auto& vertex : mesh.vert) {
-        if (vertex.IsD()) continue;
-        const auto& p = vertex.cP();
+    std::vector<std::int32_t> indices(mesh.vert.size(), kNoVertex);
+    for (std::size_t i = 0; i < indices.size(); ++i) {
+        if (mesh.vert[i].IsD()) continue;
+        indices[i] = static_cast<std::int32_t>(result.positions.size());
+        const auto& p = mesh.vert[i].cP();
         result.positions.emplace_back(p[0], p[1], p[2]);
     }
-    const std::vector<std::int32_t> indices = indices_without_deleted(mesh);
     result.triangles.reserve(mesh.face.size());
     for (const auto& face : mesh.face) {
         if (face.IsD()) continue;
@@ -72,8 +58,8 @@ TriangleMesh to_triangle_mesh(const VcgMesh& mesh) {
     return result;
 }
 
-/// Of each of those faces, whether it is selected. The flags are looked at themselves, since
-/// counters of selected faces are often out of date.
+/// Returns whether each face that is not deleted is selected. It reads the flags, because the
+/// mesh's counter of selected faces is often out of date.
 template <class VcgMesh>
 Selection selected_faces(const VcgMesh& mesh) {
     Selection result;
@@ -84,32 +70,45 @@ Selection selected_faces(const VcgMesh& mesh) {
     return result;
 }
 
-/// Whether any face is selected.
+/// Returns whether any face is selected.
 template <class VcgMesh>
 bool has_selected_faces(const VcgMesh& mesh) {
     return std::any_of(mesh.face.begin(), mesh.face.end(),
                        [](const auto& face) { return !face.IsD() && face.IsS(); });
 }
 
-/// Gives the vertices of `mesh` the positions of `moved`, which to_triangle_mesh made of it;
-/// deleted vertices stay as they are. A vertex that has not moved keeps its bits. Normals and
-/// bounding box are the caller's to update.
+/// Gives the vertices of `mesh` the positions of `moved`, which to_triangle_mesh made from it.
+/// Deleted vertices keep their positions; a vertex that has not moved keeps its bits. The caller
+/// updates normals and bounding box. Throws InvalidMesh if the number of vertices has changed.
 template <class VcgMesh>
 void write_positions(const TriangleMesh& moved, VcgMesh& mesh) {
     using Scalar = typename VcgMesh::ScalarType;
-    // Hosts process events while a filter runs, so another may have run on the same mesh meanwhile.
-    if (moved.positions.size() != mesh_bridge_detail::number_of_vertices(mesh)) {
-        throw InvalidMesh("The mesh was changed while the filter ran; it has been left like that.");
+    const auto count = std::count_if(mesh.vert.begin(), mesh.vert.end(),
+                                     [](const auto& vertex) { return !vertex.IsD(); });
+    // Hosts process events while a filter runs, so another filter may have changed the mesh.
+    if (moved.positions.size() != static_cast<std::size_t>(count)) {
+        throw InvalidMesh("The mesh changed while the filter ran. Its positions were not written.");
     }
     auto position = moved.positions.begin();
     for (auto& vertex : mesh.vert) {
         if (vertex.IsD()) continue;
         const Eigen::Vector3d& p = *position++;
-        // Float to double and back is exact but for a NaN's payload; a position with a NaN is that
-        // of an unused vertex, which does not move.
+        // Float to double and back is exact except for a NaN's payload. Only unused vertices have
+        // NaNs, and they do not move.
         if (p.hasNaN()) continue;
         vertex.P() = {static_cast<Scalar>(p[0]), static_cast<Scalar>(p[1]),
                       static_cast<Scalar>(p[2])};
+    }
+}
+
+/// Gives the vertices of `mesh` that are not deleted these numbers as their quality, after
+/// write_positions() has found that they are as many.
+template <class VcgMesh>
+void write_quality(const std::vector<double>& quality, VcgMesh& mesh) {
+    auto number = quality.begin();
+    for (auto& vertex : mesh.vert) {
+        if (vertex.IsD()) continue;
+        vertex.Q() = static_cast<std::decay_t<decltype(vertex.Q())>>(*number++);
     }
 }
 

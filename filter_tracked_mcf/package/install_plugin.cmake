@@ -1,12 +1,13 @@
-# Runs when cmake --install comes to the plugin: copies tracked_mcf_plugin_file to where
-# find_places.cmake has found that it belongs, and says how it is loaded.
+# SPDX-License-Identifier: GPL-3.0-or-later
+# cmake --install runs this for the plugin: copies tracked_mcf_plugin_file to the folder that
+# find_folders.cmake has found, and prints how the host loads it.
 
 cmake_minimum_required(VERSION 3.22)
 
 if(NOT tracked_mcf_plugin_dir)
   set(reason "no MeshLab of that release was found when this was configured")
   if(TRACKED_MCF_USER_INSTALL)
-    set(reason "TRACKED_MCF_USER_INSTALL asks for a user's")
+    set(reason "TRACKED_MCF_USER_INSTALL asks for a user's installation")
   endif()
   message(FATAL_ERROR
           "MeshLab ${TRACKED_MCF_HOST_RELEASE} looks for plugins in its own folder alone, and "

@@ -1,16 +1,17 @@
 #!/usr/bin/env bash
-# Makes the packages for all MeshLabs on one Debian, whichever of them is installed, and lists them
-# with what they need: make_all.sh DESTINATION [arguments for cmake, such as -DTRACKED_MCF_TOOL=OFF]
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Makes the packages for all four hosts on one Debian, whichever MeshLab is installed, and lists them
+# with the versions that they need: make_all.sh DESTINATION [arguments for cmake]
 #
-# They run on this Debian and later ones, so the oldest is the one to make them on. Sources and
-# build folders stay in build/packages, for the next time.
+# A package runs on the Debian that made it and on later ones, so make packages on the oldest. Sources
+# and build folders stay in build/packages for the next time.
 set -euo pipefail
 
 destination=$(realpath -m "${1:?usage: make_all.sh DESTINATION [arguments for cmake]}")
 root=$(realpath "$(dirname "$0")/../..")
 work=$root/build/packages
 mkdir -p "$destination"
-# Flags of one's own may be for one's own processor.
+# The user's own flags may be for the user's own processor.
 unset CXXFLAGS LDFLAGS
 
 make_one() { # RELEASE SCALAR CMAKE_ARGUMENT...

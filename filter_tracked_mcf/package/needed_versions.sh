@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
-# Prints what binaries need of a system's libraries: for every set of symbol versions, such as
-# GLIBC, GLIBCXX, GOMP or Qt, the largest that one of them needs: needed_versions.sh FILE...
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Prints the library versions that binaries need: for each set of symbol versions, such as GLIBC,
+# GLIBCXX, GOMP or Qt, the largest version that any of the files needs: needed_versions.sh FILE...
 set -euo pipefail
 
-[ $# -gt 0 ] || { sed -n '2,3s/^# \{0,1\}//p' "$0" >&2 && exit 2; }
+[ $# -gt 0 ] || { sed -n '3,4s/^# \{0,1\}//p' "$0" >&2 && exit 2; }
 # The part after the last underscore is the version.
 needs=$(LC_ALL=C readelf --version-info --wide "$@" |
     sed -n '/^Version needs section/,/^$/s/.* Name: \([^ ]*\)_\([^ _]*\) .*/\1 \2/p')

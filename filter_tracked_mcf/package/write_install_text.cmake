@@ -1,4 +1,5 @@
-# Runs when the package's files have been laid out in CMAKE_INSTALL_PREFIX: writes INSTALL.txt
+# SPDX-License-Identifier: GPL-3.0-or-later
+# cpack runs this after it has put the package's files into CMAKE_INSTALL_PREFIX. Writes INSTALL.txt
 # beside them. CMakeLists.txt sets name, version, host, release, scalar, processor and files.
 
 cmake_minimum_required(VERSION 3.22)
@@ -22,7 +23,7 @@ foreach(set IN ITEMS GLIBC GLIBCXX CXXABI Qt)
 endforeach()
 set(GCC " with GLIBCXX${GLIBCXX} and CXXABI${CXXABI}")
 
-# Which compiler's libstdc++ was the first with these symbols, by the lists in its manual.
+# The first GCC whose libstdc++ has these symbols, from the lists in its manual.
 set(first_GLIBCXX 3.4.29=11 3.4.30=12 3.4.31=13 3.4.32=13.2 3.4.33=14 3.4.34=15)
 set(first_CXXABI 1.3.13=11 1.3.14=13 1.3.15=14)
 set(gcc 0)
@@ -48,9 +49,9 @@ string(STRIP "${needs}" needs)
 string(PREPEND needs "    ")
 cmake_host_system_information(RESULT system QUERY DISTRIB_PRETTY_NAME)
 
-set(menu "It is in the menu Filters > Smoothing, Fairing and Deformation > Mean Curvature Flow.\n")
+set(menu "The filter is in the menu Filters > Smoothing, Fairing and Deformation > Mean Curvature Flow.\n")
 if(host STREQUAL PyMeshLab)
-  set(steps "Put it where you like. In Python:
+  set(steps "Put it into any folder. In Python:
 
     import pymeshlab
     pymeshlab.load_plugin('/path/libfilter_tracked_mcf.so')
@@ -60,14 +61,14 @@ if(host STREQUAL PyMeshLab)
     ms.save_current_mesh('smooth.ply')
 ")
 elseif(release VERSION_LESS 2022.02)
-  set(steps "Copy it, as root, to MeshLab's own plugins, which in Debian's MeshLab are here:
+  set(steps "Copy it, as root, to MeshLab's plugin folder. In Debian's MeshLab:
 
     cp libfilter_tracked_mcf.so /usr/lib/x86_64-linux-gnu/meshlab/plugins/
 
 ${menu}")
 else()
-  set(steps "In MeshLab, choose it in Help > Plugin Info > Load Plugins. Or copy it yourself, before
-MeshLab starts, to your folder of plugins:
+  set(steps "In MeshLab, load it with Help > Plugin Info > Load Plugins. Or copy it to your plugin
+folder and start MeshLab:
 
     data=\"\${XDG_DATA_HOME:-$HOME/.local/share}\"
     folder=\"$data/VCG/MeshLab_64bit_fp/MeshLabExtraPlugins/${release}\"
@@ -81,8 +82,8 @@ if(tracked_mcf IN_LIST files)
   set(program "
 tracked_mcf, the command-line program
 
-It needs no ${host}. Run it from here, or copy it to a folder of your PATH, such as ~/.local/bin.
-tracked_mcf --help explains it.
+It does not need ${host}. Run it from here, or copy it to a folder of your PATH, such as
+~/.local/bin. tracked_mcf --help explains its options.
 ")
 endif()
 configure_file("${CMAKE_CURRENT_LIST_DIR}/INSTALL.txt.in" "${folder}/INSTALL.txt" @ONLY)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include <string>
@@ -6,8 +7,8 @@
 
 namespace tracked_mcf {
 
-/// One parameter of the filter, for a person and for every host: the plugin's dialogs and scripts
-/// and the command-line tool are all made from this table, so they cannot disagree.
+/// One parameter of the filter. The plugin's dialogs and scripts and the command-line tool take it
+/// from the same table.
 struct ParameterDescription {
     struct Integer {
         int default_value;
@@ -15,33 +16,42 @@ struct ParameterDescription {
     struct Real {
         double default_value;
     };
+    /// A Real in units of the mesh that a dialog also shows in per cent of the bounding box's
+    /// diagonal. The default depends on the mesh.
+    struct Length {};
     struct Boolean {
         bool default_value;
     };
-    /// A Boolean whose default is to be on when some faces of the mesh are selected.
+    /// A Boolean that is on by default if some faces of the mesh are selected.
     struct SelectionSwitch {};
     struct Choice {
-        int default_value;  ///< index into labels
-        std::vector<std::string>
-            labels;  ///< as a dialog shows them, such as "Locked cells (paper)"
+        int default_value;                ///< index into labels
+        std::vector<std::string> labels;  ///< in a dialog, such as "Locked cells (paper)"
     };
 
-    std::string name;     ///< in scripts: lower case and underscores, never changes
+    std::string name;     ///< in scripts; lower case with underscores; never changes
     std::string label;    ///< in a dialog
-    std::string tooltip;  ///< what it means, its units, and what to give it
-    std::variant<Integer, Real, Boolean, SelectionSwitch, Choice> type;
+    std::string tooltip;  ///< its meaning, its unit, and advice
+    std::variant<Integer, Real, Length, Boolean, SelectionSwitch, Choice> type;
 };
 
 /// The filter's name in menus and scripts.
-extern const char* const kFilterName;
+inline constexpr const char* kFilterName = "Mean Curvature Flow";
 
-/// Its name in PyMeshLab, where what moves vertices is called apply_coord_…
-extern const char* const kPythonFilterName;
+/// The filter's name in PyMeshLab, where names of filters that move vertices begin with
+/// apply_coord.
+inline constexpr const char* kPythonFilterName = "apply_coord_mean_curvature_flow";
 
-/// What the filter does, when to use it and when not, for its help; HTML as MeshLab shows it.
-extern const char* const kFilterHelp;
+/// The filter's help in the HTML that MeshLab shows.
+inline constexpr const char* kFilterHelp =
+    "Smooths the surface by <b>mean-curvature flow</b>, which removes noise and detail below a "
+    "chosen size. Sharp features are smoothed like noise. Only positions and, if asked for, vertex "
+    "qualities change.<br>See Ming Chuang and Michael Kazhdan: <b>Fast Mean-Curvature Flow via "
+    "Finite-Elements Tracking</b>, 2011, <a "
+    "href=\"https://doi.org/10.1111/j.1467-8659.2011.01899.x\">"
+    "doi:10.1111/j.1467-8659.2011.01899.x</a>.";
 
-/// The parameters in the order in which a dialog shows them; the defaults are FlowParameters' own.
+/// Returns the parameters in the order of a dialog, with the defaults of FlowParameters.
 const std::vector<ParameterDescription>& parameter_table();
 
 }  // namespace tracked_mcf

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "filter_tracked_mcf/plugin/parameter_values.h"
 
 #include <array>
@@ -18,19 +19,10 @@ Type read(const ParameterValues& values, const std::string& name) {
     const Type* const value = found == values.end() ? nullptr : std::get_if<Type>(&found->second);
     if (value == nullptr) {
         throw InvalidParameter(name +
-                               " is missing, or is not of the right type; a script made by "
-                               "MeshLab itself shows how it is written.");
+                               " is missing or has the wrong type. Save a filter script in "
+                               "MeshLab to see how it is written.");
     }
     return *value;
-}
-
-[[noreturn]] void refuse_choice(const std::string& name, int index,
-                                const std::vector<std::string>& labels) {
-    std::string message = name + " is " + std::to_string(index) + "; give";
-    for (std::size_t i = 0; i < labels.size(); ++i) {
-        message += (i == 0 ? " " : ", ") + std::to_string(i) + " (" + labels[i] + ")";
-    }
-    throw InvalidParameter(message + ".");
 }
 
 void check_choices(const ParameterValues& values) {
@@ -38,9 +30,13 @@ void check_choices(const ParameterValues& values) {
         const auto* const choice = std::get_if<ParameterDescription::Choice>(&parameter.type);
         if (choice == nullptr) continue;
         const int index = read<int>(values, parameter.name);
-        const bool has_label =
-            index >= 0 && static_cast<std::size_t>(index) < choice->labels.size();
-        if (!has_label) refuse_choice(parameter.name, index, choice->labels);
+        const std::vector<std::string>& labels = choice->labels;
+        if (index >= 0 && static_cast<std::size_t>(index) < labels.size()) continue;
+        std::string message = parameter.name + " is " + std::to_string(index) + "; give";
+        for (std::size_t i = 0; i < labels.size(); ++i) {
+            message += (i == 0 ? " " : ", ") + std::to_string(i) + " (" + labels[i] + ")";
+        }
+        throw InvalidParameter(message + ".");
     }
 }
 
@@ -49,13 +45,16 @@ void check_choices(const ParameterValues& values) {
 FlowParameters flow_parameters(const ParameterValues& values) {
     check_choices(values);
     FlowParameters parameters;
+    parameters.detail_size = read<double>(values, "detail_size");
     parameters.depth = read<int>(values, "depth");
     parameters.step_size = read<double>(values, "step_size");
     parameters.absolute = read<bool>(values, "absolute");
     parameters.iterations = read<int>(values, "iterations");
+    parameters.order = read<int>(values, "order") + 1;
     parameters.flow = static_cast<FlowKind>(read<int>(values, "flow"));
     parameters.boundary = static_cast<BoundaryCondition>(read<int>(values, "boundary"));
-    parameters.rescale = static_cast<Rescaling>(read<int>(values, "rescale"));
+    parameters.preserve = static_cast<Preserve>(read<int>(values, "preserve"));
+    parameters.quality = static_cast<Quality>(read<int>(values, "quality"));
     parameters.separate_sheets = read<bool>(values, "separate_sheets");
     parameters.solver = static_cast<Solver>(read<int>(values, "solver"));
     return parameters;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include <map>
@@ -8,25 +9,24 @@
 
 namespace tracked_mcf {
 
-/// The value of an Integer, a Real, a Boolean or a SelectionSwitch, or the index of a Choice's
-/// label.
+/// A parameter's value: an int for an Integer or for the index of a Choice's label, a double for a
+/// Real, a bool for a Boolean or a SelectionSwitch.
 using ParameterValue = std::variant<int, double, bool>;
 
-/// What a host gives for the parameters of the table, by name.
+/// The values that a host gives for the parameters of the table, by name.
 using ParameterValues = std::map<std::string, ParameterValue>;
 
-/// What the core is to do. Throws InvalidParameter where a value is absent or of another type, or
-/// where a Choice's index has no label: hosts pass on what a script holds. The other ranges are the
-/// core's to check.
+/// Returns the core's parameters for these values. Throws InvalidParameter if a value is missing or
+/// has another type, or if a Choice's index has no label. The core checks all other ranges.
 FlowParameters flow_parameters(const ParameterValues& values);
 
-/// Whether only selected faces are to flow. Throws InvalidParameter where that is not said.
+/// Returns whether only selected faces flow. Throws InvalidParameter if the value is missing.
 bool selected_only(const ParameterValues& values);
 
-/// The number that was typed where a host passes `value`. Many keep real parameters as floats, but
-/// what is typed is a decimal: a value that is a float becomes the double that the float's shortest
-/// decimal notation denotes, 1e-5 for 9.99999974737875e-06, so that the plugin flows exactly as the
-/// command-line tool. Any other double was passed as it is.
+/// Returns the decimal number that a user typed where a host passes `value`. Many hosts round real
+/// parameters to floats. A `value` that is a float becomes the double nearest to the float's
+/// shortest decimal notation, 1e-5 for 9.99999974737875e-06, so that the plugin flows exactly as
+/// the command-line tool does. Any other double is returned unchanged.
 double as_typed(double value);
 
 }  // namespace tracked_mcf

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "filter_tracked_mcf/plugin/run_filter.h"
 
 #include <exception>
@@ -5,8 +6,7 @@
 #include <numeric>
 #include <sstream>
 
-#include "filter_tracked_mcf/parameters/early_stop.h"
-#include "filter_tracked_mcf/parameters/shortfall.h"
+#include "filter_tracked_mcf/parameters/flow_warnings.h"
 
 namespace tracked_mcf {
 
@@ -14,7 +14,7 @@ FilterOutcome guard(const std::function<FilterOutcome()>& work) {
     try {
         return work();
     } catch (const std::bad_alloc&) {
-        return {false, "There is not enough memory for this; choose a smaller depth.", {}};
+        return {false, "There is not enough memory. Choose a smaller depth.", {}};
     } catch (const std::exception& error) {
         return {false, error.what(), {}};
     } catch (...) {
@@ -32,25 +32,25 @@ double seconds_of(const std::vector<StepReport>& steps) {
     });
 }
 
-double final_residual(Solver solver, const StepReport& step) {
-    if (solver == Solver::Converged) return step.relative_residual;
+std::string constrained(std::int64_t count) {
+    return count > 0 ? " (" + std::to_string(count) + " constrained)" : "";
+}
+
+double error_estimate(Solver solver, const StepReport& step) {
+    if (solver == Solver::Converged) return step.error_estimate;
     return step.residual_before == 0 ? 0 : step.residual_after / step.residual_before;
 }
 
-/// What is amiss with a run that has succeeded, with a blank before; empty if nothing.
-std::string warnings(const FlowParameters& parameters, const FlowReport& report) {
-    std::string text;
-    const std::string stop = early_stop(report, parameters.iterations);
-    if (!stop.empty()) text += " Warning: " + stop;
-    const std::string short_steps = shortfall(report, parameters.tolerance);
-    if (!short_steps.empty()) {
-        text += " Warning: " + short_steps +
-                " Look at the result; a smaller step size or depth may help.";
-    }
-    return text;
-}
-
 }  // namespace
+
+double default_detail_size_or_zero(const TriangleMesh& mesh, const Selection& selection) {
+    try {
+        validate(mesh);
+        return default_detail_size(mesh, selection);
+    } catch (const InvalidMesh&) {
+        return 0;
+    }
+}
 
 Progress as_progress(HostCallback* callback) {
     if (callback == nullptr) return {};
@@ -62,30 +62,42 @@ Progress as_progress(HostCallback* callback) {
 std::string summary(const FlowParameters& parameters, const FlowReport& report) {
     std::ostringstream text;
     text.precision(3);
-    text << "Smoothed " << report.vertices << " vertices";
-    if (report.held_vertices > 0) text << ", of which " << report.held_vertices << " are held,";
-    text << " by " << report.steps.size() << (report.steps.size() == 1 ? " step of " : " steps of ")
+    text << "Smoothed " << report.vertices << " vertices"
+         << constrained(report.constrained_vertices) << " by " << report.steps.size()
+         << (report.steps.size() == 1 ? " step" : " steps") << " of "
          << (parameters.flow == FlowKind::Conformalized ? "conformalized " : "")
-         << "mean-curvature flow: depth " << report.depth << ", " << report.unknowns << " unknowns";
-    if (report.locked_unknowns > 0) text << " (" << report.locked_unknowns << " locked)";
-    text << ", " << report.setup_seconds << " s for the set-up and " << seconds_of(report.steps)
-         << " s for the steps.";
+         << "mean-curvature flow: depth " << report.depth << ", " << report.unknowns << " unknowns"
+         << constrained(report.constrained_unknowns) << ", " << report.setup_seconds
+         << " s for the set-up and " << seconds_of(report.steps) << " s for the steps. "
+         << changes(report);
     if (report.degenerate_triangles > 0) {
-        text << " " << report.degenerate_triangles << " faces have no area and had no say.";
+        text << " " << report.degenerate_triangles << " faces have zero area and were ignored.";
     }
-    text << warnings(parameters, report);
+    const char* const advice = "Look at the result; a smaller detail size or depth may help.";
+    for (const std::string& warning : flow_warnings(parameters, report, advice)) {
+        text << " Warning: " << warning;
+    }
     return text.str();
 }
 
 Outputs outputs_of(const FlowParameters& parameters, const FlowReport& report) {
-    double residual = 0;
-    if (!report.steps.empty()) residual = final_residual(parameters.solver, report.steps.back());
-    return {{"unknowns", static_cast<int>(report.unknowns)},
-            {"depth", report.depth},
-            {"steps", static_cast<int>(report.steps.size())},
-            {"final_residual", residual},
-            {"area_before", report.area_before},
-            {"area_after", report.area_after}};
+    const double error =
+        report.steps.empty() ? 0 : error_estimate(parameters.solver, report.steps.back());
+    Outputs outputs = {{"detail_size", report.detail_size},
+                       {"step_size", report.step_size},
+                       {"depth", report.depth},
+                       {"cell_size", report.cell_size},
+                       {"unknowns", static_cast<int>(report.unknowns)},
+                       {"steps", static_cast<int>(report.steps.size())},
+                       {"stopped_early", report.stop == Stop::None ? 0 : 1},
+                       {"converged", converged(report) ? 1 : 0},
+                       {"error_estimate", error},
+                       {"largest_displacement", report.largest_displacement},
+                       {"rms_displacement", report.rms_displacement},
+                       {"area_before", report.area_before},
+                       {"area_after", report.area_after}};
+    if (report.oriented_consistently) outputs["volume_change"] = report.volume_change;
+    return outputs;
 }
 
 }  // namespace run_filter_detail

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include <functional>
@@ -11,7 +12,7 @@
 
 namespace tracked_mcf {
 
-/// The progress callback of every release, vcg::CallBackPos; returning false asks to stop.
+/// The progress callback of every release, vcg::CallBackPos. It returns false to cancel.
 using HostCallback = bool(int percent, const char* phase);
 
 /// Numbers that scripts can use, by name.
@@ -21,32 +22,47 @@ using Outputs = std::map<std::string, std::variant<int, double>>;
 struct FilterOutcome {
     bool succeeded;
     std::string message;  ///< for the user: what was done, or what is wrong and what to do
-    Outputs outputs;      ///< of a success; see outputs_of()
+    Outputs outputs;      ///< empty after a failure; see outputs_of()
 };
 
-/// What `work` returns; of what it throws, be it what it may, a failure with its message: no host
-/// survives an exception that it does not know.
+/// Runs `work` and turns any exception into a failed outcome: an exception that a host does not
+/// know ends its program.
 FilterOutcome guard(const std::function<FilterOutcome()>& work);
 
 namespace run_filter_detail {
 
-/// A host's callback, which may be null, as the core's.
+/// Wraps a host's callback, which may be null, for the core.
 Progress as_progress(HostCallback* callback);
 
-/// The report in a few sentences.
+/// Describes the report in a few sentences.
 std::string summary(const FlowParameters& parameters, const FlowReport& report);
 
-/// The report in a few numbers: `unknowns`, `depth`, `steps` (those made), `final_residual` (of the
-/// last step, relative to before it: what the solver's tolerance bounds, or with W-cycles the
-/// 2-norm), `area_before` and `area_after` (of what flows, mesh units²).
+/// Returns, in units of the mesh and of the surface that flows:
+/// - `detail_size`, `step_size` (δ), `depth`, `cell_size`, `unknowns`,
+/// - `steps` (the number made), `stopped_early` (1 or 0), `converged` (1 if all steps reached the
+///   tolerance, else 0), `error_estimate` (of the last step: the relative error in the energy norm,
+///   or with W-cycles the relative 2-norm of the residual),
+/// - `largest_displacement`, `rms_displacement` (of the vertices),
+/// - `area_before`, `area_after`, and, if the faces are oriented consistently, `volume_change`.
 Outputs outputs_of(const FlowParameters& parameters, const FlowReport& report);
+
+/// Returns default_detail_size(), or 0 if the mesh is not valid.
+double default_detail_size_or_zero(const TriangleMesh& mesh, const Selection& selection);
 
 }  // namespace run_filter_detail
 
-/// The whole filter, for any host: flows a layer's mesh of any vcglib type and returns what to tell
-/// the user; to be called under guard(), for it throws what the core throws. Positions are written
-/// last, so a failure, or a callback that returns false, leaves the mesh as it was. Nothing else of
-/// the mesh is touched; normals and bounding box are the host's to update.
+/// Returns the default detail size of a mesh's selected faces, or of all if none is selected, in
+/// units of the mesh; 0 if the mesh cannot flow.
+template <class VcgMesh>
+double default_detail_size_of(const VcgMesh& mesh) {
+    const Selection selection = has_selected_faces(mesh) ? selected_faces(mesh) : Selection();
+    return run_filter_detail::default_detail_size_or_zero(to_triangle_mesh(mesh), selection);
+}
+
+/// Flows a mesh of any vcglib type and returns the message for the user. It throws what the core
+/// throws, so call it under guard(). It writes nothing but positions and, if asked for, the
+/// vertices' quality, and writes them last: a failure or a cancelled run leaves the mesh as it was.
+/// The host updates normals and bounding box.
 template <class VcgMesh>
 FilterOutcome run_filter(VcgMesh& mesh, const ParameterValues& values, HostCallback* callback) {
     using namespace run_filter_detail;
@@ -55,6 +71,7 @@ FilterOutcome run_filter(VcgMesh& mesh, const ParameterValues& values, HostCallb
     TriangleMesh moved = to_triangle_mesh(mesh);
     const FlowReport report = evolve(moved, selection, parameters, as_progress(callback));
     write_positions(moved, mesh);
+    if (!report.quality.empty()) write_quality(report.quality, mesh);
     return {true, summary(parameters, report), outputs_of(parameters, report)};
 }
 

@@ -1,13 +1,13 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "filter_tracked_mcf/tool/command_line.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <map>
 #include <sstream>
 
+#include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/parameters/parameter_table.h"
-#include "filter_tracked_mcf/tool/documents/mesh_document.h"
-#include "filter_tracked_mcf/tool/mesh_file.h"
+#include "filter_tracked_mcf/tool/documents/file_document.h"
 
 namespace tracked_mcf {
 
@@ -15,24 +15,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const std::map<std::string, FlowKind> kFlows = {{"mean-curvature", FlowKind::MeanCurvature},
-                                                {"conformalized", FlowKind::Conformalized}};
-
-const std::map<std::string, BoundaryCondition> kBoundaries = {
-    {"locked", BoundaryCondition::Locked},
-    {"locked-cells", BoundaryCondition::LockedCells},
-    {"free", BoundaryCondition::Free}};
-
-const std::map<std::string, Rescaling> kRescalings = {
-    {"none", Rescaling::None}, {"area", Rescaling::KeepArea}, {"volume", Rescaling::KeepVolume}};
-
-const std::map<std::string, Cubature> kCubatures = {
-    {"1", Cubature::OnePoint}, {"3", Cubature::ThreePoints}, {"11", Cubature::Degree6}};
-
-const std::map<std::string, bool> kSwitches = {{"on", true}, {"off", false}};
-
-const std::map<std::string, Solver> kSolvers = {{"converged", Solver::Converged},
-                                                {"w-cycle", Solver::OneWCycle}};
+const Choices<bool> kSwitches = {{"on", true}, {"off", false}};
 
 constexpr std::size_t kNameColumns = 26, kTextColumns = 70;
 
@@ -44,26 +27,28 @@ const char* const kDescription =
 const char* const kExamples =
     "Examples:\n"
     "  tracked_mcf scan.ply smooth.ply\n"
-    "      the defaults: noise of up to about 1 % of the model's size goes\n"
-    "  tracked_mcf scan.ply smooth.ply --step-size 1e-6 --iterations 5\n"
-    "      gently: only the finest noise goes\n"
+    "      the defaults: removes the finest noise\n"
+    "  tracked_mcf scan.ply smooth.ply --detail-size 0.5% --order 2\n"
+    "      removes detail smaller than 0.5 % of the model's diagonal and keeps larger shapes\n"
     "  tracked_mcf face.obj face_smooth.obj --depth 8 --boundary free\n"
-    "      resolve finer detail, and let the rim move\n"
-    "  tracked_mcf scan.ply smooth.ply --rescale volume\n"
-    "      a closed scan, without shrinking it\n"
+    "      resolves finer detail, and lets the rim move\n"
+    "  tracked_mcf scan.ply smooth.ply --preserve volume\n"
+    "      smooths a scan without shrinking it\n"
     "  tracked_mcf scan.ply smooth.ply --selected flags\n"
-    "      only the faces that were selected in MeshLab, saved with their flags\n"
+    "      smooths only the faces that were selected in MeshLab and saved with their flags\n"
     "  tracked_mcf scan.ply smooth.stl --quiet --report smooth.json\n"
-    "      in a script: convert, say nothing, keep sizes, times and residuals\n"
+    "      in a script: converts, prints no summary, and writes a report\n"
     "\n"
-    "Files: PLY, OBJ, OFF and STL, by extension; PLY and STL are written as binary. Everything\n"
-    "but positions and normals is kept as far as the output's format can carry it. INPUT and\n"
-    "OUTPUT may be the same file: it is replaced only when all has gone well.\n"
+    "Files: PLY, OBJ, OFF and STL, by extension; PLY and STL are written as binary. If OUTPUT has\n"
+    "the format of INPUT, only positions and normals change. Another format gets the positions,\n"
+    "the faces and the colours of the vertices (STL: triangles without colours), and a warning\n"
+    "names everything that is left out. INPUT and OUTPUT may be the same file: it is replaced\n"
+    "only after everything has succeeded.\n"
     "\n"
     "Exit codes: 0 done; 1 the mesh cannot be read or smoothed; 2 wrong use of options; 3 a\n"
-    "result cannot be written. Errors are one line on the error output. So are\n"
-    "warnings, even with --quiet: that the flow stopped before its last step, or a step's solver\n"
-    "short of the tolerance. They leave the exit code 0.\n"
+    "result cannot be written. An error is one line on the error output. So is a warning, also\n"
+    "with --quiet: the flow stopped before its last step, the solver stopped before its\n"
+    "tolerance, or OUTPUT does not keep everything of INPUT. Warnings leave the exit code 0.\n"
     "\n"
     "The method is that of M. Chuang and M. Kazhdan, Fast Mean-Curvature Flow via\n"
     "Finite-Elements Tracking, 2011.\n";
@@ -88,117 +73,152 @@ std::string help_of(const std::string& text) {
     return wrapped(text, kTextColumns);
 }
 
-/// The parameters that all hosts share are explained in the same words by all of them.
-std::string shared_help(const std::string& name) {
+std::string tooltip_of(const std::string& name) {
     const auto& table = parameter_table();
     const auto found = std::find_if(table.begin(), table.end(),
                                     [&](const auto& entry) { return entry.name == name; });
-    return found == table.end() ? std::string() : help_of(found->tooltip);
+    return found == table.end() ? std::string() : found->tooltip;
 }
 
-template <class Map>
-CLI::Validator one_of(const Map& names) {
-    std::vector<std::string> allowed;
-    allowed.reserve(names.size());
-    for (const auto& [name, value] : names) allowed.push_back(name);
-    return CLI::IsMember(allowed).description("");
+/// Returns the help of a parameter that the plugin has as well, in the plugin's words.
+std::string shared_help(const std::string& name) {
+    return help_of(tooltip_of(name));
 }
 
-/// Option names and texts as they come from the parser, before they have a meaning.
-struct Texts {
-    std::string input, output, report;
-    std::string flow, boundary, rescale, cubature, separate_sheets, solver;
-};
-
-void add_files(CLI::App& app, Texts& texts) {
-    app.add_option("INPUT", texts.input, "The mesh: .ply, .obj, .off or .stl")
-        ->required()
-        ->type_name("");
-    app.add_option("OUTPUT", texts.output, "The smoothed mesh, in the format of its extension")
-        ->required()
-        ->type_name("");
+/// Adds an option that takes the name of one of the choices, and returns it.
+template <class Value>
+CLI::Option* add_choice(CLI::App& app, const char* option, Value& value,
+                        const Choices<Value>& choices, const std::string& help) {
+    std::vector<std::string> names;
+    std::string alternatives;
+    for (const auto& [name, meaning] : choices) {
+        names.push_back(name);
+        alternatives += (alternatives.empty() ? "" : "|") + name;
+    }
+    const auto take = [&value, &choices](const std::string& taken) {
+        for (const auto& [name, meaning] : choices) {
+            if (name == taken) value = meaning;
+        }
+    };
+    return app.add_option_function<std::string>(option, take, help)
+        ->type_name(alternatives)
+        ->check(CLI::IsMember(names).description(""))
+        ->default_str(name_of(choices, value));
 }
 
-void add_steps(CLI::App& app, FlowParameters& parameters) {
+/// Returns the length that `text` gives, such as 1.5 or 0.5%.
+Length length_of(std::string text) {
+    Length length;
+    length.in_per_cent = !text.empty() && text.back() == '%';
+    if (length.in_per_cent) text.pop_back();
+    if (!CLI::detail::lexical_cast(text, length.value)) {
+        throw CLI::ValidationError(
+            "--detail-size", "give a length such as 1.5, or 0.5% of the bounding box's diagonal");
+    }
+    return length;
+}
+
+void add_steps(CLI::App& app, CommandLine& line) {
+    FlowParameters& parameters = line.parameters;
+    app.add_option_function<std::string>(
+           "--detail-size",
+           [&line](const std::string& text) { line.detail_size = length_of(text); },
+           help_of("Remove detail smaller than this length, in units of the mesh, or with % of its "
+                   "bounding box's diagonal. " +
+                   tooltip_of("detail_size")))
+        ->type_name("X|X%")
+        ->default_str("0");
+    app.add_option("--order", parameters.order,
+                   help_of("1 to 4. " + tooltip_of("order") + " 1 is the flow itself."))
+        ->type_name("N")
+        ->capture_default_str();
     app.add_option("--depth", parameters.depth, shared_help("depth"))
         ->type_name("N")
         ->capture_default_str();
     app.add_option("--step-size", parameters.step_size, shared_help("step_size"))
         ->type_name("X")
-        ->default_str("1e-5");
+        ->default_str("0");
     app.add_flag("--absolute", parameters.absolute, shared_help("absolute"));
     app.add_option("--iterations", parameters.iterations, shared_help("iterations"))
         ->type_name("N")
         ->capture_default_str();
 }
 
-void add_choices(CLI::App& app, Texts& texts, std::string& selected) {
-    const auto add = [&app](const char* option, std::string& text, const char* name,
-                            const char* values, const auto& names) {
-        app.add_option(option, text, shared_help(name))
-            ->type_name(values)
-            ->check(one_of(names))
-            ->capture_default_str();
-    };
-    add("--flow", texts.flow, "flow", "mean-curvature|conformalized", kFlows);
-    add("--boundary", texts.boundary, "boundary", "locked|locked-cells|free", kBoundaries);
-    app.add_option("--selected", selected,
-                   help_of("Only selected faces move; all vertices that others have keep their "
-                           "place. The name of a number that the faces, or else the vertices, of "
-                           "a PLY file have: a face is selected if it is not 0, of the face or "
-                           "of all its vertices. 'flags' is what MeshLab saves: of it only the "
-                           "bit for selected (32) counts."))
+void add_choices(CLI::App& app, CommandLine& line) {
+    FlowParameters& parameters = line.parameters;
+    add_choice(app, "--flow", parameters.flow, kFlows, shared_help("flow"));
+    add_choice(app, "--boundary", parameters.boundary, kBoundaries, shared_help("boundary"));
+    const auto check_name = [](const std::string& name) { return name.empty() ? "no name" : ""; };
+    app.add_option("--selected", line.selected,
+                   help_of("Only selected faces move; vertices of other faces keep their "
+                           "positions. PROPERTY is the name of a number that the faces of a PLY "
+                           "file have, or else its vertices. A face is selected if its number is "
+                           "not 0, or if the numbers of all its vertices are not 0. 'flags' is "
+                           "where MeshLab saves a selection: only its bit 32 counts."))
         ->type_name("PROPERTY")
-        ->check(CLI::Validator(
-            [](const std::string& name) { return std::string(name.empty() ? "no name" : ""); },
-            ""));
-    add("--rescale", texts.rescale, "rescale", "none|area|volume", kRescalings);
-    add("--separate-sheets", texts.separate_sheets, "separate_sheets", "on|off", kSwitches);
-    add("--solver", texts.solver, "solver", "converged|w-cycle", kSolvers);
+        ->check(CLI::Validator(check_name, ""));
+    add_choice(app, "--preserve", parameters.preserve, kPreserves, shared_help("preserve"));
+    add_choice(app, "--quality", parameters.quality, kQualities,
+               help_of(tooltip_of("quality") +
+                       " Written to a PLY file as the property quality of its vertices."));
+    add_choice(app, "--separate-sheets", parameters.separate_sheets, kSwitches,
+               shared_help("separate_sheets"));
+    add_choice(app, "--solver", parameters.solver, kSolvers, shared_help("solver"));
 }
 
 void add_solver_numerics(CLI::App& app, FlowParameters& parameters) {
     app.add_option("--tolerance", parameters.tolerance,
-                   help_of("With --solver converged: a step is solved when what is left of it, "
-                           "measured by its energy, is at most this fraction of it; greater than "
-                           "0, less than 1. Smaller takes more iterations; the default leaves the "
-                           "grid's own error the larger."))
+                   help_of("With --solver converged: a step is solved when the error estimate, "
+                           "relative to the step in the energy norm, is at most this number; "
+                           "greater than 0, less than 1. A smaller one takes more iterations. "
+                           "With the default, the grid's own error is larger."))
         ->type_name("X")
         ->default_str("1e-3");
     app.add_option("--stabilization", parameters.stabilization,
-                   help_of("Weight of the volume stabilisation, without unit, 0 to 1000. It lets "
-                           "the solver converge; much more of it holds the surface back. 0 is the "
-                           "paper's system, on which --solver converged takes more iterations "
-                           "and may stop short."))
+                   help_of("Weight of the volume stabilisation, without unit, 0 to 1000. The "
+                           "stabilisation lets the solver converge; a much larger weight slows "
+                           "the surface down. 0 is the paper's system, for which --solver "
+                           "converged takes more iterations and may stop short."))
         ->type_name("X")
         ->default_str(CLI::detail::to_string(kDefaultStabilization) + ", with --solver w-cycle 0");
     app.add_option("--cycles", parameters.cycles,
                    help_of("With --solver w-cycle: W-cycles of multigrid in each step, 1 to 1000. "
-                           "The paper uses one; more solve each step's equations more exactly, and "
-                           "the time grows in proportion."))
+                           "The paper uses one. More solve the equations more exactly, and the "
+                           "time grows in proportion."))
         ->type_name("N")
         ->capture_default_str();
 }
 
-void add_numerics(CLI::App& app, FlowParameters& parameters, Texts& texts) {
-    app.add_option("--cubature", texts.cubature,
-                   help_of("Samples on each split triangle: 3 as in the paper; 1 is inaccurate, 11 "
-                           "is slow, and both are there to compare with."))
-        ->type_name("1|3|11")
-        ->check(one_of(kCubatures))
-        ->capture_default_str();
+void add_numerics(CLI::App& app, FlowParameters& parameters) {
+    // Up to version 1.0.0, the rule with 12 samples was called 11, after the paper's 11-point rule.
+    const auto rename = [](std::string& name) {
+        if (name == "11") name = "12";
+        return std::string();
+    };
+    add_choice(app, "--cubature", parameters.cubature, kCubatures,
+               help_of("Samples on each split triangle: 3 as in the paper. Take 1, which is "
+                       "inaccurate, or 12, which is slow and exact to degree 6, only to compare."))
+        ->transform(CLI::Validator(rename, ""));
     app.add_option("--threads", parameters.threads,
-                   help_of("Threads; 0 takes all that OpenMP offers (OMP_NUM_THREADS is "
-                           "respected). The result is the same whatever the number."))
+                   help_of("Threads, up to 1024; 0 takes all that OpenMP offers (OMP_NUM_THREADS "
+                           "is respected). The result does not depend on it; only processors "
+                           "with other vector instructions round differently."))
         ->type_name("N")
         ->capture_default_str();
 }
 
-void add_output(CLI::App& app, Texts& texts, bool& quiet) {
-    app.add_option("--report", texts.report,
-                   help_of("Write sizes, times, residuals and memory to a JSON file."))
+void add_files(CLI::App& app, CommandLine& line) {
+    app.add_option("INPUT", line.input, "The mesh: .ply, .obj, .off or .stl")
+        ->required()
+        ->type_name("");
+    app.add_option("OUTPUT", line.output, "The smoothed mesh, in the format of its extension")
+        ->required()
+        ->type_name("");
+    app.add_option("--report", line.report,
+                   help_of("Write sizes, times, residuals, error estimates and memory to a JSON "
+                           "file."))
         ->type_name("FILE.json");
-    app.add_flag("--quiet", quiet,
+    app.add_flag("--quiet", line.quiet,
                  help_of("No summary and no progress bar; errors and warnings only."));
 }
 
@@ -208,22 +228,22 @@ fs::path resolved(const fs::path& path) {
 
 void check_paths(const CommandLine& line) {
     for (const fs::path& path : {line.input, line.output}) {
-        if (!MeshFile::knows_format_of(path)) {
-            throw UsageError(path.string() +
-                             ": the extension tells the format; give .ply, .obj, .off or .stl.");
-        }
+        if (format_of(path)) continue;
+        throw InvalidParameter(path.string() +
+                               ": the extension tells the format; give .ply, .obj, .off or .stl.");
     }
-    if (!line.selected.empty() && lower_case_extension(line.input) != ".ply") {
-        throw UsageError(
-            "--selected needs a PLY file as INPUT: only PLY has properties to select "
-            "by.");
+    if (!line.selected.empty() && format_of(line.input)->parse != parse_ply) {
+        throw InvalidParameter(
+            "--selected needs a PLY file as INPUT: only PLY has properties to select by.");
+    }
+    if (line.parameters.quality != Quality::None && format_of(line.output)->parse != parse_ply) {
+        throw InvalidParameter("--quality needs a PLY file as OUTPUT: only PLY can hold it.");
     }
     if (line.report.empty()) return;
     for (const fs::path& path : {line.input, line.output}) {
-        if (resolved(line.report) == resolved(path)) {
-            throw UsageError("--report would overwrite the mesh " + path.string() +
-                             "; give it another name.");
-        }
+        if (resolved(line.report) != resolved(path)) continue;
+        throw InvalidParameter("--report would overwrite the mesh " + path.string() +
+                               "; give it another name.");
     }
 }
 
@@ -231,24 +251,15 @@ void check_paths(const CommandLine& line) {
 
 CommandLine parse_command_line(int argc, const char* const* argv) {
     CommandLine line;
-    Texts texts;
-    texts.flow = flow_name(line.parameters.flow);
-    texts.boundary = boundary_name(line.parameters.boundary);
-    texts.rescale = rescaling_name(line.parameters.rescale);
-    texts.cubature = std::to_string(cubature_name(line.parameters.cubature));
-    texts.separate_sheets = line.parameters.separate_sheets ? "on" : "off";
-    texts.solver = solver_name(line.parameters.solver);
-
     CLI::App app(wrapped(kDescription, kNameColumns + kTextColumns) + "\n", "tracked_mcf");
     app.get_formatter()->column_width(kNameColumns);
     app.footer(kExamples);
-    app.set_version_flag("--version", std::string("tracked_mcf ") + program_version());
-    add_files(app, texts);
-    add_steps(app, line.parameters);
-    add_choices(app, texts, line.selected);
+    app.set_version_flag("--version", "tracked_mcf " TRACKED_MCF_VERSION);
+    add_steps(app, line);
+    add_choices(app, line);
     add_solver_numerics(app, line.parameters);
-    add_numerics(app, line.parameters, texts);
-    add_output(app, texts, line.quiet);
+    add_numerics(app, line.parameters);
+    add_files(app, line);
     try {
         app.parse(argc, argv);
     } catch (const CLI::CallForHelp&) {
@@ -258,46 +269,10 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
         line.answer = app.version() + "\n";
         return line;
     } catch (const CLI::ParseError& error) {
-        throw UsageError(std::string(error.what()) + ". Run tracked_mcf --help.");
+        throw InvalidParameter(std::string(error.what()) + ". Run tracked_mcf --help.");
     }
-    line.input = texts.input;
-    line.output = texts.output;
-    line.report = texts.report;
-    line.parameters.flow = kFlows.at(texts.flow);
-    line.parameters.boundary = kBoundaries.at(texts.boundary);
-    line.parameters.rescale = kRescalings.at(texts.rescale);
-    line.parameters.cubature = kCubatures.at(texts.cubature);
-    line.parameters.separate_sheets = kSwitches.at(texts.separate_sheets);
-    line.parameters.solver = kSolvers.at(texts.solver);
     check_paths(line);
     return line;
-}
-
-const char* flow_name(FlowKind flow) {
-    return flow == FlowKind::Conformalized ? "conformalized" : "mean-curvature";
-}
-
-const char* boundary_name(BoundaryCondition boundary) {
-    if (boundary == BoundaryCondition::Free) return "free";
-    return boundary == BoundaryCondition::LockedCells ? "locked-cells" : "locked";
-}
-
-const char* rescaling_name(Rescaling rescaling) {
-    if (rescaling == Rescaling::None) return "none";
-    return rescaling == Rescaling::KeepArea ? "area" : "volume";
-}
-
-int cubature_name(Cubature cubature) {
-    if (cubature == Cubature::OnePoint) return 1;
-    return cubature == Cubature::ThreePoints ? 3 : 11;
-}
-
-const char* solver_name(Solver solver) {
-    return solver == Solver::OneWCycle ? "w-cycle" : "converged";
-}
-
-const char* program_version() {
-    return TRACKED_MCF_VERSION;
 }
 
 }  // namespace tracked_mcf

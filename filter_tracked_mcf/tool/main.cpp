@@ -1,7 +1,10 @@
-/// The command-line program: reads a mesh, lets it flow, writes it. `tracked_mcf --help` tells how.
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// The command-line program: reads a mesh, lets it flow and writes it. `tracked_mcf --help`
+/// explains it.
 
 #include <unistd.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <csignal>
 #include <iostream>
@@ -23,6 +26,14 @@ using namespace tracked_mcf;
 
 enum ExitCode { Done = 0, BadMesh = 1, BadUsage = 2, Unwritable = 3 };
 
+/// Returns the length in units of the mesh.
+double in_mesh_units(const Length& length, const TriangleMesh& mesh) {
+    if (!length.in_per_cent) return length.value;
+    Eigen::AlignedBox3d box;
+    for (const Eigen::Vector3d& position : mesh.positions) box.extend(position);
+    return mesh.positions.empty() ? 0 : 0.01 * length.value * box.diagonal().norm();
+}
+
 FlowReport evolve_with_progress(TriangleMesh& mesh, const Selection& selection,
                                 const CommandLine& line) {
     if (line.quiet || !isatty(STDERR_FILENO)) return evolve(mesh, selection, line.parameters);
@@ -34,45 +45,50 @@ FlowReport evolve_with_progress(TriangleMesh& mesh, const Selection& selection,
                   });
 }
 
-void complain(const std::string& message) {
+/// Prints one line. Messages quote files, and control characters of a damaged file must not reach
+/// the terminal.
+void complain(std::string message) {
+    const auto is_control = [](unsigned char c) { return c < ' ' || c == 127; };
+    std::replace_if(message.begin(), message.end(), is_control, ' ');
     std::cerr << "tracked_mcf: " << message << '\n';
 }
 
-void run(const CommandLine& line) {
+void run(CommandLine line) {
+    line.parameters.detail_size = line.detail_size.value;
     validate(line.parameters);
-    // What cannot be written in the end is said before the long work begins.
+    // A file that cannot be written is reported before the long work begins.
     OutputFile output(line.output);
     std::optional<OutputFile> report_file;
     if (!line.report.empty()) report_file.emplace(line.report);
 
     MeshFile file(line.input);
     TriangleMesh mesh = file.triangle_mesh();
+    line.parameters.detail_size = in_mesh_units(line.detail_size, mesh);
     Selection selection;
     if (!line.selected.empty()) selection = file.selection_by(line.selected);
     const FlowReport report = evolve_with_progress(mesh, selection, line);
 
+    file.set_quality(report.quality);
     file.write(mesh, output.stage(), output.folder());
     if (report_file) report_file->stage_text(report_json(line, report));
     output.commit();
     if (report_file) report_file->commit();
     if (!line.quiet) std::cout << summary(line, report) << std::flush;
-    for (const std::string& shortcoming : warnings(line, report)) {
-        complain("warning: " + shortcoming);
-    }
+    std::vector<std::string> all_warnings = warnings(line, report);
+    const std::string conversion = file.conversion_warning(line.output);
+    if (!conversion.empty()) all_warnings.push_back(conversion);
+    for (const std::string& warning : all_warnings) complain("warning: " + warning);
 }
 
 int fail(ExitCode code, std::string message) {
-    // Files are quoted, and what stands in a damaged one must not reach the terminal.
-    const auto is_control = [](unsigned char c) { return c < ' ' || c == 127; };
-    std::replace_if(message.begin(), message.end(), is_control, ' ');
-    complain(message);
+    complain(std::move(message));
     return code;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-    // A full quota is then an error that can be told, rather than a silent end.
+    // A file that grows beyond a limit then fails with a message instead of a silent end.
     std::signal(SIGXFSZ, SIG_IGN);
     try {
         const CommandLine line = parse_command_line(argc, argv);
@@ -81,8 +97,6 @@ int main(int argc, char** argv) {
         else
             std::cout << line.answer;
         return Done;
-    } catch (const UsageError& error) {
-        return fail(BadUsage, error.what());
     } catch (const InvalidParameter& error) {
         return fail(BadUsage, error.what());
     } catch (const UnwritableFile& error) {

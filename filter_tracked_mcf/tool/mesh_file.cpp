@@ -1,14 +1,13 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "filter_tracked_mcf/tool/mesh_file.h"
 
+#include <algorithm>
+#include <cmath>
 #include <fstream>
-#include <new>
 
-#include "filter_tracked_mcf/mesh_bridge/mesh_bridge.h"
-#include "filter_tracked_mcf/tool/documents/mesh_document.h"
-#include "filter_tracked_mcf/tool/face_selection.h"
+#include "filter_tracked_mcf/core/errors.h"
+#include "filter_tracked_mcf/tool/documents/ply_document.h"
 #include "filter_tracked_mcf/tool/file_error.h"
-#include "filter_tracked_mcf/tool/vcglib_reading.h"
-#include "filter_tracked_mcf/tool/vcglib_writing.h"
 
 namespace tracked_mcf {
 
@@ -16,110 +15,91 @@ namespace fs = std::filesystem;
 
 namespace {
 
-class WritingFailed : public std::exception {};
+/// The bit for selected faces and vertices in MeshLab's flags.
+constexpr std::int64_t kSelectedFlag = 0x20;
 
-void check_written(bool success) {
-    if (!success) throw WritingFailed();
+bool is_selecting(const std::string& name, double number) {
+    if (name != "flags") return number != 0;
+    // Flags are whole numbers of 32 bits; other numbers select nothing.
+    const bool is_whole = std::abs(number) <= 4294967295.0 && number == std::trunc(number);
+    return is_whole && (static_cast<std::int64_t>(number) & kSelectedFlag) != 0;
 }
 
-void write_document(const MeshDocument& document, const Points& positions, const fs::path& file,
-                    const FolderChange& change) {
-    std::ofstream out(file, std::ios::binary);
-    document.write(out, positions, change);
-    out.close();
-    check_written(!out.fail());
-}
-
-std::unique_ptr<MeshDocument> document_of(const fs::path& path) {
-    // An STL has nothing that vcglib does not know of.
-    return lower_case_extension(path) == ".stl" ? nullptr : open_document(path);
+std::string numbers_of(const PlyElement& element) {
+    std::string list;
+    for (const PlyProperty& property : element.properties) {
+        if (!property.is_list()) list += (list.empty() ? "" : ", ") + property.name;
+    }
+    return list.empty() ? "none" : list;
 }
 
 }  // namespace
 
-class MeshFile::Content {
-public:
-    explicit Content(const fs::path& path)
-        : path_(path),
-          folder_(fs::absolute(path).parent_path()),
-          extension_(lower_case_extension(path)),
-          document_(document_of(path)),
-          mask_(read_with_vcglib(path, document_.get(), mesh_)) {}
-
-    TriangleMesh triangle_mesh() const { return to_triangle_mesh(mesh_); }
-
-    Selection selection_by(const std::string& name) const {
-        if (const auto* const ply = dynamic_cast<const PlyDocument*>(document_.get())) {
-            return selected_triangles(*ply, name, path_.string());
-        }
-        throw InvalidParameter("--selected needs a PLY file, and " + path_.string() +
-                               " is none; only PLY has properties to select by.");
-    }
-
-    void write(const TriangleMesh& moved, const fs::path& file, const fs::path& final_folder) {
-        const FolderChange change{folder_, final_folder};
-        if (document_ && lower_case_extension(file) == extension_) {
-            write_document(*document_, moved.positions, file, change);
-        } else {
-            convert(moved, file, change);
-        }
-    }
-
-private:
-    void convert(const TriangleMesh& moved, const fs::path& file, const FolderChange& change) {
-        write_positions(moved, mesh_);
-        const std::vector<std::string> textures = mesh_.textures;
-        for (std::string& name : mesh_.textures) name = change.relocate(name);
-        check_written(write_with_vcglib(mesh_, mask_, file));
-        mesh_.textures = textures;
-        check_and_refine(moved, file);
-    }
-
-    /// Whether what vcglib wrote is complete, which it does not notice; then with all digits, which
-    /// it does not write.
-    static void check_and_refine(const TriangleMesh& moved, const fs::path& file) {
-        const auto written = document_of(file);
-        if (written) {
-            write_document(*written, moved.positions, file, {});
-        } else {
-            check_written(fs::file_size(file) == 84 + 50 * moved.triangles.size());
-        }
-    }
-
-    fs::path path_, folder_;
-    std::string extension_;
-    std::unique_ptr<MeshDocument> document_;  ///< null for STL
-    VcglibMesh mesh_;
-    int mask_;  ///< vcglib's, of what the mesh has
-};
-
-MeshFile::MeshFile(const fs::path& path) : content_(std::make_unique<Content>(path)) {}
-
-MeshFile::~MeshFile() = default;
+MeshFile::MeshFile(const fs::path& path) : path_(path), document_(open_document(path)) {}
 
 TriangleMesh MeshFile::triangle_mesh() const {
-    return content_->triangle_mesh();
+    return {document_->positions(), document_->triangles()};
 }
 
 Selection MeshFile::selection_by(const std::string& name) const {
-    return content_->selection_by(name);
+    const auto& ply = dynamic_cast<const PlyDocument&>(*document_);
+    const Polygons& polygons = ply.polygons();
+    const std::vector<double> of_faces = ply.faces().numbers(name);
+    const std::vector<double> of_vertices = ply.vertices().numbers(name);
+    if (of_faces.empty() && of_vertices.empty()) {
+        throw InvalidParameter(path_.string() + " has no number '" + name +
+                               "' to select by; its faces have: " + numbers_of(ply.faces()) +
+                               "; its vertices: " + numbers_of(ply.vertices()) + ".");
+    }
+    const auto is_selected = [&](std::size_t polygon) {
+        if (!of_faces.empty()) return is_selecting(name, of_faces[polygon]);
+        const std::int32_t* const corners = &polygons.corners[polygons.first[polygon]];
+        return std::all_of(corners, corners + polygons.corner_count(polygon), [&](auto vertex) {
+            return is_selecting(name, of_vertices[static_cast<std::size_t>(vertex)]);
+        });
+    };
+    Selection selection;
+    for (std::size_t i = 0; i < polygons.size(); ++i) {
+        selection.insert(selection.end(), polygons.corner_count(i) - 2, is_selected(i) ? 1 : 0);
+    }
+    if (std::count(selection.begin(), selection.end(), 1) == 0) {
+        throw InvalidMesh("No face of " + path_.string() + " is selected by '" + name +
+                          "' of its " + (of_faces.empty() ? "vertices" : "faces") +
+                          "; select some, or leave --selected out to smooth the whole mesh.");
+    }
+    return selection;
+}
+
+void MeshFile::set_quality(const std::vector<double>& quality) {
+    document_->set_quality(quality);
 }
 
 void MeshFile::write(const TriangleMesh& moved, const fs::path& file,
-                     const fs::path& final_folder) {
-    try {
-        content_->write(moved, file, final_folder);
-    } catch (const std::bad_alloc&) {
-        throw;
-    } catch (const std::exception&) {
-        throw UnwritableFile("cannot write " + (final_folder / file.filename()).string() +
-                             ": the disk may be full.");
+                     const fs::path& final_folder) const {
+    const Format* const format = format_of(file);
+    std::ofstream out(file, std::ios::binary);
+    if (format == format_of(path_)) {
+        document_->write(out, moved.positions, {fs::absolute(path_).parent_path(), final_folder});
+    } else {
+        format->convert(out, *document_, moved.positions);
     }
+    out.close();
+    if (out) return;
+    throw UnwritableFile("cannot write " + (final_folder / file.filename()).string() +
+                         ": the disk may be full.");
 }
 
-bool MeshFile::knows_format_of(const fs::path& path) {
-    const std::string extension = lower_case_extension(path);
-    return extension == ".ply" || extension == ".obj" || extension == ".off" || extension == ".stl";
+std::string MeshFile::conversion_warning(const fs::path& file) const {
+    const Format *const from = format_of(path_), *const to = format_of(file);
+    if (from == to) return {};
+    std::vector<std::string> losses = document_->extras();
+    const bool has_colors = !document_->vertex_colors().empty();
+    if (has_colors && !to->keeps_colors) losses.insert(losses.begin(), "colours of vertices");
+    if (losses.empty()) return {};
+    std::string list;
+    for (const std::string& loss : losses) list += (list.empty() ? "" : "; ") + loss;
+    return file.string() + " does not keep everything of " + path_.string() +
+           ". Left out: " + list + ". To keep it, write a " + from->extension + " file.";
 }
 
 }  // namespace tracked_mcf

@@ -1,52 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
-#include "filter_tracked_mcf/core/domain.h"
 #include "filter_tracked_mcf/core/triangle_mesh.h"
 
 namespace tracked_mcf {
 
-/// A mesh that was read from a file, with all that the file says besides positions.
+class FileDocument;
+
+/// A mesh that was read from a PLY, OBJ, OFF or STL file.
 ///
-/// Every file is first read whole and checked (documents/), since vcglib's readers trust what they
-/// read. vcglib then makes the mesh of it, for polygons to become triangles as they do in MeshLab;
-/// ply_to_vcglib.h and vcglib_repairs.h say where it had to be helped.
-///
-/// Written in its own format, a file is the source with other positions and normals, and nothing is
-/// lost: polygons, PLY properties and elements of any kind, cameras, edges, OBJ groups and
-/// materials, comments. Converted by vcglib, it keeps what both formats have: colours of vertices
-/// and faces, normals (made anew), texture coordinates and names of textures, the last as materials
-/// of an OBJ. Polygons then become triangles, edges are left out, and so are texture coordinates of
-/// an OFF, which vcglib does not read. An STL has floats and colours of faces, nothing else.
+/// Written in its own format, the file keeps everything but positions and normals: polygons, PLY
+/// properties and elements of any kind, OBJ groups and materials, comments. Another format gets the
+/// positions, the polygons and the colours of vertices. STL has triangles, in floats, and no
+/// colours of vertices.
 class MeshFile {
 public:
-    /// Reads PLY, OBJ, OFF or STL, by extension. Throws UnreadableFile.
+    /// Reads a file in the format of its extension. Throws UnreadableFile.
     explicit MeshFile(const std::filesystem::path& path);
-    ~MeshFile();
 
-    /// The vertices in the order of the file, and its faces.
+    /// Returns the vertices and the triangles of the faces, in the order of the file.
     TriangleMesh triangle_mesh() const;
 
-    /// Which of its triangles the property `name` of a PLY file selects (face_selection.h). Throws
-    /// InvalidParameter, for files of other formats too, or InvalidMesh.
+    /// Returns which of these triangles the property `name` of a PLY file selects: a number of the
+    /// faces, or else of the vertices. A face is selected if its number is not zero, or if the
+    /// numbers of all its vertices are not. In `flags`, where MeshLab keeps a selection, only the
+    /// bit for selected counts.
+    ///
+    /// Throws InvalidParameter if there is no such property, InvalidMesh if it selects nothing, and
+    /// std::bad_cast for other formats.
     Selection selection_by(const std::string& name) const;
 
-    /// Writes the mesh with the positions of `moved`, which triangle_mesh() made, in the format of
-    /// `file`'s extension; PLY and STL are binary. Files that it needs (the material library of an
-    /// OBJ) are put beside it. Texture names are made relative to `final_folder`, where the
-    /// caller will move the files. Throws UnwritableFile.
-    void write(const TriangleMesh& moved, const std::filesystem::path& file,
-               const std::filesystem::path& final_folder);
+    /// Gives each vertex a number, which write() writes to a PLY file as the property `quality`.
+    void set_quality(const std::vector<double>& quality);
 
-    /// Whether the extension is one of those that can be read and written.
-    static bool knows_format_of(const std::filesystem::path& path);
+    /// Writes the mesh with the positions of `moved`, which triangle_mesh() made, in the format of
+    /// `file`'s extension; PLY and STL are binary. Names of textures and material libraries become
+    /// relative to `final_folder`, to which the caller will move the file. Throws UnwritableFile.
+    void write(const TriangleMesh& moved, const std::filesystem::path& file,
+               const std::filesystem::path& final_folder) const;
+
+    /// Tells the user what write() leaves out of `file`, and how to keep it; empty if nothing.
+    std::string conversion_warning(const std::filesystem::path& file) const;
 
 private:
-    class Content;
-    std::unique_ptr<Content> content_;
+    std::filesystem::path path_;
+    std::shared_ptr<FileDocument> document_;
 };
 
 }  // namespace tracked_mcf

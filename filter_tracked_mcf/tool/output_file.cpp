@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "filter_tracked_mcf/tool/output_file.h"
 
 #include <stdlib.h>
@@ -20,7 +21,7 @@ namespace {
     throw UnwritableFile("cannot write " + path.string() + ": " + why + ".");
 }
 
-/// A new folder that nobody else uses, in `parent`.
+/// Creates a new folder in `parent`; a failure is reported for `for_file`.
 fs::path make_temporary_folder(const fs::path& parent, const fs::path& for_file) {
     std::string name = (parent / ".tracked_mcf-XXXXXX").string();
     if (!mkdtemp(name.data())) {
@@ -33,14 +34,14 @@ fs::path make_temporary_folder(const fs::path& parent, const fs::path& for_file)
 
 OutputFile::OutputFile(const fs::path& path) {
     std::error_code error;
-    // Through symbolic links, so that the file they lead to is replaced rather than the link.
-    place_ = fs::weakly_canonical(fs::absolute(path), error);
+    // Symbolic links are resolved: commit() replaces the file and not the link.
+    path_ = fs::weakly_canonical(fs::absolute(path), error);
     if (error) fail(path, error.message());
-    const fs::file_status status = fs::status(place_, error);
+    const fs::file_status status = fs::status(path_, error);
     if (fs::is_directory(status)) fail(path, "it is a folder; add a file name");
     if (fs::exists(status)) {
         if (!fs::is_regular_file(status)) fail(path, "it is not a regular file");
-        if (access(place_.c_str(), W_OK) != 0) fail(path, std::strerror(errno));
+        if (access(path_.c_str(), W_OK) != 0) fail(path, std::strerror(errno));
     }
     if (!fs::is_directory(folder(), error)) {
         fail(path, "there is no folder " + folder().string() + "; create it first");
@@ -54,8 +55,8 @@ OutputFile::~OutputFile() {
 }
 
 fs::path OutputFile::stage() {
-    if (temporary_.empty()) temporary_ = make_temporary_folder(folder(), place_);
-    return temporary_ / place_.filename();
+    if (temporary_.empty()) temporary_ = make_temporary_folder(folder(), path_);
+    return temporary_ / path_.filename();
 }
 
 void OutputFile::stage_text(const std::string& text) {
@@ -63,14 +64,14 @@ void OutputFile::stage_text(const std::string& text) {
     std::ofstream out(stage(), std::ios::binary);
     out << text;
     out.close();
-    if (!out) fail(place_, errno != 0 ? std::strerror(errno) : "the disk may be full");
+    if (!out) fail(path_, errno != 0 ? std::strerror(errno) : "the disk may be full");
 }
 
 void OutputFile::commit() {
     std::error_code error;
     for (const fs::directory_entry& staged : fs::directory_iterator(temporary_)) {
         fs::rename(staged.path(), folder() / staged.path().filename(), error);
-        if (error) fail(place_, error.message());
+        if (error) fail(path_, error.message());
     }
 }
 

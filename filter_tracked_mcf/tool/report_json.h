@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include <string>
@@ -8,16 +9,15 @@
 
 namespace tracked_mcf {
 
-/// What was asked for and what was done, as indented JSON: the version, file names, parameters
-/// and every member of the flow's report, under the names that they have in the code. The
-/// stabilisation is the one used, whether asked for or not. W-cycles know no tolerance: what steps
-/// say of it is then null.
+/// Returns the version, file names, parameters and every member of the flow's report as indented
+/// JSON, under their names in the code. The stabilisation is the one used. W-cycles have no
+/// tolerance: error_estimate and reached_tolerance of their steps are null.
 std::string report_json(const CommandLine& line, const FlowReport& report);
 
-/// The same for a person, in a few lines.
+/// Returns the main numbers of the report in a few lines for a person.
 std::string summary(const CommandLine& line, const FlowReport& report);
 
-/// What the person must know even if no summary is wanted: a line each.
+/// Returns warnings, one line each, that are printed even without a summary.
 std::vector<std::string> warnings(const CommandLine& line, const FlowReport& report);
 
 }  // namespace tracked_mcf

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <optional>
 #include <string>
 
-#include "filter_tracked_mcf/core/peak_memory.h"
+#include "filter_tracked_mcf/core/memory/process_memory.h"
 #include "tests/benchmark/incomplete_cholesky_flow.h"
 #include "tests/benchmark/meshes.h"
 #include "tests/benchmark/rows.h"
@@ -57,17 +58,19 @@ void add_baseline(CLI::App& app) {
     const auto options = std::make_shared<Options>();
     CLI::App* command = app.add_subcommand(
         "baseline",
-        "The cotangent flow by conjugate gradients with an incomplete Cholesky factorisation.");
+        "Measures the cotangent flow by conjugate gradients with an incomplete Cholesky "
+        "factorisation.");
     command->add_option("mesh", options->mesh)->required();
     command->add_option("--step-size", options->flow.step_size);
     command->add_option("--steps", options->steps)->check(CLI::PositiveNumber);
     command->add_option("--threads", options->flow.threads)->check(CLI::PositiveNumber);
     command->add_option("--tolerance", options->flow.tolerance);
-    command->add_option("--order", options->order, "of the vertices: given, rcm or morton");
+    command->add_option("--order", options->order, "order of the vertices: given, rcm or morton");
     command->add_option("--relaxation", options->flow.relaxation,
-                        "of what the factorisation leaves out, that goes to the diagonal");
+                        "fraction of the omitted fill that is added to the diagonal");
     command->add_option("--most-iterations", options->flow.most_iterations);
-    command->add_flag("--cold", options->cold, "start from no displacement, not from the last");
+    command->add_flag("--cold", options->cold,
+                      "start from a displacement of 0, not from the last step's");
     command->callback([options] { run(*options); });
 }
 

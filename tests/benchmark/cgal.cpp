@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <stdexcept>
@@ -12,7 +13,7 @@
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
 
-#include "filter_tracked_mcf/core/peak_memory.h"
+#include "filter_tracked_mcf/core/memory/process_memory.h"
 #include "tests/benchmark/meshes.h"
 #include "tests/benchmark/rows.h"
 #include "tests/benchmark/sphere_error.h"
@@ -44,8 +45,8 @@ SurfaceMesh surface_mesh(const TriangleMesh& mesh) {
     return surface;
 }
 
-/// A small triangle away from everything. A closed mesh would be scaled back to its volume after
-/// the step; an open one is not.
+/// Adds a small distant triangle, which makes the mesh open. smooth_shape scales a closed mesh back
+/// to its volume after the step.
 TriangleMesh with_boundary(TriangleMesh mesh) {
     const auto first = static_cast<std::int32_t>(mesh.positions.size());
     mesh.positions.emplace_back(2, 2, 2);
@@ -55,7 +56,7 @@ TriangleMesh with_boundary(TriangleMesh mesh) {
     return mesh;
 }
 
-/// One step only: further ones would keep the stiffness of the first.
+/// Measures one step only: smooth_shape keeps the stiffness of the first step.
 void run(const Options& options) {
     const TriangleMesh mesh = named_mesh(options.mesh);
     print_header();
@@ -63,7 +64,7 @@ void run(const Options& options) {
     SurfaceMesh surface = surface_mesh(with_boundary(mesh));
     print_seconds("setup", 0, setting_up.seconds());
     const ProcessStopwatch stopwatch;
-    // Its mass is half of ours and its stiffness twice.
+    // CGAL's mass is half of ours, its stiffness twice ours.
     CGAL::Polygon_mesh_processing::smooth_shape(surface, options.step_size / 4);
     print_seconds("step", 1, stopwatch.seconds());
     print_quantity("peak_memory_bytes", 0, peak_memory_bytes());
@@ -80,7 +81,7 @@ void run(const Options& options) {
 
 void add_cgal(CLI::App& app) {
     const auto options = std::make_shared<Options>();
-    CLI::App* command = app.add_subcommand("cgal", "One step of CGAL's smooth_shape.");
+    CLI::App* command = app.add_subcommand("cgal", "Measures one step of CGAL's smooth_shape.");
     command->add_option("mesh", options->mesh)->required();
     command->add_option("--step-size", options->step_size);
     command->callback([options] { run(*options); });

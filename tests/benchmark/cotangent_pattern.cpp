@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/benchmark/cotangent_pattern.h"
 
 #include <algorithm>
@@ -9,12 +10,12 @@ namespace {
 
 using Numbers = std::vector<std::int32_t>;
 
-/// The mesh's edges by their vertex of smaller number.
+/// The mesh's edges, sorted by their smaller vertex.
 struct Edges {
-    Numbers begin;   ///< of every vertex, and the end
-    Numbers larger;  ///< the other vertex, in ascending order
-    Numbers uses;    ///< triangles that have the edge
-    Numbers entry;   ///< its place in the matrix
+    Numbers begin;   ///< for each vertex, and the end
+    Numbers larger;  ///< the larger vertex, ascending for each smaller one
+    Numbers uses;    ///< number of triangles with this edge
+    Numbers entry;   ///< index of its matrix entry
 
     std::int32_t find(std::int32_t a, std::int32_t b) const {
         const std::int32_t row = std::min(a, b);
@@ -31,7 +32,7 @@ Numbers inverse(const Numbers& order) {
     return number;
 }
 
-/// For every vertex and each triangle in which it is not the largest one, the larger ones.
+/// Returns the edges of each triangle. An edge of two triangles occurs twice.
 Edges edges_with_copies(const std::vector<Triangle>& triangles, std::size_t vertex_count) {
     Edges edges;
     edges.begin.assign(vertex_count + 1, 0);
@@ -83,18 +84,19 @@ std::vector<Triangle> renumbered(const TriangleMesh& mesh, const Numbers& number
     return triangles;
 }
 
-/// Moves the vertices at the boundary behind all others; returns how many these are.
+/// Moves the vertices of the boundary behind all others. Returns the number of the others.
 std::int32_t put_boundary_last(const Edges& edges, Numbers& order) {
-    std::vector<std::uint8_t> held(order.size());
+    std::vector<std::uint8_t> constrained(order.size());
     for (std::size_t vertex = 0; vertex < order.size(); ++vertex) {
         for (std::int32_t k = edges.begin[vertex]; k < edges.begin[vertex + 1]; ++k) {
-            if (edges.uses[k] == 1) held[vertex] = held[edges.larger[k]] = 1;
+            if (edges.uses[k] == 1) constrained[vertex] = constrained[edges.larger[k]] = 1;
         }
     }
     const Numbers number = inverse(order);
-    const auto first_held = std::stable_partition(
-        order.begin(), order.end(), [&](std::int32_t vertex) { return held[number[vertex]] == 0; });
-    return static_cast<std::int32_t>(first_held - order.begin());
+    const auto first_constrained = std::stable_partition(
+        order.begin(), order.end(),
+        [&](std::int32_t vertex) { return constrained[number[vertex]] == 0; });
+    return static_cast<std::int32_t>(first_constrained - order.begin());
 }
 
 void cut_into_blocks(int block_count, CotangentPattern& pattern) {
@@ -110,11 +112,11 @@ std::int32_t block_of(const CotangentPattern& pattern, std::int32_t row) {
         pattern.block_begin.begin() - 1);
 }
 
-/// Numbers the entries.
-void place_edges(Edges& edges, CotangentPattern& pattern) {
+/// Assigns a matrix entry to each edge.
+void number_entries(Edges& edges, CotangentPattern& pattern) {
     edges.entry.assign(edges.larger.size(), CotangentPattern::kNone);
     Numbers couplings;
-    Numbers held;
+    Numbers constrained;
     pattern.upper_column.reserve(edges.larger.size());
     pattern.upper_begin.push_back(0);
     for (std::int32_t row = 0; row < pattern.unknown_count; ++row) {
@@ -128,15 +130,15 @@ void place_edges(Edges& edges, CotangentPattern& pattern) {
                 couplings.push_back(k);
                 pattern.couplings.push_back({row, column});
             } else {
-                held.push_back(k);
-                pattern.held_edge_rows.push_back(row);
+                constrained.push_back(k);
+                pattern.constrained_edge_rows.push_back(row);
             }
         }
         pattern.upper_begin.push_back(static_cast<std::int32_t>(pattern.upper_column.size()));
     }
     std::int32_t next = pattern.first_coupling();
     for (const std::int32_t k : couplings) edges.entry[k] = next++;
-    for (const std::int32_t k : held) edges.entry[k] = next++;
+    for (const std::int32_t k : constrained) edges.entry[k] = next++;
 }
 
 void transpose(CotangentPattern& pattern) {
@@ -146,13 +148,13 @@ void transpose(CotangentPattern& pattern) {
     std::partial_sum(pattern.lower_begin.begin(), pattern.lower_begin.end(),
                      pattern.lower_begin.begin());
     pattern.lower_column.resize(pattern.upper_column.size());
-    pattern.lower_place.resize(pattern.upper_column.size());
+    pattern.lower_index.resize(pattern.upper_column.size());
     Numbers next(pattern.lower_begin.begin(), pattern.lower_begin.end() - 1);
     for (std::int32_t row = 0; row < n; ++row) {
         for (std::int32_t k = pattern.upper_begin[row]; k < pattern.upper_begin[row + 1]; ++k) {
-            const std::int32_t place = next[pattern.upper_column[k]]++;
-            pattern.lower_column[place] = row;
-            pattern.lower_place[k] = place;
+            const std::int32_t index = next[pattern.upper_column[k]]++;
+            pattern.lower_column[index] = row;
+            pattern.lower_index[k] = index;
         }
     }
 }
@@ -176,7 +178,7 @@ void find_fill(CotangentPattern& pattern) {
     }
 }
 
-/// The block that has all of a triangle, or their number if there is none.
+/// Returns the block that contains the triangle, or the number of blocks if none does.
 std::size_t owner_of(const CotangentPattern& pattern, const Triangle& t) {
     const std::size_t shared = pattern.block_begin.size() - 1;
     const auto [first, last] = std::minmax({t[0], t[1], t[2]});
@@ -185,9 +187,9 @@ std::size_t owner_of(const CotangentPattern& pattern, const Triangle& t) {
     return last < pattern.block_begin[block + 1] ? static_cast<std::size_t>(block) : shared;
 }
 
-/// Triangles by owner, and in the order of their smallest vertex.
-void place_triangles(const std::vector<Triangle>& triangles, const Edges& edges,
-                     CotangentPattern& pattern) {
+/// Sorts the triangles by block and by their smallest vertex.
+void sort_triangles(const std::vector<Triangle>& triangles, const Edges& edges,
+                    CotangentPattern& pattern) {
     const auto bucket_of = [&](const Triangle& t) {
         const std::size_t owner = owner_of(pattern, t);
         const bool shared = owner + 1 == pattern.block_begin.size();
@@ -201,13 +203,13 @@ void place_triangles(const std::vector<Triangle>& triangles, const Edges& edges,
     pattern.triangles.resize(triangles.size());
     const std::int32_t unread = pattern.entry_count() - 1;
     for (const Triangle& t : triangles) {
-        TrianglePlaces& places = pattern.triangles[next[bucket_of(t)]++];
+        TriangleIndices& indices = pattern.triangles[next[bucket_of(t)]++];
         for (int i = 0; i < 3; ++i) {
             const std::int32_t a = t[(i + 1) % 3];
             const std::int32_t b = t[(i + 2) % 3];
             const bool read = a != b && std::min(a, b) < pattern.unknown_count;
-            places.vertices[i] = t[i];
-            places.entries[i] = read ? edges.entry[edges.find(a, b)] : unread;
+            indices.vertices[i] = t[i];
+            indices.entries[i] = read ? edges.entry[edges.find(a, b)] : unread;
         }
     }
 }
@@ -215,24 +217,24 @@ void place_triangles(const std::vector<Triangle>& triangles, const Edges& edges,
 }  // namespace
 
 CotangentPattern cotangent_pattern(const TriangleMesh& mesh, VertexOrder order, int block_count,
-                                   bool hold_boundary) {
+                                   bool lock_boundary) {
     CotangentPattern pattern;
     Numbers vertices = ordered_vertices(mesh, order);
     pattern.number = inverse(vertices);
     pattern.vertex_count = pattern.unknown_count = static_cast<std::int32_t>(vertices.size());
     std::vector<Triangle> triangles = renumbered(mesh, pattern.number);
     Edges edges = edges_of(triangles, vertices.size());
-    if (hold_boundary) pattern.unknown_count = put_boundary_last(edges, vertices);
+    if (lock_boundary) pattern.unknown_count = put_boundary_last(edges, vertices);
     if (pattern.unknown_count < pattern.vertex_count) {
         pattern.number = inverse(vertices);
         triangles = renumbered(mesh, pattern.number);
         edges = edges_of(triangles, vertices.size());
     }
     cut_into_blocks(block_count, pattern);
-    place_edges(edges, pattern);
+    number_entries(edges, pattern);
     transpose(pattern);
     find_fill(pattern);
-    place_triangles(triangles, edges, pattern);
+    sort_triangles(triangles, edges, pattern);
     return pattern;
 }
 

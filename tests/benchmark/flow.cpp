@@ -1,15 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <CLI/CLI.hpp>
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <vector>
 
-#include "filter_tracked_mcf/core/element_matrices.h"
-#include "filter_tracked_mcf/core/flow.h"
-#include "filter_tracked_mcf/core/parallel.h"
-#include "filter_tracked_mcf/core/peak_memory.h"
-#include "filter_tracked_mcf/core/progress_meter.h"
-#include "filter_tracked_mcf/core/setup_phases.h"
+#include "filter_tracked_mcf/core/flow/flow.h"
+#include "filter_tracked_mcf/core/memory/process_memory.h"
+#include "filter_tracked_mcf/core/parallel/parallel.h"
+#include "filter_tracked_mcf/core/parallel/progress_meter.h"
+#include "filter_tracked_mcf/core/parallel/setup_phases.h"
+#include "filter_tracked_mcf/core/system/element_matrices.h"
 #include "tests/benchmark/meshes.h"
 #include "tests/benchmark/rows.h"
 #include "tests/benchmark/setup_times.h"
@@ -21,13 +22,13 @@ namespace tracked_mcf::benchmark {
 
 namespace {
 
-/// As evolve() does, and prints how long it takes, phase by phase.
+/// Sets a flow up as evolve() does and prints the time of each phase.
 void set_up(const TriangleMesh& mesh, const FlowParameters& parameters, std::optional<Flow>& flow) {
     SetupTimes times;
     const Progress progress = times.progress();
     const ProgressMeter meter(progress);
     const ProcessStopwatch stopwatch;
-    enter_setup_phase(SetupPhase::CheckMesh);
+    enter_setup_phase(kCheckMesh);
     validate(mesh);
     flow.emplace(mesh, parameters);
     print_seconds("setup", 0, stopwatch.seconds());
@@ -46,7 +47,7 @@ void print_sizes(const FlowReport& report) {
     print_quantity("samples", 0, report.samples);
 }
 
-/// Of the structures that a step goes through, by what they hold now.
+/// Prints the memory of the structures that a step reads and writes.
 void print_bytes(const Flow& flow) {
     const TrackedElements& elements = flow.elements();
     const auto bytes_of = [](const auto& values) { return values.size() * sizeof(values[0]); };
@@ -57,13 +58,13 @@ void print_bytes(const Flow& flow) {
                    element_count * (sizeof(MatrixBlock) / kBlockElements + sizeof(ElementVector)));
     const auto unknown_count = static_cast<std::size_t>(flow.displacement().rows());
     print_quantity("coefficient_bytes", 0, 3 * sizeof(double) * unknown_count);
-    // A product with the finest level's matrix, or with the smoother's: matrices and unknowns of
-    // the elements, one vector read, another read and written.
+    // A product with the finest level's matrix, or the smoother's, reads the elements' matrices and
+    // unknowns, reads one vector, and reads and writes another.
     print_quantity(
         "product_bytes", 0,
         element_count * (sizeof(MatrixBlock) / kBlockElements + 8 * sizeof(std::int32_t)) +
             unknown_count * 3 * 4 * sizeof(float));
-    print_quantity("grid_step_size", 0, flow.grid_step_size());
+    print_quantity("step_size_in_cells", 0, flow.step_size_in_cells());
 }
 
 bool step(Flow& flow, int number) {
@@ -74,18 +75,18 @@ bool step(Flow& flow, int number) {
     print_quantity("assemble_seconds", number, report.assemble_seconds);
     print_quantity("solve_seconds", number, report.solve_seconds);
     print_quantity("iterations", number, report.solver_iterations);
-    print_quantity("relative_residual", number, report.relative_residual);
+    print_quantity("error_estimate", number, report.error_estimate);
     return true;
 }
 
-/// The elements' matrices alone, without what follows in a step.
+/// Measures the assembly of the elements' matrices alone.
 void print_assembly(const Flow& flow) {
     ElementSystems systems;
     for (int repetition = 0; repetition < 4; ++repetition) {
         const ProcessStopwatch stopwatch;
         assemble_elements(flow.elements(), flow.displacement(),
-                          {1.0F, static_cast<float>(flow.grid_step_size())}, systems);
-        // The first has to fetch memory.
+                          {1.0F, static_cast<float>(flow.step_size_in_cells())}, systems);
+        // The first repetition also allocates memory.
         if (repetition > 0) print_seconds("kernel", repetition, stopwatch.seconds());
     }
 }
@@ -105,7 +106,7 @@ void run(const TrackedOptions& options) {
         if (!step(*flow, number)) break;
     }
     const ProcessStopwatch stopwatch;
-    flow->move_vertices(mesh);
+    flow->move_vertices(mesh.positions);
     print_seconds("move", 0, stopwatch.seconds());
     print_quantity("peak_memory_bytes", 0, peak_memory_bytes());
     print_sphere_error(options.mesh, mesh.positions, options.step_size, options.steps);
@@ -116,7 +117,8 @@ void run(const TrackedOptions& options) {
 
 void add_flow(CLI::App& app) {
     const auto options = std::make_shared<TrackedOptions>();
-    CLI::App* command = app.add_subcommand("flow", "Our flow: set-up by phase, then steps.");
+    CLI::App* command =
+        app.add_subcommand("flow", "Measures our flow: the set-up by phase, then the steps.");
     add_options(*command, *options);
     command->callback([options] { run(*options); });
 }

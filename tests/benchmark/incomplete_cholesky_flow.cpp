@@ -1,11 +1,13 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/benchmark/incomplete_cholesky_flow.h"
+#include "filter_tracked_mcf/core/mesh/measures.h"
 
 #include <omp.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "filter_tracked_mcf/core/stopwatch.h"
+#include "filter_tracked_mcf/core/parallel/stopwatch.h"
 
 namespace tracked_mcf::benchmark {
 
@@ -15,7 +17,7 @@ double sum(const Doubles& values) {
     return values.value[0] + values.value[1] + values.value[2];
 }
 
-/// 0 where there is nothing to divide by: a coordinate that is solved.
+/// Returns 0 for a divisor of 0, that is, for a coordinate that is solved.
 Floats quotient(const Doubles& numerator, const Doubles& denominator) {
     Floats result;
     for (int i = 0; i < 3; ++i) {
@@ -37,7 +39,7 @@ std::int64_t bytes_of(const std::vector<Value>& values) {
 std::int64_t bytes_of(const CotangentPattern& pattern) {
     return bytes_of(pattern.number) + bytes_of(pattern.upper_begin) +
            bytes_of(pattern.upper_column) + bytes_of(pattern.lower_begin) +
-           bytes_of(pattern.lower_column) + bytes_of(pattern.lower_place) +
+           bytes_of(pattern.lower_column) + bytes_of(pattern.lower_index) +
            bytes_of(pattern.triangles) + bytes_of(pattern.fill_begin) + bytes_of(pattern.fill);
 }
 
@@ -108,7 +110,7 @@ std::int64_t IncompleteCholeskyFlow::bytes() const {
            bytes_of(q_);
 }
 
-/// Calls body(block, index) for every block, each on the same thread in every loop.
+/// Calls body(block, index) for each block, always on the same thread.
 template <class Body>
 void IncompleteCholeskyFlow::for_each_block(const Body& body) {
     const int count = static_cast<int>(pattern_.block_begin.size()) - 1;
@@ -121,7 +123,7 @@ Block IncompleteCholeskyFlow::block(std::size_t index) {
             pattern_.block_begin[index + 1],
             pattern_.upper_begin.data(),
             pattern_.lower_begin.data(),
-            pattern_.lower_place.data(),
+            pattern_.lower_index.data(),
             pattern_.fill_begin.data(),
             pattern_.fill.data(),
             upper_.data(),
@@ -157,9 +159,9 @@ void IncompleteCholeskyFlow::assemble() {
         upper_[k].matrix = 0;
     }
     add_triangles(pattern_.block_begin.size() - 1);
-    for (std::size_t k = 0; k < pattern_.held_edge_rows.size(); ++k) {
-        row_sums_[pattern_.held_edge_rows[k]] -=
-            upper_[pattern_.first_held_edge() + static_cast<std::int32_t>(k)].matrix;
+    for (std::size_t k = 0; k < pattern_.constrained_edge_rows.size(); ++k) {
+        row_sums_[pattern_.constrained_edge_rows[k]] -=
+            upper_[pattern_.first_constrained_edge() + static_cast<std::int32_t>(k)].matrix;
     }
 }
 
@@ -182,7 +184,7 @@ void IncompleteCholeskyFlow::factorize() {
     });
 }
 
-/// Positive entries are left out of what is factorised.
+/// The factorised matrix has no positive entries.
 void IncompleteCholeskyFlow::take_from_diagonal(float entry, std::int32_t row,
                                                 std::int32_t column) {
     if (entry >= 0) return;
@@ -190,7 +192,7 @@ void IncompleteCholeskyFlow::take_from_diagonal(float entry, std::int32_t row,
     diagonal_[column] -= entry;
 }
 
-/// The right side in single precision, and its norm.
+/// Converts the right-hand side to single precision and computes its norm.
 void IncompleteCholeskyFlow::start() {
     std::vector<double> squares(pattern_.block_begin.size() - 1);
     for_each_block([&](const Block& block, int index) {
@@ -209,9 +211,9 @@ void IncompleteCholeskyFlow::start() {
     right_side_norm_ = std::sqrt(right_side_norm_);
 }
 
-/// Conjugate gradients until the residual's norm is at most `goal`. Every iteration goes over the
-/// rows twice: forward() and backward() do all that lies between.
-int IncompleteCholeskyFlow::iterate(Doubles& final_residual, double goal) {
+/// Iterates conjugate gradients until the residual's norm is at most `goal`. Each iteration makes
+/// two passes over the rows: forward() and backward().
+int IncompleteCholeskyFlow::iterate(Doubles& relative_residual, double goal) {
     constexpr Floats none = {};
     if (parameters_.warm_start) {
         multiply();
@@ -222,7 +224,7 @@ int IncompleteCholeskyFlow::iterate(Doubles& final_residual, double goal) {
     std::fill(p_.begin(), p_.end(), none);
     Products products = forward({{1, 1, 1, 0}});
     if (sum(products.residual) > right_side_norm_ * right_side_norm_) {
-        // The last step's displacement is worse than nothing.
+        // The last step's displacement is a worse start than 0.
         std::fill(x_.begin(), x_.end(), none);
         products = forward({{-1, -1, -1, 0}});
     }
@@ -242,7 +244,7 @@ int IncompleteCholeskyFlow::iterate(Doubles& final_residual, double goal) {
             for (int c = 0; c < 3; ++c) x_[i].value[c] += alpha.value[c] * p_[i].value[c];
         }
     });
-    final_residual = products.residual;
+    relative_residual = products.residual;
     return iteration;
 }
 
@@ -278,7 +280,7 @@ void IncompleteCholeskyFlow::multiply() {
     add_couplings(x_);
 }
 
-/// To q = A x, what crosses from block to block; returns what that adds to x·q.
+/// Adds the couplings between blocks to q = A x. Returns their part of x·q.
 Doubles IncompleteCholeskyFlow::add_couplings(const std::vector<Floats>& x) {
     Doubles product;
     for (std::size_t k = 0; k < pattern_.couplings.size(); ++k) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include <cstdint>
@@ -10,31 +11,31 @@
 
 namespace tracked_mcf::benchmark {
 
-/// How the flow's systems are solved.
+/// Parameters of the flow and of its solver.
 struct IncompleteCholeskyParameters {
     double step_size = 1e-5;  ///< δ, squared units of the mesh
-    double tolerance = 1e-6;  ///< of the residual's 2-norm, relative to the right side's
-    BoundaryCondition boundary = BoundaryCondition::Locked;  ///< vertices are held unless Free
-    int threads = 1;                                         ///< and blocks of the factorisation
+    double tolerance = 1e-6;  ///< of the residual's 2-norm relative to the right-hand side's
+    BoundaryCondition boundary = BoundaryCondition::Locked;  ///< constrained unless Free
+    int threads = 1;                                         ///< also the number of blocks
     VertexOrder order = VertexOrder::ReverseCuthillMcKee;
     double relaxation = 0;  ///< 0 is IC(0); up to 1, modified IC(0)
     bool warm_start = true;
     int most_iterations = 10000;
 };
 
-/// What one step did.
+/// Times and iterations of one step.
 struct IncompleteCholeskyReport {
     double assemble_seconds = 0;
     double factorize_seconds = 0;
-    double solve_seconds = 0;  ///< and the moving of the vertices
+    double solve_seconds = 0;  ///< includes moving the vertices
     int iterations = 0;
     double relative_residual = 0;
 };
 
-/// The strongest peer that we know for steps that are not large: Dziuk's semi-implicit flow on the
-/// mesh itself, as tests/support/cotangent_flow.h has it, with each step's (M + δS) d = -δ S x
-/// solved by conjugate gradients, preconditioned by an incomplete Cholesky factorisation, for all
-/// three coordinates at once. README.md says how it is tuned. Coincident vertices are not joined.
+/// The strongest peer that we know for small and medium steps: Dziuk's semi-implicit flow on the
+/// mesh itself, as in tests/support/cotangent_flow.h. Conjugate gradients with an incomplete
+/// Cholesky preconditioner solve (M + δS) d = -δ S x for all three coordinates together. README.md
+/// describes the tuning. Coincident vertices are not merged.
 class IncompleteCholeskyFlow {
 public:
     IncompleteCholeskyFlow(const TriangleMesh& mesh,
@@ -42,16 +43,16 @@ public:
 
     IncompleteCholeskyReport step();
 
-    /// Positions, in the order of the mesh that the flow was made from.
+    /// Returns the positions in the order of the initial mesh.
     std::vector<Eigen::Vector3d> positions() const;
 
     const CotangentPattern& pattern() const { return pattern_; }
 
-    /// Of matrix, factor, vectors and pattern.
+    /// Returns the memory of matrix, factor, vectors and pattern.
     std::int64_t bytes() const;
 
 private:
-    /// Of each coordinate.
+    /// Scalar products for each coordinate.
     struct Products {
         Doubles residual;  ///< r·r
         Doubles energy;    ///< r·z
@@ -61,7 +62,7 @@ private:
     void factorize();
     void take_from_diagonal(float entry, std::int32_t row, std::int32_t column);
     void start();
-    int iterate(Doubles& final_residual, double goal);
+    int iterate(Doubles& relative_residual, double goal);
     Products forward(const Floats& alpha);
     Doubles backward(const Floats& alpha, const Floats& beta);
     void multiply();
@@ -74,7 +75,7 @@ private:
     IncompleteCholeskyParameters parameters_;
     const CotangentKernels& kernels_;
     CotangentPattern pattern_;
-    double scale_ = 1;  ///< of the system, so that numbers are near 1
+    double scale_ = 1;  ///< factor of the system that makes its numbers close to 1
     std::vector<Doubles> positions_, right_side_;
     std::vector<UpperEntry> upper_;  ///< all entries of the pattern
     std::vector<LowerEntry> lower_;

@@ -1,4 +1,5 @@
-"""What a results page says of the machine: nothing that names it."""
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Describes the machine for the results page, without its name."""
 
 import os
 import pathlib
@@ -13,14 +14,14 @@ def processor():
 
 
 def instructions():
-    """The widest that matter here."""
+    """Returns the widest instructions that the programs use."""
     text = pathlib.Path("/proc/cpuinfo").read_text(encoding="utf-8")
     return next((name for flag, name in (("avx512f", "AVX-512"), ("avx2", "AVX2"))
                  if f" {flag} " in text), "baseline")
 
 
 def caches():
-    """Such as 'L1 48K, L2 1024K, L3 32768K'."""
+    """Returns the caches, for example 'L1 48K, L2 1024K, L3 32768K'."""
     found = []
     for folder in sorted(pathlib.Path("/sys/devices/system/cpu/cpu0/cache").glob("index*")):
         kind, level, size = ((folder / name).read_text(encoding="utf-8").strip()
@@ -31,7 +32,7 @@ def caches():
 
 
 def compiler(build):
-    """First line of its --version, and the build type."""
+    """Returns the first line of the compiler's --version, and the build type."""
     entries = dict(line.split("=", 1) for line in
                    (build / "CMakeCache.txt").read_text(encoding="utf-8").splitlines()
                    if "=" in line and not line.startswith(("#", "/")))
@@ -43,7 +44,7 @@ def compiler(build):
 
 
 def table(build):
-    """Rows of what and what it is."""
+    """Returns rows of property and value."""
     return [["processor", processor()], ["cores", str(os.cpu_count())],
             ["widest instructions", instructions()], ["caches", caches()],
             ["compiler", compiler(build)]]

@@ -1,4 +1,5 @@
-// Runs one measurement and prints its figures as CSV.
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Runs one measurement and prints its results as CSV.
 
 #include <CLI/CLI.hpp>
 #include <exception>
@@ -8,7 +9,7 @@
 
 int main(int argc, char** argv) {
     using namespace tracked_mcf::benchmark;
-    CLI::App app("Measures the flow and its peers. run_benchmark.py calls this.");
+    CLI::App app("Measures the flow and its peers. run_benchmark.py calls this program.");
     app.require_subcommand(1);
     add_flow(app);
     add_rebuilt(app);

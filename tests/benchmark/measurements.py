@@ -1,4 +1,5 @@
-"""What the benchmark measures: runs of the driver, and the figures that they print."""
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Runs the benchmark's driver and keeps the measurements."""
 
 import csv
 import dataclasses
@@ -18,7 +19,7 @@ TRIAD = "triad"
 
 @dataclasses.dataclass(frozen=True)
 class Case:
-    """One configuration. `mesh` is its name in tables; `words` are what the driver is told."""
+    """One configuration. `mesh` is its name in tables; `words` are the driver's arguments."""
     peer: str
     mesh: str = ""
     step_size: float = 0
@@ -28,7 +29,7 @@ class Case:
 
 
 class Measurements:
-    """Runs cases and keeps all figures."""
+    """Runs cases and keeps all measurements."""
 
     KEYS = ("peer", "mesh", "step_size", "threads")
 
@@ -36,10 +37,10 @@ class Measurements:
         self._driver = driver
         self._other_binary = other_binary
         self._rows = []
-        self.failures = []  # what the driver was told where it did not succeed
+        self.failures = []  # arguments of failed runs
 
     def run(self, cases, repetitions):
-        """In turn, so that what else the machine does falls on all alike."""
+        """Runs the cases in turn, so that other load on the machine affects all alike."""
         for repetition, case in itertools.product(range(repetitions), cases):
             self._run_once(case, repetition)
 
@@ -48,13 +49,13 @@ class Measurements:
         words = [str(word) for word in case.words]
         print(f"... {' '.join(words)} {' '.join('='.join(e) for e in case.environment)}",
               file=sys.stderr, flush=True)
-        # Threads that wait at a barrier would else burn the processor time of other processes.
+        # Otherwise, threads that wait at a barrier take processor time from other processes.
         self._add(case, repetition, "load_average", 0, os.getloadavg()[0])
         environment = {**os.environ, "OMP_WAIT_POLICY": "passive", **dict(case.environment)}
         result = subprocess.run([driver, *words], env=environment, stdout=subprocess.PIPE,
                                 text=True, check=False)
         if result.returncode != 0:
-            # Out of memory, perhaps: that is a result, too. Its figures so far count.
+            # Possibly out of memory, which is a result, too. The measurements so far count.
             print(f"... ended with {result.returncode}", file=sys.stderr)
             self.failures.append(" ".join(words))
         for row in csv.DictReader(io.StringIO(result.stdout)):
@@ -66,17 +67,17 @@ class Measurements:
                            "quantity": quantity, "step": step, "value": value})
 
     def values(self, quantity, **case):
-        """All figures of that name, of cases with these values."""
+        """Returns all values of a quantity, of cases with these properties."""
         return [row["value"] for row in self._rows if row["quantity"] == quantity
                 and all(row[key] == value for key, value in case.items())]
 
     def median(self, quantity, **case):
-        """Over steps and repetitions; None if it was not measured."""
+        """Returns the median over steps and repetitions, or None if there is no value."""
         values = self.values(quantity, **case)
         return statistics.median(values) if values else None
 
     def quantities(self, prefix, **case):
-        """Names that begin so, in the order in which they were printed."""
+        """Returns the quantities with this prefix, in the order of the output."""
         return list(dict.fromkeys(row["quantity"] for row in self._rows
                                   if row["quantity"].startswith(prefix)
                                   and all(row[key] == value for key, value in case.items())))
@@ -95,7 +96,7 @@ class Measurements:
             writer.writerows(self._rows)
 
     def read(self, path):
-        """What write() wrote, instead of running."""
+        """Reads the file that write() wrote."""
         with open(path, newline="", encoding="utf-8") as file:
             for row in csv.DictReader(file):
                 self._rows.append({**row, "step_size": float(row["step_size"]),

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/benchmark/meshes.h"
 
 #include <algorithm>
@@ -6,8 +7,8 @@
 #include <sstream>
 #include <vector>
 
-#include "filter_tracked_mcf/core/grid.h"
-#include "filter_tracked_mcf/core/mesh_topology.h"
+#include "filter_tracked_mcf/core/cells/grid.h"
+#include "filter_tracked_mcf/core/mesh/mesh_topology.h"
 #include "filter_tracked_mcf/tool/mesh_file.h"
 #include "tests/support/shapes.h"
 
@@ -17,7 +18,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// What stands between colons.
+/// Splits a name at its colons.
 std::vector<std::string> words_of(const std::string& name) {
     std::vector<std::string> words;
     std::istringstream stream(name);
@@ -35,7 +36,7 @@ double mean_edge(const TriangleMesh& mesh) {
     return sum / (3 * static_cast<double>(mesh.triangles.size()));
 }
 
-/// The same at every call.
+/// Returns the same mesh at each call.
 TriangleMesh noisy_sphere(int frequency, double amplitude) {
     TriangleMesh mesh = shapes::geodesic_sphere(frequency);
     std::mt19937 random(1);
@@ -47,7 +48,7 @@ TriangleMesh noisy_sphere(int frequency, double amplitude) {
     return mesh;
 }
 
-/// Every triangle becomes four; new vertices lie in the middles of the edges.
+/// Splits each triangle into four at the midpoints of its edges.
 TriangleMesh split(const TriangleMesh& mesh) {
     const MeshTopology topology = topology_of(mesh);
     const auto first = static_cast<std::int32_t>(mesh.positions.size());
@@ -56,7 +57,7 @@ TriangleMesh split(const TriangleMesh& mesh) {
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
         const Triangle& t = mesh.triangles[i];
         const auto& edges = topology.edges[i];
-        // Without area: there is nothing to split.
+        // Triangles of zero area have no edges here.
         if (std::count(edges.begin(), edges.end(), MeshTopology::kNoEdge) != 0) continue;
         Triangle middle{};
         for (int k = 0; k < 3; ++k) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include <string>
@@ -6,21 +7,21 @@
 
 namespace tracked_mcf::benchmark {
 
-/// Radius of the spheres, which so fill the unit cube.
+/// Radius of the spheres. They fill the unit cube.
 inline constexpr double kSphereRadius = 0.5;
 
-/// A mesh by its name on the command line, as large as the unit cube:
+/// Returns the mesh of a name on the command line, scaled to the unit cube:
 ///
-///   sphere:N      geodesic sphere of frequency N, 10 N² + 2 vertices, about the origin
-///   sphere:N:A    the same with noise: every radius is off by up to A mean edges' length, at
-///   random tube:N        an open tube around which go N quads, as high as wide; about N² / 3
-///   vertices FILE          scaled so that its longest side is 1 FILE:K        the same with every
-///   triangle split into four, K times
+///   sphere:N      geodesic sphere about the origin, of frequency N, with 10 N² + 2 vertices
+///   sphere:N:A    the same with random noise of up to A mean edge lengths in the radius
+///   tube:N        open tube of N quads around, as high as wide, with about N² / 3 vertices
+///   FILE          a file, scaled to a longest side of 1
+///   FILE:K        the same with each triangle split into four, K times
 ///
-/// Throws what MeshFile and std::stoi throw.
+/// Throws the exceptions of MeshFile and std::stoi.
 TriangleMesh named_mesh(const std::string& name);
 
-/// Whether it is a sphere.
+/// Returns whether the name is a sphere's.
 bool is_sphere(const std::string& name);
 
 }  // namespace tracked_mcf::benchmark

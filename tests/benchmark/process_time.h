@@ -1,19 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "filter_tracked_mcf/core/stopwatch.h"
+#include "filter_tracked_mcf/core/parallel/stopwatch.h"
 
 namespace tracked_mcf::benchmark {
 
-/// Processor time of all threads of this process so far, seconds.
+/// Returns the processor time of all threads of this process so far, in seconds.
 double cpu_seconds();
 
-/// Seconds that have passed, and those that all threads together have worked.
+/// Wall time, and processor time of all threads, in seconds.
 struct Seconds {
     double wall = 0;
     double cpu = 0;
 };
 
-/// Both since it was made.
+/// Measures both since its construction.
 class ProcessStopwatch {
 public:
     Seconds seconds() const { return {wall_.seconds(), cpu_seconds() - cpu_start_}; }

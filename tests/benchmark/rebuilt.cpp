@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <CLI/CLI.hpp>
 #include <memory>
 
-#include "filter_tracked_mcf/core/flow.h"
-#include "filter_tracked_mcf/core/parallel.h"
-#include "filter_tracked_mcf/core/peak_memory.h"
+#include "filter_tracked_mcf/core/flow/flow.h"
+#include "filter_tracked_mcf/core/memory/process_memory.h"
+#include "filter_tracked_mcf/core/parallel/parallel.h"
 #include "tests/benchmark/meshes.h"
 #include "tests/benchmark/rows.h"
 #include "tests/benchmark/sphere_error.h"
@@ -20,7 +21,7 @@ void step(TriangleMesh& mesh, const FlowParameters& parameters, int number) {
     print_seconds("setup", number, whole.seconds());
     flow.step();
     const ProcessStopwatch moving;
-    flow.move_vertices(mesh);
+    flow.move_vertices(mesh.positions);
     print_seconds("move", number, moving.seconds());
     print_seconds("step", number, whole.seconds());
     const StepReport& report = flow.report().steps.at(0);
@@ -46,7 +47,8 @@ void run(const TrackedOptions& options) {
 void add_rebuilt(CLI::App& app) {
     const auto options = std::make_shared<TrackedOptions>();
     CLI::App* command = app.add_subcommand(
-        "rebuilt", "Our flow without tracking: set up anew from the evolved mesh at every step.");
+        "rebuilt",
+        "Measures our flow without tracking: a new set-up from the evolved mesh before each step.");
     add_options(*command, *options);
     command->callback([options] { run(*options); });
 }

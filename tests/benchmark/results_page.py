@@ -1,13 +1,14 @@
-"""The results page: tables and verdicts, from figures alone."""
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Makes the results page, tables and verdicts, from the measurements alone."""
 
 import machine
 from measurements import (BASELINE_INSTRUCTIONS, CGAL, IC, MIC, OTHER_BINARY, OURS, REBUILT, TRIAD)
 
-PROTOTYPE_NANOSECONDS = 41  # of assembly a sample
+PROTOTYPE_NANOSECONDS = 41  # for the assembly of a sample
 
-SMOOTHER_ALONE = 4  # δ in squared cells up to which V-cycles stay on a level: kStiff of the core
+SMOOTHER_ALONE = 4  # largest δ in squared cells without coarser levels: kStiff of the core
 
-BYTES_OF_ITERATION = 252  # of IC(0)-CG, for a vertex
+BYTES_OF_ITERATION = 252  # of IC(0)-CG, for each vertex
 
 
 def digits(value, unit=""):
@@ -22,8 +23,8 @@ def ratio(a, b):
 
 
 class Page:
-    """`main` is the mesh of the targets, `middle` the step size of most tables, of `steps` steps
-    each, `command` what was run."""
+    """The page. `main` is the mesh of the targets, `middle` the step size of most tables, `steps` the
+    number of steps and `command` the command of the run."""
 
     def __init__(self, measurements, build, main, step_sizes, middle, steps, command):
         self._of = measurements
@@ -59,7 +60,7 @@ class Page:
         self._tuning()
         return "\n".join(self._lines)
 
-    # What was measured.
+    # Measurements.
 
     def _ours(self, quantity, step_size=None, **more):
         case = {"peer": OURS, "mesh": self._main, "threads": 1, **more}
@@ -70,8 +71,7 @@ class Page:
         return self._of.median("step_cpu_seconds", **case)
 
     def _phase(self, phase, **case):
-        """Processor seconds of a part of the step, of which only wall seconds are measured: the same
-        share of the step's."""
+        """Returns processor seconds of a phase: the step's, times the phase's share of wall time."""
         wall, whole, cpu = (self._of.median(f"{what}_seconds", **case)
                             for what in (phase, "step", "step_cpu"))
         return ratio(wall, whole) * cpu if wall is not None else None
@@ -79,7 +79,7 @@ class Page:
     def _bandwidth(self, threads=1):
         return self._of.median("best_bytes_per_second", peer=TRIAD, threads=threads)
 
-    # How it is said.
+    # Output.
 
     def _say(self, line=""):
         self._lines.append(line)
@@ -96,7 +96,7 @@ class Page:
             self._say(f"| {' | '.join(row)} |")
         self._say()
 
-    # The sections.
+    # Sections.
 
     def _machine(self):
         self._title("Machine")
@@ -107,7 +107,7 @@ class Page:
                          "median)", f"{digits(ratio(self._bandwidth(threads), 1e9))}, "
                          f"{digits(ratio(median, 1e9))} GB/s"])
         loads = self._of.values("load_average")
-        rows.append(["processes that wanted to run meanwhile, this one among them (load average)",
+        rows.append(["load average, this process included",
                      f"{min(loads):.1f} to {max(loads):.1f}" if loads else "not recorded"])
         self._table(["what", "is"], rows)
 
@@ -115,48 +115,47 @@ class Page:
         self._title("Targets")
         rows = []
 
-        def target(number, what, measured, limit, at_least=False, unit=""):
+        def target(what, measured, limit, at_least=False, unit=""):
             met = "not measured" if measured is None else (
                 "met" if (measured >= limit if at_least else measured <= limit) else "**not met**")
-            rows.append([number, what, digits(measured, unit),
+            rows.append([what, digits(measured, unit),
                          f"at {'least' if at_least else 'most'} {digits(limit, unit)}", met])
 
         small, middle, large = self._step_sizes
-        for number, step_size, limit in (("1", middle, 0.5), ("1", large, 0.2), ("2", small, 1.5)):
-            target(number, f"step at δ = {step_size:g}, of {IC}'s",
+        for step_size, limit in ((middle, 0.5), (large, 0.2), (small, 1.5)):
+            target(f"step at δ = {step_size:g}, relative to {IC}",
                    ratio(self._step(OURS, step_size), self._step(IC, step_size)), limit)
         nanoseconds = ratio(self._ours("kernel_cpu_seconds"), self._ours("samples"))
-        target("3", "elements' matrices, a sample", nanoseconds and 1e9 * nanoseconds,
+        target("element matrices, per sample", nanoseconds and 1e9 * nanoseconds,
                PROTOTYPE_NANOSECONDS / 3, unit="ns")
         setup = self._ours("setup_cpu_seconds")
         microseconds = ratio(setup, self._ours("triangles"))
-        target("4", "set-up, a triangle", microseconds and 1e6 * microseconds, 1.2, unit="µs")
-        target("4", f"set-up, in steps of δ = {middle:g}", ratio(setup, self._step(OURS, middle)), 8)
-        target("4", "rebuilt at every step, of tracked",
+        target("set-up, per triangle", microseconds and 1e6 * microseconds, 1.2, unit="µs")
+        target(f"set-up, in steps of δ = {middle:g}", ratio(setup, self._step(OURS, middle)), 8)
+        target("rebuilt at every step, relative to tracked",
                ratio(self._step(REBUILT, middle), self._step(OURS, middle)), 7, at_least=True)
         for what in ("setup", "step"):
             one, two = (self._ours(f"{what}_seconds", threads=threads) for threads in (1, 2))
-            target("5", f"two threads, {what}: times faster", ratio(one, two), 1.7, at_least=True)
+            target(f"two threads, {what}: speed-up", ratio(one, two), 1.7, at_least=True)
             one, two = (self._ours(f"{what}_cpu_seconds", threads=threads) for threads in (1, 2))
-            target("5", f"two threads, {what}: processor time, of one's", ratio(two, one), 1.15)
-        target("6", "memory", ratio(self._ours("peak_memory_bytes"), 1e6), 700, unit="MB")
-        target("6", "memory, bunny_scan_871k, depth 9",
+            target(f"two threads, {what}: processor time, relative to one thread", ratio(two, one), 1.15)
+        target("memory", ratio(self._ours("peak_memory_bytes"), 1e6), 700, unit="MB")
+        target("memory, bunny_scan_871k, depth 9",
                ratio(self._ours("peak_memory_bytes", mesh="bunny_scan_871k, depth 9"), 1e9), 1.6,
                unit="GB")
         for what, spread in (("step", self._spread("step_cpu_seconds")),
                              ("memory", self._spread("peak_memory_bytes"))):
-            target("7", f"{what} for an unknown, largest of smallest", spread, 1.25)
+            target(f"{what} per unknown, largest relative to smallest", spread, 1.25)
         largest = self._of.values("peak_memory_bytes", peer=OURS)
-        target("7", "memory of the largest run", max(largest) / 1e9 if largest else None, 20,
+        target("memory of the largest run", max(largest) / 1e9 if largest else None, 20,
                unit="GB")
-        target("9", "speed of the chosen instructions, of the other binary's",
+        target("speed of the chosen instructions, relative to the other binary",
                ratio(self._step(OTHER_BINARY, middle), self._step(OURS, middle)), 0.9, at_least=True)
-        target("9", "forced baseline instructions: radius off by, of the displacement",
+        target("forced baseline instructions: difference of the radius, relative to the displacement",
                self._instruction_difference(), 1e-5)
-        target("10", f"CGAL, of ours, δ = {middle:g}",
+        target(f"CGAL, relative to ours, δ = {middle:g}",
                ratio(self._step(CGAL, middle), self._step(OURS, middle)), 20, at_least=True)
-        self._table(["issue's item", "what", "measured", "target", "verdict"], rows)
-        self._say("Item 8 is the table of floors below; the rest of item 3 is in the tests.\n")
+        self._table(["what", "measured", "target", "verdict"], rows)
 
     def _steps(self):
         self._title("Steps", "Processor seconds of a step (and wall seconds), iterations, memory. Steps "
@@ -233,7 +232,7 @@ class Page:
                      "times faster"], rows)
 
     def _instruction_difference(self):
-        """Of the mean radius, relative to how far the sphere has shrunk."""
+        """Returns the difference of the mean radius, relative to the sphere's shrinkage."""
         chosen, forced = (self._ours("mean_radius_error", peer=peer)
                           for peer in (OURS, BASELINE_INSTRUCTIONS))
         if chosen is None or forced is None:
@@ -336,12 +335,12 @@ class Page:
                                     for quantity in ("vertices", "iterations"))
             own = [self._of.median(quantity, peer=OURS, **case) for quantity in (
                 "sample_bytes", "fragment_bytes", "element_system_bytes", "coefficient_bytes")]
-            product, own_iterations, grid_step_size = (
+            product, own_iterations, step_size_in_cells = (
                 self._of.median(quantity, peer=OURS, **case)
-                for quantity in ("product_bytes", "iterations", "grid_step_size"))
-            if None not in (vertices, iterations, product, own_iterations, grid_step_size, *own):
+                for quantity in ("product_bytes", "iterations", "step_size_in_cells"))
+            if None not in (vertices, iterations, product, own_iterations, step_size_in_cells, *own):
                 floor(step_size, OURS, "assemble", sum(own))
-                products = 1 + 8 * 4 / 3 if grid_step_size > SMOOTHER_ALONE else 6
+                products = 1 + 8 * 4 / 3 if step_size_in_cells > SMOOTHER_ALONE else 6
                 floor(step_size, OURS, "solve", product * (products * own_iterations + 2))
                 floor(step_size, IC, "solve", BYTES_OF_ITERATION * vertices * iterations)
         self._table(["δ", "phase", "bytes", "floor", "measured", "times the floor"], rows)

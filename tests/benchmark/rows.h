@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include <string>
@@ -7,7 +8,7 @@
 
 namespace tracked_mcf::benchmark {
 
-/// What all subcommands print: a quantity, the step that it is of (from 1; 0 for the whole), and
+/// Prints the columns of all subcommands: a quantity, its step (from 1; 0 for the whole run), and
 /// its value.
 inline void print_header() {
     experiments::print_row("quantity", "step", "value");
@@ -18,7 +19,7 @@ void print_quantity(const std::string& quantity, int step, Value value) {
     experiments::print_row(quantity, step, value);
 }
 
-/// As NAME_seconds and NAME_cpu_seconds.
+/// Prints NAME_seconds and NAME_cpu_seconds.
 inline void print_seconds(const std::string& name, int step, const Seconds& seconds) {
     print_quantity(name + "_seconds", step, seconds.wall);
     print_quantity(name + "_cpu_seconds", step, seconds.cpu);

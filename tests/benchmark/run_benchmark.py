@@ -1,8 +1,9 @@
 #!/usr/bin/python3
-"""Measures set-up and steps of the flow beside its peers, and writes the results page.
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Measures the set-up and the steps of the flow and of its peers, and writes the results page.
 
-Everything is run in turn, each in a process of its own. In the output folder is left measurements.csv,
-all figures; the page is made from that alone. Whole, it takes about 20 minutes; with --quick, two.
+Each run is a separate process. The output folder gets measurements.csv with all numbers; the page is made
+from this file alone. A whole run takes about 20 minutes, a quick run two.
 """
 
 import argparse
@@ -19,8 +20,8 @@ from results_page import Page
 TOP = pathlib.Path(__file__).resolve().parents[2]
 STEP_SIZES = (1e-5, 5e-4, 5e-3)
 MIDDLE = 5e-4
-STEPS = 10  # as many as a flow makes unless told otherwise
-NOISE = 0.2  # mean edges' length
+STEPS = 10  # the default of a flow
+NOISE = 0.2  # in mean edge lengths
 LARGE_SCAN = "bunny_scan_871k"
 
 
@@ -30,36 +31,35 @@ def options():
     parser.add_argument("--build", type=pathlib.Path, default=TOP / "build", metavar="FOLDER",
                         help="where the project was built, tests and tool included")
     parser.add_argument("--meshes", type=pathlib.Path, metavar="FOLDER",
-                        default=TOP.parent / "shared" / "meshes",
-                        help=f"folder with {LARGE_SCAN}.ply.xz; where it is absent, that is left out")
+                        help=f"folder with {LARGE_SCAN}.ply.xz (default: that scan is not measured)")
     parser.add_argument("--output", type=pathlib.Path, metavar="FOLDER",
-                        help="for the figures (default: benchmark in the build folder)")
+                        help="for the measurements (default: benchmark in the build folder)")
     parser.add_argument("--page", type=pathlib.Path, metavar="FILE",
-                        help="the page (default: results.md beside this script; with --quick, in the "
+                        help="the page (default: results.md in this script's folder; with --quick, in the "
                         "output folder)")
     parser.add_argument("--quick", action="store_true",
-                        help="164,000 vertices instead of 655,000, once, and less of everything")
+                        help="164,000 vertices instead of 655,000, one repetition, fewer cases")
     parser.add_argument("--frequency", type=int, metavar="N",
-                        help="of the sphere that most is measured on (default: 256; with --quick, "
-                        "128); it has 10 N² + 2 vertices, and the other meshes of ours as many")
-    parser.add_argument("--repetitions", type=int, default=3, help="of what is compared directly")
+                        help="frequency of the main sphere (default: 256; with --quick, 128); it and the "
+                        "other generated meshes have about 10 N² + 2 vertices")
+    parser.add_argument("--repetitions", type=int, default=3, help="of the cases that are compared directly")
     parser.add_argument("--largest", type=int, default=1024, metavar="FREQUENCY",
-                        help="of the spheres for the scale; 1024 has 10.5 million vertices")
+                        help="largest frequency of the scaling test; 1024 has 10.5 million vertices")
     parser.add_argument("--binary", type=pathlib.Path, metavar="DRIVER",
-                        help="another tracked_mcf_benchmark to compare with, such as one that was built "
-                        "with -march=native")
+                        help="another tracked_mcf_benchmark to compare with, for example one built with "
+                        "-march=native")
     parser.add_argument("--page-only", action="store_true",
-                        help="make the page from the figures of the last run")
+                        help="make the page from the measurements of the last run")
     return parser.parse_args()
 
 
 def sphere(frequency, noise=NOISE):
-    """Name for the driver."""
+    """Returns the mesh's name for the driver."""
     return f"sphere:{frequency}:{noise}" if noise else f"sphere:{frequency}"
 
 
 def label(frequency):
-    """Name in tables."""
+    """Returns the mesh's name in tables."""
     vertices = 10 * frequency * frequency + 2
     return f"sphere, {vertices / 1e6:.1f} M" if vertices >= 1e6 else f"sphere, {vertices // 1000} k"
 
@@ -77,8 +77,7 @@ def baseline(mesh, name, step_size, threads=1, steps=STEPS, peer=IC):
                  "--relaxation", relaxation, "--most-iterations", 1000))
 
 
-# The baseline without one or the other choice: what that is called, what the driver is told, and the
-# environment.
+# The baseline without one of its choices: name, the driver's arguments, and environment.
 TUNINGS = (("Morton order", ("--order", "morton"), ()),
            ("the mesh's own order", ("--order", "given"), ()),
            ("no warm start", ("--cold",), ()),
@@ -86,7 +85,7 @@ TUNINGS = (("Morton order", ("--order", "morton"), ()),
 
 
 def has_cgal(build):
-    """Whether the driver was built with it."""
+    """Returns whether the driver was built with CGAL."""
     cache = (build / "CMakeCache.txt").read_text(encoding="utf-8")
     return "TRACKED_MCF_BENCHMARK:BOOL=ON" in cache
 
@@ -96,7 +95,7 @@ def cgal(mesh, name, step_size):
 
 
 class Benchmark:
-    """All cases. `main` is the sphere of the targets."""
+    """All cases. `main` is the sphere of the targets, `clean` the same without noise."""
 
     def __init__(self, arguments, output):
         self._arguments = arguments
@@ -145,7 +144,7 @@ class Benchmark:
         return [ours(sphere(self._frequency), self.main, MIDDLE, steps=2, peer=REBUILT)]
 
     def _accuracy(self):
-        """Of steps of which the exact radius is known; on coarser grids and meshes, too."""
+        """Returns cases with a known exact radius, on coarser grids and meshes, too."""
         steps = STEPS
         cases = []
         for frequency in (self._frequency // 2, self._frequency):
@@ -163,8 +162,8 @@ class Benchmark:
         largest = 2 * self._frequency if self._arguments.quick else self._arguments.largest
         frequencies = [f for f in (16, 32, 64, 128, 256, 512, 1024, 2048)
                        if self._frequency // 4 <= f <= largest]
-        # δ in squared cells is the same for all, and with it the solver's work. The first step has
-        # to fetch memory.
+        # δ in squared cells, and so the solver's work, is the same for all. The first step also
+        # allocates memory.
         return [ours(sphere(f), f"{label(f)}, scaled", MIDDLE * (256 / f)**2, steps=4)
                 for f in frequencies]
 
@@ -181,7 +180,7 @@ class Benchmark:
         return cases
 
     def _files(self):
-        """Names for the driver and in tables, and depths to measure beside the automatic one."""
+        """Returns names for the driver and for tables, and depths besides the automatic one."""
         around = round(5.477 * self._frequency)
         tube = f"open tube, {around * (around // 3 + 1) // 1000} k"
         meshes = [(f"tube:{around}", tube, ())]
@@ -189,8 +188,8 @@ class Benchmark:
         armadillo = self._arguments.build / "cgal-meshes" / "armadillo.off"
         if armadillo.exists():
             meshes.append((f"{armadillo}:{1 if quick else 2}", "armadillo, refined", ()))
-        packed = self._arguments.meshes / f"{LARGE_SCAN}.ply.xz"
-        if packed.exists() and not quick:
+        if self._arguments.meshes and not quick:
+            packed = self._arguments.meshes / f"{LARGE_SCAN}.ply.xz"
             meshes.append((unpacked(packed, self._output), LARGE_SCAN, (9,)))
         return meshes
 
@@ -204,7 +203,7 @@ def unpacked(packed, folder):
 
 
 def command_line(arguments):
-    """What the figures were measured with, as far as it matters to them."""
+    """Returns the command without the options that do not affect the measurements."""
     words = ["tests/benchmark/run_benchmark.py"]
     if arguments.quick:
         words.append("--quick")
@@ -235,7 +234,7 @@ def main():
                 command_line(arguments))
     (arguments.page or beside / "results.md").write_text(page.text(), encoding="utf-8")
     if measurements.failures:
-        sys.exit("These did not succeed:\n" + "\n".join(measurements.failures))
+        sys.exit("These runs failed:\n" + "\n".join(measurements.failures))
 
 
 if __name__ == "__main__":

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/benchmark/setup_times.h"
 
 namespace tracked_mcf::benchmark {
@@ -9,7 +10,7 @@ Progress SetupTimes::progress() {
     };
 }
 
-/// Calls come in between, too.
+/// The callback is called several times in each phase.
 void SetupTimes::enter(std::string_view phase) {
     if (phase == phase_) return;
     if (!phase_.empty()) times_.emplace_back(phase_, since_entered_.seconds());

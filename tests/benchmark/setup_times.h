@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include <string>
@@ -10,13 +11,13 @@
 
 namespace tracked_mcf::benchmark {
 
-/// Measures the phases of a set-up as a callback is told of them.
+/// Measures the phases of a set-up by the names that the progress callback receives.
 class SetupTimes {
 public:
-    /// To be given to a ProgressMeter; this must outlive it.
+    /// Returns the callback for a ProgressMeter. This object must outlive the meter.
     Progress progress();
 
-    /// The last phase is over. Returns all with their times, in order.
+    /// Ends the last phase. Returns all phases with their times, in order.
     const std::vector<std::pair<std::string, Seconds>>& finish();
 
 private:

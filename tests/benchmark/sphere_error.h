@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include <Eigen/Core>
@@ -6,9 +7,10 @@
 
 namespace tracked_mcf::benchmark {
 
-/// If the mesh of that name was a sphere: prints how far it is, after `steps` steps of δ, from the
-/// exact radius of semi-implicit steps, r(t + δ) = r³ / (r² + 2δ): the mean radius, signed, and the
-/// worst vertex. Of a noisy one that is what is left of the noise, too.
+/// Prints the error of a sphere after `steps` steps of δ, against the exact radius of semi-implicit
+/// steps, r(t + δ) = r³ / (r² + 2δ): the signed error of the mean radius and the largest error of a
+/// vertex. The errors of a noisy sphere include the remaining noise. Prints nothing for other
+/// meshes.
 void print_sphere_error(const std::string& name, const std::vector<Eigen::Vector3d>& positions,
                         double step_size, int steps);
 

@@ -1,27 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-namespace CLI {
+namespace CLI {  // NOLINT(readability-identifier-naming): it is not ours
 class App;
 }
 
-/// What tracked_mcf_benchmark measures, each a subcommand. They print CSV (rows.h) on standard
-/// output; every run is a process of its own, so that its peak memory is its own. run_benchmark.py
-/// chooses the runs, and makes tables of them.
+/// The subcommands of tracked_mcf_benchmark. Each prints CSV (rows.h) on standard output. Each run
+/// is a separate process with its own peak memory. run_benchmark.py chooses the runs and makes
+/// tables.
 namespace tracked_mcf::benchmark {
 
-/// Our flow.
+/// Measures our flow.
 void add_flow(CLI::App& app);
 
-/// Our flow without tracking: set up anew from the evolved mesh before every step.
+/// Measures our flow without tracking: a new set-up from the evolved mesh before each step.
 void add_rebuilt(CLI::App& app);
 
-/// The cotangent flow with conjugate gradients and an incomplete factorisation.
+/// Measures the cotangent flow with conjugate gradients and an incomplete factorisation.
 void add_baseline(CLI::App& app);
 
-/// CGAL's smooth_shape, if this was built with it.
+/// Measures CGAL's smooth_shape. Adds nothing if CGAL is not enabled.
 void add_cgal(CLI::App& app);
 
-/// The machine's memory bandwidth.
+/// Measures the machine's memory bandwidth.
 void add_triad(CLI::App& app);
 
 }  // namespace tracked_mcf::benchmark

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/benchmark/tracked_options.h"
 
 #include <CLI/CLI.hpp>
@@ -17,11 +18,10 @@ FlowParameters TrackedOptions::parameters() const {
 }
 
 void add_options(CLI::App& command, TrackedOptions& options) {
-    command.add_option("mesh", options.mesh, "as tests/benchmark/meshes.h spells it")->required();
-    command.add_option("--solver", options.configuration,
-                       "as tests/experiments/configuration.h spells it");
+    command.add_option("mesh", options.mesh, "see tests/benchmark/meshes.h")->required();
+    command.add_option("--solver", options.configuration, "see tests/experiments/configuration.h");
     command.add_option("--step-size", options.step_size);
-    command.add_option("--depth", options.depth, "0 for the automatic one");
+    command.add_option("--depth", options.depth, "0: automatic");
     command.add_option("--steps", options.steps)->check(CLI::PositiveNumber);
     command.add_option("--threads", options.threads)->check(CLI::PositiveNumber);
 }

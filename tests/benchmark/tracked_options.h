@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include <string>
@@ -10,7 +11,7 @@ class App;
 
 namespace tracked_mcf::benchmark {
 
-/// What the subcommands that run our flow are told.
+/// The options of the subcommands that run our flow.
 struct TrackedOptions {
     std::string mesh;
     std::string configuration = "converged";
@@ -19,7 +20,7 @@ struct TrackedOptions {
     int steps = 4;
     int threads = 1;
 
-    /// For a mesh in the unit cube, so that δ is absolute.
+    /// Returns the parameters for a mesh in the unit cube, with an absolute δ.
     FlowParameters parameters() const;
 };
 

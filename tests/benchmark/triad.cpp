@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <vector>
 
-#include "filter_tracked_mcf/core/stopwatch.h"
+#include "filter_tracked_mcf/core/parallel/stopwatch.h"
 #include "tests/benchmark/rows.h"
 #include "tests/benchmark/subcommands.h"
 
@@ -48,8 +49,9 @@ void run(const Options& options) {
 
 void add_triad(CLI::App& app) {
     const auto options = std::make_shared<Options>();
-    CLI::App* command = app.add_subcommand(
-        "triad", "Memory bandwidth: a = b + s c over large arrays, three streams counted.");
+    CLI::App* command = app.add_subcommand("triad",
+                                           "Measures the memory bandwidth of a = b + s c over "
+                                           "large arrays, counted as three streams.");
     command->add_option("--threads", options->threads)->check(CLI::PositiveNumber);
     command->add_option("--megabytes", options->megabytes)->check(CLI::PositiveNumber);
     command->add_option("--repetitions", options->repetitions)->check(CLI::PositiveNumber);

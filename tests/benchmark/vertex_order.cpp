@@ -1,71 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/benchmark/vertex_order.h"
 
 #include <algorithm>
+#include <boost/graph/compressed_sparse_row_graph.hpp>
+#include <boost/graph/cuthill_mckee_ordering.hpp>
 #include <numeric>
 #include <stdexcept>
 #include <utility>
 
-#include "filter_tracked_mcf/core/morton.h"
+#include "filter_tracked_mcf/core/cells/grid.h"
 
 namespace tracked_mcf::benchmark {
 
 namespace {
 
-/// Of every vertex the vertices that share a triangle with it, most of them twice.
-struct Neighbours {
-    std::vector<std::int32_t> begin;  ///< of every vertex, and the end
-    std::vector<std::int32_t> vertices;
-};
-
-Neighbours neighbours_of(const TriangleMesh& mesh) {
-    Neighbours neighbours;
-    neighbours.begin.assign(mesh.positions.size() + 1, 0);
-    for (const Triangle& t : mesh.triangles) {
-        for (const std::int32_t vertex : t) neighbours.begin[vertex + 1] += 2;
-    }
-    std::partial_sum(neighbours.begin.begin(), neighbours.begin.end(), neighbours.begin.begin());
-    neighbours.vertices.resize(neighbours.begin.back());
-    std::vector<std::int32_t> next(neighbours.begin.begin(), neighbours.begin.end() - 1);
+/// Returns both directions of each triangle's edges. An edge of two triangles occurs twice.
+std::vector<std::pair<std::int32_t, std::int32_t>> directed_edges(const TriangleMesh& mesh) {
+    std::vector<std::pair<std::int32_t, std::int32_t>> edges;
+    edges.reserve(6 * mesh.triangles.size());
     for (const Triangle& t : mesh.triangles) {
         for (int i = 0; i < 3; ++i) {
-            neighbours.vertices[next[t[i]]++] = t[(i + 1) % 3];
-            neighbours.vertices[next[t[i]]++] = t[(i + 2) % 3];
+            edges.emplace_back(t[i], t[(i + 1) % 3]);
+            edges.emplace_back(t[(i + 1) % 3], t[i]);
         }
     }
-    return neighbours;
+    return edges;
 }
 
-/// Appends the vertices that are connected with `start` to `order`, breadth first.
-void append_breadth_first(const Neighbours& neighbours, std::int32_t start,
-                          std::vector<std::uint8_t>& visited, std::vector<std::int32_t>& order) {
-    visited[start] = 1;
-    std::size_t next = order.size();
-    order.push_back(start);
-    for (; next < order.size(); ++next) {
-        const std::int32_t vertex = order[next];
-        for (std::int32_t k = neighbours.begin[vertex]; k < neighbours.begin[vertex + 1]; ++k) {
-            const std::int32_t neighbour = neighbours.vertices[k];
-            if (std::exchange(visited[neighbour], std::uint8_t{1}) == 0) order.push_back(neighbour);
-        }
-    }
-}
-
-/// Every part is begun at the vertex that a first search from anywhere in it has reached last.
 std::vector<std::int32_t> reverse_cuthill_mckee(const TriangleMesh& mesh) {
-    const Neighbours neighbours = neighbours_of(mesh);
-    const auto count = static_cast<std::int32_t>(mesh.positions.size());
-    std::vector<std::uint8_t> found(count);
-    std::vector<std::uint8_t> visited(count);
-    std::vector<std::int32_t> order;
-    std::vector<std::int32_t> part;
-    order.reserve(count);
-    for (std::int32_t vertex = 0; vertex < count; ++vertex) {
-        if (visited[vertex] != 0) continue;
-        part.clear();
-        append_breadth_first(neighbours, vertex, found, part);
-        append_breadth_first(neighbours, part.back(), visited, order);
-    }
-    std::reverse(order.begin(), order.end());
+    const auto edges = directed_edges(mesh);
+    const boost::compressed_sparse_row_graph<boost::directedS> graph(
+        boost::edges_are_unsorted_multi_pass, edges.begin(), edges.end(), mesh.positions.size());
+    std::vector<boost::default_color_type> colors(mesh.positions.size());
+    std::vector<std::int32_t> order(mesh.positions.size());
+    boost::cuthill_mckee_ordering(
+        graph, order.rbegin(),
+        boost::make_iterator_property_map(colors.begin(), get(boost::vertex_index, graph)),
+        boost::make_out_degree_map(graph));
     return order;
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include <cstdint>
@@ -8,18 +9,18 @@
 
 namespace tracked_mcf::benchmark {
 
-/// How the unknowns of the mesh's linear system are numbered: it decides how near in memory
-/// neighbours are, and how good an incomplete factorisation is.
+/// The numbering of the unknowns of the mesh's linear system. It determines the distance of
+/// neighbours in memory and the quality of an incomplete factorisation.
 enum class VertexOrder {
     AsGiven,
-    ReverseCuthillMcKee,  ///< breadth first from a vertex at the rim, the last one first
-    Morton                ///< along a curve through the cells of an octree
+    ReverseCuthillMcKee,  ///< breadth first, in reverse
+    Morton                ///< along a Morton curve through the cells of an octree
 };
 
-/// "given", "rcm" or "morton". Throws std::invalid_argument for anything else.
+/// Parses "given", "rcm" or "morton". Throws std::invalid_argument for any other name.
 VertexOrder parse_vertex_order(const std::string& name);
 
-/// The mesh's vertices in that order.
+/// Returns the mesh's vertices in this order.
 std::vector<std::int32_t> ordered_vertices(const TriangleMesh& mesh, VertexOrder order);
 
 }  // namespace tracked_mcf::benchmark

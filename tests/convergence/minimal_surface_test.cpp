@@ -1,4 +1,5 @@
-// Held boundaries: what is flowed to rest is a minimal surface.
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A flow with a locked boundary converges to a minimal surface.
 
 #include <gtest/gtest.h>
 
@@ -8,7 +9,8 @@
 #include <tuple>
 
 #include "filter_tracked_mcf/core/evolve.h"
-#include "filter_tracked_mcf/core/flow.h"
+#include "filter_tracked_mcf/core/flow/flow.h"
+#include "filter_tracked_mcf/core/mesh/measures.h"
 #include "tests/support/minimal_surfaces.h"
 #include "tests/support/shapes.h"
 #include "tests/support/surface_distance.h"
@@ -26,7 +28,7 @@ constexpr int kSteps = 40;
 constexpr double kLongStep = 4;
 constexpr std::array<int, 4> kDepths = {4, 5, 6, 7};
 
-/// The cube [-1.1, 1.1]³, whichever way the mesh in it is turned.
+/// Returns a grid of the cube [-1.1, 1.1]³, for every rotation of the mesh.
 Grid grid_of_depth(int depth) {
     return with_depth({Vector3d::Constant(-1.1), 2.2, 0}, depth);
 }
@@ -38,12 +40,12 @@ TriangleMesh flowed(TriangleMesh mesh, const Grid& grid, BoundaryCondition bound
     parameters.step_size = step_size;
     Flow flow(mesh, parameters, grid);
     for (int step = 0; step < kSteps; ++step) EXPECT_TRUE(flow.step());
-    flow.move_vertices(mesh);
+    flow.move_vertices(mesh.positions);
     return mesh;
 }
 
-/// Of errors over kDepths: the least order from one depth to the next, down to errors that are
-/// the mesh's own.
+/// Returns the lowest order of `errors` between two consecutive depths, down to the mesh's own
+/// error.
 double least_order(const std::array<double, kDepths.size()>& errors, double mesh_error) {
     double least = 10;
     for (std::size_t i = 1; i < errors.size() && errors[i - 1] > 2 * mesh_error; ++i) {
@@ -54,7 +56,7 @@ double least_order(const std::array<double, kDepths.size()>& errors, double mesh
 
 class CatenoidFlow : public testing::Test {
 protected:
-    /// A cylinder between the rings, flowed to rest.
+    /// Returns the cylinder between the rings after the flow has brought it to rest.
     TriangleMesh flowed_tube(int depth, BoundaryCondition boundary,
                              double step_size = kLongStep) const {
         const TriangleMesh tube = shapes::tube(360, 48, catenoid_.height());
@@ -75,14 +77,14 @@ protected:
     void tilt() { turn_ = Eigen::AngleAxisd(0.3, Vector3d(1, 0.3, 0.2).normalized()); }
 
     const Catenoid catenoid_{0.8};
-    /// Of 360 chords instead of a circle, at their middle.
+    /// The largest distance of a circle from its 360 chords.
     const double mesh_error_ = 1 - std::cos(std::acos(-1.0) / 360);
 
 private:
     Eigen::Affine3d turn_ = Eigen::Affine3d::Identity();
 };
 
-TEST_F(CatenoidFlow, AlongTheGridOnlyTheChordsAreOff) {
+TEST_F(CatenoidFlow, AlongTheGridTheErrorIsThatOfTheChords) {
     const auto errors = this->errors();
     EXPECT_GE(least_order(errors, mesh_error_), 1.5);
     const TriangleMesh at_rest = flowed_tube(5, kLocked);
@@ -90,7 +92,7 @@ TEST_F(CatenoidFlow, AlongTheGridOnlyTheChordsAreOff) {
     EXPECT_GE(error(5, kLockedCells), 10 * errors[1]);
 }
 
-TEST_F(CatenoidFlow, AcrossTheGrid) {
+TEST_F(CatenoidFlow, ConvergesObliqueToTheGrid) {
     tilt();
     const auto errors = this->errors();
     EXPECT_GE(least_order(errors, mesh_error_), 1.5);
@@ -98,7 +100,7 @@ TEST_F(CatenoidFlow, AcrossTheGrid) {
     EXPECT_GE(error(5, kLockedCells), 10 * errors[1]);
 }
 
-TEST_F(CatenoidFlow, AnyStepSizeLeadsThere) {
+TEST_F(CatenoidFlow, ConvergesForAnyStepSize) {
     tilt();
     const TriangleMesh usual = flowed_tube(5, kLocked);
     for (const double step_size : {0.1, 1.0, 100.0}) {
@@ -123,11 +125,11 @@ TEST(EnneperFlow, ConvergesWithAnOrderOfOneAndAHalf) {
         errors[i] = std::sqrt(squares / static_cast<double>(moved.positions.size()));
         std::printf("depth %d: %.2e\n", kDepths[i], errors[i]);
     }
-    // Fitted, for how the boundary lies in the cells makes it waver.
+    // A fit, because the order varies with the boundary's position in the cells.
     EXPECT_GE(std::log2(errors.front() / errors.back()) / 3, 1.5);
 }
 
-/// Boundary, flow, solver, and whether the plane is oblique.
+/// Boundary, flow, solver, and whether the plane is oblique to the grid.
 using FlatCase = std::tuple<BoundaryCondition, FlowKind, Solver, bool>;
 
 class FlatFlow : public testing::TestWithParam<FlatCase> {
@@ -147,7 +149,7 @@ protected:
     }
 };
 
-TEST_P(FlatFlow, StaysFlatAndWhereItIsHeld) {
+TEST_P(FlatFlow, StaysInItsPlane) {
     const TriangleMesh before = shapes::transformed(shapes::annulus(120, 20, 0.4, 1), placement());
     TriangleMesh after = before;
     evolve(after, parameters());

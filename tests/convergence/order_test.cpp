@@ -1,4 +1,5 @@
-// Halving the cells quarters the error.
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The error is of second order in the cell size.
 
 #include <gtest/gtest.h>
 
@@ -15,14 +16,14 @@ TriangleMesh flowed(TriangleMesh mesh, int depth) {
     parameters.depth = depth;
     parameters.step_size = 1e-3;
     parameters.iterations = 2;
-    parameters.tolerance = 1e-7;  // the solver's error is not to be measured
+    parameters.tolerance = 1e-7;  // so that the solver's error is negligible
     for (const StepReport& step : evolve(mesh, parameters).steps) {
         EXPECT_TRUE(step.reached_tolerance);
     }
     return mesh;
 }
 
-/// Root mean square distance between vertices of the same index.
+/// Returns the root mean square distance between vertices of the same index.
 double distance(const TriangleMesh& a, const TriangleMesh& b) {
     double sum = 0;
     for (std::size_t i = 0; i < a.positions.size(); ++i) {
@@ -31,8 +32,8 @@ double distance(const TriangleMesh& a, const TriangleMesh& b) {
     return std::sqrt(sum / static_cast<double>(a.positions.size()));
 }
 
-// From depth to depth on the same mesh, whose own error is then not in it. Its triangles are
-// smaller than the smallest cells. Not a sphere: that shrinks by functions that any grid has.
+// Compares depths on the same mesh, so that the mesh's own error cancels. Its triangles are smaller
+// than the smallest cells. It is not a sphere, because any grid represents a sphere's displacement.
 TEST(Order, IsTwoInTheCellSize) {
     const TriangleMesh mesh = shapes::bumpy_sphere(160);
     TriangleMesh coarse = flowed(mesh, 4);

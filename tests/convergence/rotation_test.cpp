@@ -1,18 +1,19 @@
-// Turning a mesh and flowing commute up to the discretisation error: the grid does not turn with
-// it.
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Rotations and the flow commute up to the discretisation error, because the grid does not rotate.
 
 #include <gtest/gtest.h>
 
+#include "filter_tracked_mcf/core/cells/grid.h"
 #include "filter_tracked_mcf/core/evolve.h"
-#include "filter_tracked_mcf/core/grid.h"
 #include "tests/support/shapes.h"
 
 namespace tracked_mcf {
 namespace {
 
-/// Root mean square distance between flowing a turned mesh and turning the flowed one.
+/// Returns the root mean square distance between flowing the turned mesh and turning the flowed
+/// mesh.
 double disagreement(const TriangleMesh& mesh, const Eigen::Affine3d& turn, int depth) {
-    // δ is relative to the bounding box, which turning changes: keep the absolute one.
+    // δ is relative to the bounding box. Turning changes the box, so this keeps the absolute δ.
     const auto flowed = [&](TriangleMesh m) {
         FlowParameters parameters;
         parameters.depth = depth;

@@ -1,4 +1,5 @@
-// Figures 2 and 3: long flows of scans stay stable, with short and with long steps.
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Long flows of scans stay stable, with short and with long steps (Figures 2 and 3).
 
 #include <gtest/gtest.h>
 
@@ -11,14 +12,14 @@
 #include <utility>
 
 #include "filter_tracked_mcf/core/evolve.h"
+#include "filter_tracked_mcf/core/mesh/measures.h"
 #include "tests/support/off_file.h"
 
 namespace tracked_mcf {
 namespace {
 
-/// Mean angle between the normals of neighbouring triangles of `mesh`, weighted by their area; of
-/// triangles that still have a tenth of the area they had in `initial`, for what has collapsed to
-/// threads is not smooth. Small where a surface is.
+/// Returns the mean angle between the normals of neighbouring triangles, weighted by area. Omits
+/// triangles with less than a tenth of their area in `initial`, because threads are not smooth.
 double roughness(const TriangleMesh& mesh, const TriangleMesh& initial) {
     std::map<std::pair<std::int32_t, std::int32_t>, Eigen::Vector3d> seen;
     double sum = 0;
@@ -38,7 +39,7 @@ double roughness(const TriangleMesh& mesh, const TriangleMesh& initial) {
     return sum / weight;
 }
 
-/// Of all edges, mesh units: what a vertex that is flung away would lengthen.
+/// Returns the longest edge in mesh units. An unstable vertex would make it longer.
 double longest_edge(const TriangleMesh& mesh) {
     double longest = 0;
     for (const Triangle& t : mesh.triangles) {
@@ -50,7 +51,7 @@ double longest_edge(const TriangleMesh& mesh) {
     return longest;
 }
 
-/// Flows a mesh and checks what must hold however much of it pinches.
+/// Flows a mesh and checks the properties that pinching does not change.
 FlowReport flow(TriangleMesh& mesh, Solver solver, double step_size, int iterations) {
     const TriangleMesh before = mesh;
     FlowParameters parameters;

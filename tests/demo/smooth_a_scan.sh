@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
-# From a fresh clone to a smoothed scan: installs what is missing (Debian bookworm), gets the Stanford
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Smooths a scan from a fresh clone: installs what is missing (Debian bookworm), fetches the Stanford
 # bunny of CGAL's examples, builds, smooths the bunny in stock meshlabserver with our plugin, and
 # draws it before and after: smooth_a_scan.sh
 #
-# Everything is put into build/; the MeshLab that is installed is not touched.
+# All results are in build/. The installed MeshLab stays as it is.
 set -euo pipefail
 
 root=$(realpath "$(dirname "$0")/../..")

@@ -1,15 +1,14 @@
-#include <CLI/CLI.hpp>
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <map>
-#include <memory>
 #include <string>
 #include <vector>
 
-#include "filter_tracked_mcf/core/flow.h"
-#include "filter_tracked_mcf/core/stopwatch.h"
-#include "tests/experiments/configuration.h"
+#include "filter_tracked_mcf/core/flow/flow.h"
+#include "filter_tracked_mcf/core/parallel/stopwatch.h"
 #include "tests/experiments/csv.h"
 #include "tests/experiments/experiments.h"
 #include "tests/experiments/meshes.h"
+#include "tests/experiments/options.h"
 #include "tests/experiments/reference.h"
 #include "tests/support/surface_distance.h"
 
@@ -17,19 +16,9 @@ namespace tracked_mcf::experiments {
 
 namespace {
 
-struct Options {
-    std::string mesh;
-    std::vector<int> depths;
-    std::vector<int> steps;  ///< numbers of steps after which to measure
-    std::vector<std::string> configurations;
-    double step_size = 1e-5;
-};
-
 void measure(const TriangleMesh& mesh, const std::map<int, Reference>& references,
              const Options& options, int depth, const std::string& configuration) {
-    FlowParameters parameters = parse_configuration(configuration);
-    parameters.depth = depth;
-    parameters.step_size = options.step_size;
+    FlowParameters parameters = options.parameters(depth, configuration);
     parameters.boundary = BoundaryCondition::Free;
     const double unit = diagonal(mesh);
     const Stopwatch stopwatch;
@@ -42,7 +31,7 @@ void measure(const TriangleMesh& mesh, const std::map<int, Reference>& reference
         if (reference == references.end()) continue;
         const TriangleMesh& exact = reference->second.mesh;
         TriangleMesh moved = mesh;
-        flow.move_vertices(moved);
+        flow.move_vertices(moved.positions);
         const NormalDistance all = normal_distance(moved, exact);
         const NormalDistance sound = normal_distance(moved, exact, reference->second.left_out);
         print_row(depth, configuration, step, all.rms / unit, all.worst / unit, sound.rms / unit,
@@ -56,29 +45,21 @@ void run(const Options& options) {
               "sound_part", "moved", "iterations", "seconds");
     const TriangleMesh mesh = named_mesh(options.mesh);
     const std::map<int, Reference> references =
-        cotangent_flow(mesh, options.step_size, options.steps);
-    for (const int depth : options.depths) {
-        for (const std::string& configuration : options.configurations) {
-            measure(mesh, references, options, depth, configuration);
-        }
-    }
+        cotangent_flow(mesh, options.step_size(), options.steps);
+    options.for_each_case([&](int depth, const std::string& configuration) {
+        measure(mesh, references, options, depth, configuration);
+    });
 }
 
 }  // namespace
 
 void add_accuracy(CLI::App& app) {
-    const auto options = std::make_shared<Options>();
-    CLI::App* command = app.add_subcommand(
-        "accuracy",
-        "Distance along the normal to the cotangent flow, in diagonals of the initial bounding "
-        "box: of all vertices, and of those where the cotangent flow's triangles are sound. "
-        "Boundaries are free in both. 'moved' is the distance of the initial mesh.");
-    command->add_option("mesh", options->mesh)->required();
-    command->add_option("--depths", options->depths)->required();
-    command->add_option("--steps", options->steps, "measure after so many")->required();
-    command->add_option("--configurations", options->configurations)->required();
-    command->add_option("--step-size", options->step_size);
-    command->callback([options] { run(*options); });
+    add_experiment(
+        app, "accuracy",
+        "Prints the distance to the cotangent flow along the normal, in diagonals of the initial "
+        "bounding box: for all vertices, and for vertices where the cotangent flow's triangles are "
+        "sound. Boundaries are free. 'moved' is the distance of the initial mesh.",
+        run, Options());
 }
 
 }  // namespace tracked_mcf::experiments

@@ -1,13 +1,12 @@
-#include <CLI/CLI.hpp>
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <Eigen/Geometry>
-#include <memory>
 #include <string>
 #include <vector>
 
-#include "filter_tracked_mcf/core/flow.h"
-#include "tests/experiments/configuration.h"
+#include "filter_tracked_mcf/core/flow/flow.h"
 #include "tests/experiments/csv.h"
 #include "tests/experiments/experiments.h"
+#include "tests/experiments/options.h"
 #include "tests/support/shapes.h"
 #include "tests/support/surface_distance.h"
 
@@ -17,20 +16,13 @@ namespace {
 
 using Eigen::Vector3d;
 
-struct Options {
-    std::vector<int> depths;
-    std::string configuration = "converged";
-    double step_size = 1e-3;
-    int steps = 5;
-};
-
 struct Shape {
     std::string name;
     TriangleMesh mesh;
     Grid grid;
 };
 
-/// The cube [-1, 1]³, which the grid planes through integers divide.
+/// Returns a grid of the cube [-1, 1]³.
 Grid centred_grid(int depth) {
     Grid grid;
     grid.depth = depth;
@@ -44,8 +36,8 @@ TriangleMesh centred_box(int n, const Vector3d& sizes) {
                                Eigen::Affine3d(Eigen::Translation3d(-sizes / 2)));
 }
 
-/// A box blown up to a ball: unlike the geodesic sphere, its edges go all along the planes of
-/// symmetry, and its corners lie on grid lines.
+/// A box projected to a ball: unlike the geodesic sphere, it has edges in the planes of symmetry
+/// and vertices on grid lines.
 TriangleMesh box_sphere(int n, double radius) {
     TriangleMesh mesh = centred_box(n, Vector3d::Ones());
     for (Vector3d& position : mesh.positions) position = radius * position.normalized();
@@ -69,19 +61,18 @@ std::vector<Shape> shapes_on_grids(int depth) {
 TriangleMesh flowed(const Shape& shape, FlowParameters parameters, bool separate,
                     const Options& options, std::int64_t& unknowns) {
     parameters.separate_sheets = separate;
-    parameters.step_size = options.step_size;
     Flow flow(shape.mesh, parameters, shape.grid);
     unknowns = flow.report().unknowns;
-    for (int i = 0; i < options.steps; ++i) flow.step();
+    for (int i = 0; i < options.last_step(); ++i) flow.step();
     TriangleMesh mesh = shape.mesh;
-    flow.move_vertices(mesh);
+    flow.move_vertices(mesh.positions);
     return mesh;
 }
 
 void run(const Options& options) {
     print_row("shape", "depth", "glued_unknowns", "separated_unknowns", "difference", "moved");
-    const FlowParameters parameters = parse_configuration(options.configuration);
-    for (const int depth : options.depths) {
+    options.for_each_case([&](int depth, const std::string& configuration) {
+        const FlowParameters parameters = options.parameters(depth, configuration);
         for (const Shape& shape : shapes_on_grids(depth)) {
             std::int64_t glued_unknowns = 0;
             std::int64_t separated_unknowns = 0;
@@ -92,22 +83,18 @@ void run(const Options& options) {
                       worst_distance(separated, glued) / diagonal(shape.mesh),
                       worst_distance(glued, shape.mesh) / diagonal(shape.mesh));
         }
-    }
+    });
 }
 
 }  // namespace
 
 void add_aligned(CLI::App& app) {
-    const auto options = std::make_shared<Options>();
-    CLI::App* command = app.add_subcommand(
-        "aligned",
-        "Shapes whose edges lie in grid planes and on grid lines, without two sheets in a cell: "
-        "worst difference of a vertex between separated and glued sheets, in diagonals.");
-    command->add_option("--depths", options->depths)->required();
-    command->add_option("--configuration", options->configuration);
-    command->add_option("--step-size", options->step_size);
-    command->add_option("--steps", options->steps);
-    command->callback([options] { run(*options); });
+    add_experiment(
+        app, "aligned",
+        "Flows shapes whose edges lie in grid planes and on grid lines, without two sheets in a "
+        "cell. Prints the largest difference of a vertex between separate and glued sheets, in "
+        "diagonals.",
+        run, with_defaults({5}, 1e-3));
 }
 
 }  // namespace tracked_mcf::experiments

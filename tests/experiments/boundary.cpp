@@ -1,17 +1,17 @@
-#include <CLI/CLI.hpp>
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <memory>
 #include <string>
 #include <vector>
 
-#include "filter_tracked_mcf/core/flow.h"
-#include "filter_tracked_mcf/core/mesh_topology.h"
-#include "tests/experiments/configuration.h"
+#include "filter_tracked_mcf/core/flow/flow.h"
+#include "filter_tracked_mcf/core/mesh/mesh_topology.h"
+#include "filter_tracked_mcf/core/mesh/weld.h"
 #include "tests/experiments/csv.h"
 #include "tests/experiments/experiments.h"
 #include "tests/experiments/meshes.h"
+#include "tests/experiments/options.h"
 #include "tests/experiments/reference.h"
 #include "tests/experiments/slip.h"
 #include "tests/support/surface_distance.h"
@@ -23,15 +23,7 @@ namespace {
 /// Vertices farther than five edges from the boundary are one ring.
 constexpr int kLastRing = 6;
 
-struct Options {
-    std::string mesh;
-    std::vector<int> depths;
-    std::vector<int> steps;
-    std::vector<std::string> configurations;
-    double step_size = 1e-5;
-};
-
-/// Of every vertex: how many edges it is from the boundary, at most kLastRing.
+/// Returns each vertex's distance from the boundary in edges, at most kLastRing.
 std::vector<int> rings_of(const TriangleMesh& mesh) {
     const MeshTopology topology = topology_of(mesh);
     const std::vector<std::uint8_t> boundary = boundary_edges(topology);
@@ -54,7 +46,7 @@ std::vector<int> rings_of(const TriangleMesh& mesh) {
     return rings;
 }
 
-/// Of the vertices of one ring that `left_out` does not mark: root mean square, whatever their
+/// Returns the root mean square over the vertices that `left_out` does not mark, not weighted by
 /// area.
 double rms_distance(const TriangleMesh& a, const TriangleMesh& b,
                     const std::vector<std::uint8_t>& left_out) {
@@ -68,7 +60,7 @@ double rms_distance(const TriangleMesh& a, const TriangleMesh& b,
     return count > 0 ? std::sqrt(squares / count) : 0;
 }
 
-struct Place {
+struct Case {
     int depth;
     std::string configuration;
     int steps;
@@ -76,7 +68,7 @@ struct Place {
 
 void print_rings(const TriangleMesh& mesh, const std::vector<int>& rings,
                  const Reference& reference, const TriangleMesh& moved, const Slip& slip,
-                 const Place& place) {
+                 const Case& run) {
     const double unit = diagonal(mesh);
     const std::vector<std::uint8_t> referenced = referenced_vertices(mesh);
     for (int ring = 0; ring <= kLastRing; ++ring) {
@@ -85,7 +77,7 @@ void print_rings(const TriangleMesh& mesh, const std::vector<int>& rings,
             if (rings[i] != ring || !referenced[i]) left_out[i] = 1;
         }
         const NormalDistance distance = normal_distance(moved, reference.mesh, left_out);
-        print_row(place.depth, place.configuration, place.steps, ring,
+        print_row(run.depth, run.configuration, run.steps, ring,
                   std::count(left_out.begin(), left_out.end(), 0), distance.rms / unit,
                   distance.worst / unit, rms_distance(moved, reference.mesh, left_out) / unit,
                   normal_distance(mesh, reference.mesh, left_out).rms / unit,
@@ -96,17 +88,15 @@ void print_rings(const TriangleMesh& mesh, const std::vector<int>& rings,
 
 void measure(const TriangleMesh& mesh, const std::map<int, Reference>& references,
              const Options& options, int depth, const std::string& configuration) {
-    FlowParameters parameters = parse_configuration(configuration);
-    parameters.depth = depth;
-    parameters.step_size = options.step_size;
+    const FlowParameters parameters = options.parameters(depth, configuration);
     const std::vector<int> rings = rings_of(mesh);
     Flow flow(mesh, parameters);
     for (int step = 1; step <= references.rbegin()->first && flow.step(); ++step) {
         const auto reference = references.find(step);
         if (reference == references.end()) continue;
         TriangleMesh moved = mesh;
-        flow.move_vertices(moved);
-        print_rings(mesh, rings, reference->second, moved, slip_at_held_edges(flow),
+        flow.move_vertices(moved.positions);
+        print_rings(mesh, rings, reference->second, moved, slip_at_constrained_edges(flow),
                     {flow.report().depth, configuration, step});
     }
 }
@@ -116,31 +106,25 @@ void run(const Options& options) {
               "whole_rms", "moved_normal", "moved_whole", "slip_rms", "slip_worst");
     const TriangleMesh mesh = named_mesh(options.mesh);
     const std::map<int, Reference> references =
-        cotangent_flow(mesh, options.step_size, options.steps, BoundaryCondition::Locked);
-    for (const int depth : options.depths) {
-        for (const std::string& configuration : options.configurations) {
-            measure(mesh, references, options, depth, configuration);
-        }
-    }
+        cotangent_flow(mesh, options.step_size(), options.steps, BoundaryCondition::Locked);
+    options.for_each_case([&](int depth, const std::string& configuration) {
+        measure(mesh, references, options, depth, configuration);
+    });
 }
 
 }  // namespace
 
 void add_boundary(CLI::App& app) {
-    const auto options = std::make_shared<Options>();
-    CLI::App* command = app.add_subcommand(
-        "boundary",
-        "Distance to the cotangent flow with its boundary held, in diagonals of the initial "
-        "bounding box, by rings of vertices: 0 is the boundary, 6 all from there on. Along the "
-        "normal, weighted by area, and whole; 'moved' is the distance of the initial mesh. Left "
-        "out is where the cotangent flow's triangles have degenerated. 'slip' is how far the "
-        "surface has moved at the held edges.");
-    command->add_option("mesh", options->mesh)->required();
-    command->add_option("--depths", options->depths, "0: automatic")->required();
-    command->add_option("--steps", options->steps, "measure after so many")->required();
-    command->add_option("--configurations", options->configurations)->required();
-    command->add_option("--step-size", options->step_size);
-    command->callback([options] { run(*options); });
+    add_experiment(
+        app, "boundary",
+        "Prints the distance to the cotangent flow with fixed boundary vertices, in diagonals of "
+        "the "
+        "initial bounding box, for rings of vertices: ring 0 is the boundary, ring 6 all vertices "
+        "from there on. Prints the distance along the normal, weighted by area, and the whole "
+        "distance; 'moved' is the distance of the initial mesh. Omits vertices where the cotangent "
+        "flow's triangles have degenerated. 'slip' is the surface's distance from the constrained "
+        "edges.",
+        run, Options());
 }
 
 }  // namespace tracked_mcf::experiments

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/experiments/collapse.h"
 
 #include <Eigen/Geometry>
@@ -10,7 +11,7 @@ namespace {
 
 constexpr double kCollapsedAreaRatio = 1e-4;
 
-/// Sum over the triangles around every vertex.
+/// Returns the area of the triangles around each vertex.
 std::vector<double> areas_around_vertices(const TriangleMesh& mesh) {
     std::vector<double> areas(mesh.positions.size());
     for (const Triangle& t : mesh.triangles) {
@@ -29,7 +30,7 @@ Collapse::Collapse(const TriangleMesh& mesh)
       collapsed_(mesh.positions.size()),
       collapsed_positions_(mesh.positions) {}
 
-void Collapse::look(const TriangleMesh& moved) {
+void Collapse::record(const TriangleMesh& moved) {
     const std::vector<double> areas = areas_around_vertices(moved);
     for (std::size_t i = 0; i < areas.size(); ++i) {
         if (collapsed_[i] != 0 || areas[i] >= kCollapsedAreaRatio * initial_areas_[i]) continue;

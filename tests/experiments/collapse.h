@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include <Eigen/Core>
@@ -8,27 +9,28 @@
 
 namespace tracked_mcf::experiments {
 
-/// Which vertices have lost the surface around them, and where they were then. A vertex collapses
-/// after the first step that leaves its triangles less than 1e-4 of their initial area.
+/// Records the vertices that have lost the surface around them, and their positions at that time. A
+/// vertex collapses in the first step that leaves its triangles less than 1e-4 of their initial
+/// area.
 class Collapse {
 public:
     explicit Collapse(const TriangleMesh& mesh);
 
-    /// To be called after every step.
-    void look(const TriangleMesh& moved);
+    /// Records newly collapsed vertices. Call it after every step.
+    void record(const TriangleMesh& moved);
 
-    /// How far collapsed vertices are from where they collapsed, mesh units.
+    /// The distance of collapsed vertices from their recorded positions, in mesh units.
     struct Drift {
-        std::int64_t vertices = 0;  ///< that have collapsed
+        std::int64_t vertices = 0;  ///< number of collapsed vertices
         double rms = 0;
         double worst = 0;
     };
     Drift drift(const TriangleMesh& moved) const;
 
 private:
-    std::vector<double> initial_areas_;                 ///< around every vertex
-    std::vector<std::uint8_t> collapsed_;               ///< of every vertex
-    std::vector<Eigen::Vector3d> collapsed_positions_;  ///< of those that have
+    std::vector<double> initial_areas_;                 ///< around each vertex
+    std::vector<std::uint8_t> collapsed_;               ///< for each vertex
+    std::vector<Eigen::Vector3d> collapsed_positions_;  ///< of collapsed vertices
 };
 
 }  // namespace tracked_mcf::experiments

@@ -1,6 +1,6 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/experiments/configuration.h"
 
-#include <functional>
 #include <map>
 #include <sstream>
 #include <stdexcept>
@@ -9,56 +9,43 @@ namespace tracked_mcf::experiments {
 
 namespace {
 
-void set_paper(FlowParameters& parameters) {
-    parameters.solver = Solver::OneWCycle;
-    parameters.stabilization = 0;
-    parameters.separate_sheets = false;
+using Change = void (*)(FlowParameters&);
+using ChangeTo = void (*)(FlowParameters&, double);
+
+void set_paper(FlowParameters& p) {
+    p.solver = Solver::OneWCycle;
+    p.stabilization = 0;
+    p.separate_sheets = false;
 }
 
-/// Words of the form name=value.
-void set_value(const std::string& name, double value, FlowParameters& parameters) {
-    if (name == "kappa") {
-        parameters.stabilization = value;
-    } else if (name == "tolerance") {
-        parameters.tolerance = value;
-    } else if (name == "cycles") {
-        parameters.cycles = static_cast<int>(value);
-    } else if (name == "spring") {
-        parameters.boundary_spring = value;
-    } else {
-        throw std::invalid_argument("there is no '" + name + "=' in a configuration");
-    }
-}
+const std::map<std::string, Change> kWords = {
+    {"converged", [](FlowParameters&) {}},
+    {"paper", set_paper},
+    {"separate", [](FlowParameters& p) { p.separate_sheets = true; }},
+    {"glued", [](FlowParameters& p) { p.separate_sheets = false; }},
+    {"free-pinches", [](FlowParameters& p) { p.constrain_pinches = false; }},
+    {"conformalized", [](FlowParameters& p) { p.flow = FlowKind::Conformalized; }},
+    {"locked", [](FlowParameters& p) { p.boundary = BoundaryCondition::Locked; }},
+    {"locked-cells", [](FlowParameters& p) { p.boundary = BoundaryCondition::LockedCells; }},
+    {"free", [](FlowParameters& p) { p.boundary = BoundaryCondition::Free; }},
+    {"penalty-alone", [](FlowParameters& p) { p.update_boundary_multipliers = false; }},
+    {"preserve-area", [](FlowParameters& p) { p.preserve = Preserve::Area; }},
+    {"preserve-volume", [](FlowParameters& p) { p.preserve = Preserve::Volume; }},
+};
 
-/// Words that stand alone.
-const std::map<std::string, std::function<void(FlowParameters&)>>& words_alone() {
-    static const std::map<std::string, std::function<void(FlowParameters&)>> words = {
-        {"converged", [](FlowParameters&) {}},
-        {"paper", set_paper},
-        {"separate", [](FlowParameters& p) { p.separate_sheets = true; }},
-        {"glued", [](FlowParameters& p) { p.separate_sheets = false; }},
-        {"unanchored", [](FlowParameters& p) { p.anchor_pinches = false; }},
-        {"conformalized", [](FlowParameters& p) { p.flow = FlowKind::Conformalized; }},
-        {"locked", [](FlowParameters& p) { p.boundary = BoundaryCondition::Locked; }},
-        {"locked-cells", [](FlowParameters& p) { p.boundary = BoundaryCondition::LockedCells; }},
-        {"spring-alone", [](FlowParameters& p) { p.take_up_boundary = false; }},
-        {"free", [](FlowParameters& p) { p.boundary = BoundaryCondition::Free; }},
-        {"keep-area", [](FlowParameters& p) { p.rescale = Rescaling::KeepArea; }},
-    };
-    return words;
-}
+const std::map<std::string, ChangeTo> kWordsWithValue = {
+    {"kappa", [](FlowParameters& p, double value) { p.stabilization = value; }},
+    {"tolerance", [](FlowParameters& p, double value) { p.tolerance = value; }},
+    {"order", [](FlowParameters& p, double value) { p.order = static_cast<int>(value); }},
+    {"cycles", [](FlowParameters& p, double value) { p.cycles = static_cast<int>(value); }},
+    {"penalty", [](FlowParameters& p, double value) { p.boundary_penalty = value; }},
+};
 
-void apply_word(const std::string& word, FlowParameters& parameters) {
-    const std::size_t equals = word.find('=');
-    if (equals != std::string::npos) {
-        set_value(word.substr(0, equals), std::stod(word.substr(equals + 1)), parameters);
-        return;
-    }
-    const auto known = words_alone().find(word);
-    if (known == words_alone().end()) {
-        throw std::invalid_argument("there is no '" + word + "' in a configuration");
-    }
-    known->second(parameters);
+template <class Changes>
+auto change_of(const Changes& changes, const std::string& word) {
+    const auto found = changes.find(word);
+    if (found != changes.end()) return found->second;
+    throw std::invalid_argument("there is no '" + word + "' in a configuration");
 }
 
 }  // namespace
@@ -66,7 +53,15 @@ void apply_word(const std::string& word, FlowParameters& parameters) {
 FlowParameters parse_configuration(const std::string& words) {
     FlowParameters parameters;
     std::istringstream stream(words);
-    for (std::string word; std::getline(stream, word, ',');) apply_word(word, parameters);
+    for (std::string word; std::getline(stream, word, ',');) {
+        const std::size_t equals = word.find('=');
+        if (equals == std::string::npos) {
+            change_of(kWords, word)(parameters);
+        } else {
+            change_of(kWordsWithValue, word.substr(0, equals))(parameters,
+                                                               std::stod(word.substr(equals + 1)));
+        }
+    }
     return parameters;
 }
 

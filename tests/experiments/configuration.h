@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include <string>
@@ -6,24 +7,25 @@
 
 namespace tracked_mcf::experiments {
 
-/// Which flow, solver and functions a run uses, as the command line spells it: words joined by
-/// commas, each of which changes what the words before it have set.
+/// Parses the flow, the solver and the functions of a run: words joined by commas. Each word
+/// changes what the words before it have set.
 ///
 ///   converged      the defaults
 ///   paper          one W-cycle, no stabilisation, sheets not separated
 ///   kappa=X        weight of the stabilisation
-///   tolerance=X    of the converged solver
-///   cycles=N       of the paper's solver
-///   separate       sheets separated
-///   glued          sheets not separated
-///   unanchored     what has pinched is not held
+///   tolerance=X    tolerance of the converged solver
+///   cycles=N       W-cycles of the paper's solver
+///   order=N        order of a step
+///   separate       separate sheets
+///   glued          sheets in one cell share functions
+///   free-pinches   pinched functions are not constrained
 ///   conformalized  the conformalized flow
-///   locked, locked-cells, free    the boundary; where an experiment does not choose it
-///   spring=X       stiffness of what holds a locked boundary
-///   spring-alone   what the spring holds is not taken up
-///   keep-area      rescaled after every step; where an experiment says so
+///   locked, locked-cells, free    the boundary, unless the experiment sets it
+///   penalty=X      penalty of a locked boundary's constraint
+///   penalty-alone  the boundary's multipliers stay zero
+///   preserve-area, preserve-volume   see FlowParameters::preserve, in `stages` only
 ///
-/// Throws std::invalid_argument for anything else.
+/// Throws std::invalid_argument for any other word.
 FlowParameters parse_configuration(const std::string& words);
 
 }  // namespace tracked_mcf::experiments

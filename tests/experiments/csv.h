@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include <iostream>
@@ -5,8 +6,8 @@
 
 namespace tracked_mcf::experiments {
 
-/// Prints values as a line of CSV on standard output, at once, so that a long run can be followed.
-/// Text is quoted, for it may hold commas but no quotes.
+/// Prints values as a line of CSV on standard output and flushes, so that a long run can be
+/// followed. Text is quoted: it may contain commas, but no quotes.
 template <typename... Values>
 void print_row(const Values&... values) {
     const char* separator = "";
@@ -21,7 +22,7 @@ void print_row(const Values&... values) {
     };
     std::cout.precision(8);
     (print(values), ...);
-    std::cout << std::endl;
+    std::cout << '\n' << std::flush;
 }
 
 }  // namespace tracked_mcf::experiments

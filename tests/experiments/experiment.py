@@ -1,8 +1,9 @@
-"""What the experiments share: meshes, running the driver, tables, plots, and targets.
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Common code of the experiments: meshes, running the driver, tables, plots and targets.
 
-A script makes an Experiment, asks it to run the driver, hands it tables, plots and checks, and ends
-with finish(), which exits with 1 if a target was missed. In the output folder it leaves NAME.csv, all
-that was measured; NAME.md, what was printed; and NAME.png, the plot.
+A script creates an Experiment, runs the driver, prints tables, saves plots and checks targets.
+finish() writes NAME.csv (all measurements) and NAME.md (the printed text) to the output folder, beside
+the plot NAME.png, and exits with 1 if a target was missed.
 """
 
 import argparse
@@ -15,12 +16,12 @@ import sys
 
 TOP = pathlib.Path(__file__).resolve().parents[2]
 
-# Names of the scans, by the folder that has them: that of --meshes, or libcgal-demo's.
+# Meshes of Debian's libcgal-demo, and of a folder of further scans for comparison.
+CGAL_SCANS = ["armadillo.off", "nefertiti.off", "elephant.off", "hand.off", "camel.off"]
+CGAL_THIN_SCANS = ["armadillo.off", "elephant.off", "camel.off"]
 SHARED_SCANS = ["armadillo_50k.ply", "nefertiti_50k.ply", "skull_50k.ply", "hand_8k.ply",
                 "boot_genus12.ply"]
-CGAL_SCANS = ["armadillo.off", "nefertiti.off", "elephant.off", "hand.off", "camel.off"]
 SHARED_THIN_SCANS = ["armadillo_50k.ply", "hand_8k.ply", "elephant_5cc.ply"]
-CGAL_THIN_SCANS = ["armadillo.off", "elephant.off", "camel.off"]
 
 SKIPPED = 77
 
@@ -30,7 +31,7 @@ CONVERGED = "converged"
 
 
 class Experiment:
-    """`add_options(parser)` adds a script's own options, found in `options` afterwards."""
+    """One script's run. `add_options(parser)` adds the script's own options to `options`."""
 
     def __init__(self, name, description, add_options=lambda parser: None):
         parser = argparse.ArgumentParser(
@@ -38,9 +39,7 @@ class Experiment:
         parser.add_argument("--build", type=pathlib.Path, default=TOP / "build", metavar="FOLDER",
                             help="where the project was built, tests and tool included")
         parser.add_argument("--meshes", type=pathlib.Path, metavar="FOLDER",
-                            default=TOP.parent / "shared" / "meshes",
-                            help="folder of scans; where it is absent, libcgal-demo's are taken "
-                            "from cgal-meshes in the build folder")
+                            help="folder of scans (default: cgal-meshes in the build folder)")
         parser.add_argument("--scans", nargs="+", metavar="NAME",
                             help="file names in that folder, instead of the usual ones")
         parser.add_argument("--output", type=pathlib.Path, metavar="FOLDER",
@@ -49,7 +48,7 @@ class Experiment:
         add_options(parser)
         self.name = name
         self.options = parser.parse_args()
-        self._pyplot = pyplot()  # now: if it is missing, better known before the measurements
+        self._pyplot = pyplot()  # before the measurements, in case it is missing
         self.output = self.options.output or self.options.build / "experiments"
         self.output.mkdir(parents=True, exist_ok=True)
         self._rows = []
@@ -58,23 +57,24 @@ class Experiment:
         self.say(f"# {description.strip().splitlines()[0]}\n")
 
     def meshes(self, shared, cgal):
-        """Paths of the meshes of these names, by the folder that is there."""
-        folder, names = self.options.meshes, shared
-        if not folder.is_dir():
-            folder, names = self.options.build / "cgal-meshes", cgal
-        absent = [name for name in names if not (folder / name).exists()]
-        if absent:
-            skip(f"{self.name}: {folder} has no {', '.join(absent)}")
+        """Returns the paths of the meshes named `shared` if the folder has them, else of `cgal`."""
+        folder = self.options.meshes or self.options.build / "cgal-meshes"
+        names = next((names for names in (shared, cgal)
+                      if all((folder / name).exists() for name in names)), None)
+        if names is None:
+            skip(f"{self.name}: {folder} has not all of {', '.join(cgal)}; "
+                 "external/cgal_meshes.sh fetches them")
         return [folder / name for name in names]
 
     def scans(self, shared=SHARED_SCANS, cgal=CGAL_SCANS):
-        """Paths of the scans to measure: these, or those of --scans; with --quick, the smallest."""
+        """Returns the paths of the scans to measure: those of --scans if given; only the smallest with
+        --quick."""
         named = self.options.scans
         paths = self.meshes(named or shared, named or cgal)
         return [min(paths, key=lambda path: path.stat().st_size)] if self.options.quick else paths
 
     def run(self, command, *words, **more):
-        """The driver's rows as dictionaries, numbers as such; `more` is added to each."""
+        """Runs the driver. Returns its rows as dictionaries, each with the entries of `more`."""
         driver = self.options.build / "tests" / "experiments" / "tracked_mcf_experiments"
         if not driver.exists():
             sys.exit(f"{self.name}: {driver} has not been built")
@@ -91,7 +91,7 @@ class Experiment:
         print(line, file=self._text)
 
     def table(self, headers, rows):
-        """Prints Markdown; numbers by three digits."""
+        """Prints a Markdown table, numbers with three digits."""
         cells = [[str(header) for header in headers]]
         cells += [[three_digits(value) for value in row] for row in rows]
         widths = [max(len(row[i]) for row in cells) for i in range(len(headers))]
@@ -102,17 +102,17 @@ class Experiment:
         self.say()
 
     def check(self, what, measured, at_most=None, at_least=None):
-        """Says a measured figure beside its target."""
+        """Prints a measured value beside its target."""
         if at_most is not None:
             passed, target = measured <= at_most, f"at most {three_digits(at_most)}"
         else:
             passed, target = measured >= at_least, f"at least {three_digits(at_least)}"
         self._missed += not passed
         self.say(f"- {'ok' if passed else '**missed**'}: {what}: {three_digits(measured)}, "
-                 f"to be {target}")
+                 f"must be {target}")
 
     def figure(self, rows=1, columns=1, size=(5, 4)):
-        """A matplotlib figure and its axes, rows by columns of them."""
+        """Returns a matplotlib figure and its axes, rows by columns of them."""
         figure, axes = self._pyplot.subplots(rows, columns, squeeze=False, constrained_layout=True,
                                          figsize=(size[0] * columns, size[1] * rows))
         return figure, axes
@@ -123,7 +123,7 @@ class Experiment:
         self.say(f"\n![plot]({path.name})")
 
     def finish(self):
-        """Writes the files; exits with 1 if a target was missed."""
+        """Writes the files. Exits with 1 if a target was missed."""
         (self.output / f"{self.name}.md").write_text(self._text.getvalue())
         with open(self.output / f"{self.name}.csv", "w", newline="", encoding="utf-8") as file:
             keys = list(dict.fromkeys(key for row in self._rows for key in row))
@@ -135,7 +135,7 @@ class Experiment:
 
 
 def skip(reason):
-    """Ends the script; CTest takes the exit code for a test that could not be run."""
+    """Ends the script with the exit code that CTest counts as a skipped test."""
     print(reason, file=sys.stderr)
     sys.exit(SKIPPED)
 
@@ -144,8 +144,8 @@ def pyplot():
     try:
         import matplotlib
     except ImportError:
-        skip("matplotlib is missing; on Debian: external/install_debian.sh experiments, and run "
-             "this with /usr/bin/python3, which knows it")
+        skip("matplotlib is missing. On Debian, run external/install_debian.sh experiments and start "
+             "this script with /usr/bin/python3.")
     matplotlib.use("Agg")  # no display
     from matplotlib import pyplot as module
     return module
@@ -169,10 +169,10 @@ def geometric_mean(values):
 
 
 def label(mesh):
-    """What tables call a mesh: a file without folder and extension."""
+    """Returns a mesh's name for tables: a file name without folder and extension."""
     return mesh.stem if isinstance(mesh, pathlib.Path) else "sphere"
 
 
 def kappa(value):
-    """A configuration of the driver."""
+    """Returns the driver's name for the default configuration with this stabilization weight."""
     return f"{CONVERGED},kappa={value:g}"

@@ -1,47 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-namespace CLI {
+namespace CLI {  // NOLINT(readability-identifier-naming): it is not ours
 class App;
 }
 
-/// The experiments' programs, each a subcommand of tracked_mcf_experiments. They print CSV with a
-/// header on standard output; the scripts beside them choose the cases, and make tables and plots.
+/// The experiments: each is a subcommand of tracked_mcf_experiments that prints CSV with a header
+/// on standard output. The scripts in this folder choose the cases and make tables and plots.
 namespace tracked_mcf::experiments {
 
-/// Separated sheets against glued ones, where the mesh's edges lie in the grid's planes.
+/// Compares separate with glued sheets where the mesh's edges lie in grid planes.
 void add_aligned(CLI::App& app);
 
-/// Distance to the cotangent flow after some numbers of steps.
+/// Measures the distance to the cotangent flow.
 void add_accuracy(CLI::App& app);
 
-/// The surface beside a held boundary, against the cotangent flow.
+/// Compares the surface beside a locked boundary with the cotangent flow.
 void add_boundary(CLI::App& app);
 
-/// Iterations of the solver in the first step.
+/// Counts the solver's iterations in the first step.
 void add_iterations(CLI::App& app);
 
-/// Distance to a minimal surface that a held boundary spans.
+/// Measures the distance to a minimal surface that a locked boundary spans.
 void add_minimal(CLI::App& app);
 
-/// Long flows: what becomes of parts that pinch.
+/// Measures pinched parts in long flows.
 void add_pinches(CLI::App& app);
 
-/// Disjoint pieces closer than a cell, together and alone.
+/// Flows disjoint pieces closer than a cell, together and alone.
 void add_pieces(CLI::App& app);
 
-/// How often the progress callback is called, and what that costs.
+/// Measures the rate and the cost of calls of the progress callback.
 void add_progress(CLI::App& app);
 
-/// Size and time of the set-up.
+/// Measures size and time of the set-up.
 void add_setup(CLI::App& app);
 
-/// Radius of the unit sphere against the exact semi-implicit one.
+/// Compares the radius of the unit sphere with the exact semi-implicit radius.
 void add_sphere(CLI::App& app);
 
-/// Stages of a flow: area, and how near a sphere the surface is.
+/// Measures area and roundness during a flow.
 void add_stages(CLI::App& app);
 
-/// What a tolerance costs in accuracy.
+/// Compares the solver's error with the discretisation's.
 void add_tolerance(CLI::App& app);
 
 }  // namespace tracked_mcf::experiments

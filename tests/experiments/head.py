@@ -1,11 +1,12 @@
 #!/usr/bin/python3
-"""The paper's Figure 9: an open head under short and under long steps, its boundary held.
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The paper's Figure 9: an open head with a locked boundary under short and under long steps.
 
-Short steps pinch at the neck and leave the head behind as a thread; long ones approach the Dirichlet energy's
-minimiser, and with it a minimal surface, without pinching (section 5.3). Areas are relative to the start. Targets:
-ten long steps end with no more area than a hundred short ones; the tenth changes the area by at most 1e-3
-of it; the short steps have pinched off the head: between steps 40 and 60 the area hardly changes any more, and
-a part of the surface has collapsed. Pictures: look at them.
+Short steps pinch at the neck and leave the head as a thread. Long steps approach the minimiser of the
+Dirichlet energy, and so a minimal surface, without pinching (section 5.3). Areas are relative to the
+start. Targets: ten long steps end with at most the area of a hundred short ones; the tenth changes the
+area by at most 1e-3 of it; the short steps have pinched the head off: between steps 40 and 60 the area
+hardly changes, and a part of the surface has collapsed. Look at the pictures.
 """
 
 import pathlib

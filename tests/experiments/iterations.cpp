@@ -1,28 +1,22 @@
-#include <CLI/CLI.hpp>
-#include <memory>
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <string>
 #include <vector>
 
-#include "filter_tracked_mcf/core/conjugate_gradients.h"
-#include "filter_tracked_mcf/core/locked_cells.h"
-#include "filter_tracked_mcf/core/stabilization.h"
+#include "filter_tracked_mcf/core/solver/conjugate_gradients.h"
+#include "filter_tracked_mcf/core/system/constrained_cells.h"
+#include "filter_tracked_mcf/core/system/stabilization.h"
 #include "tests/experiments/configuration.h"
 #include "tests/experiments/csv.h"
 #include "tests/experiments/experiments.h"
 #include "tests/experiments/meshes.h"
+#include "tests/experiments/options.h"
+#include "tests/support/elements.h"
 
 namespace tracked_mcf::experiments {
 
 namespace {
 
-struct Options {
-    std::string mesh;
-    std::vector<int> depths;
-    std::vector<double> step_sizes;
-    std::vector<std::string> configurations;
-};
-
-/// The first step's system on one octree, for any step size and weight of the stabilisation.
+/// The system of the first step on one octree, for any step size and stabilisation weight.
 class FirstStep {
 public:
     FirstStep(const TriangleMesh& mesh, int depth, bool separate_sheets)
@@ -30,7 +24,7 @@ public:
           cells_per_side_(longest_side(mesh) / grid_.cell_size),
           elements_(build_tracked_elements(mesh, grid_, Cubature::ThreePoints, separate_sheets)),
           stabilization_(elements_),
-          multigrid_(elements_, no_unknowns(elements_)) {}
+          multigrid_(elements_, constrained_unknowns(elements_, BoundaryCondition::Free)) {}
 
     void assemble(double step_size) {
         step_size_ = step_size * cells_per_side_ * cells_per_side_;
@@ -39,14 +33,15 @@ public:
     }
 
     Convergence solve(const FlowParameters& parameters) {
-        // The multigrid works with these matrices until the solve is over.
+        // The multigrid refers to these matrices during the solve.
         MatrixBlocks matrices = systems_.matrices;
         stabilization_.add(stabilization_of(parameters), step_size_, matrices);
         multigrid_.refresh(matrices, step_size_);
         multigrid_.assemble(systems_.right_sides, right_side_);
         Coefficients solution;
+        Field earlier_guess;
         return ConjugateGradients().solve(multigrid_, right_side_, parameters.tolerance,
-                                          kMaximumSolverIterations, solution);
+                                          kMaximumSolverIterations, solution, earlier_guess);
     }
 
     std::int32_t unknown_count() const { return elements_.finest().unknown_count(); }
@@ -63,7 +58,7 @@ private:
 };
 
 void run(const Options& options) {
-    print_row("depth", "step_size", "configuration", "unknowns", "iterations", "relative_residual",
+    print_row("depth", "step_size", "configuration", "unknowns", "iterations", "error_estimate",
               "reached_tolerance");
     const TriangleMesh mesh = named_mesh(options.mesh);
     for (const int depth : options.depths) {
@@ -73,7 +68,7 @@ void run(const Options& options) {
             for (const std::string& configuration : options.configurations) {
                 const Convergence convergence = step.solve(parse_configuration(configuration));
                 print_row(depth, step_size, configuration, step.unknown_count(),
-                          convergence.iterations, convergence.relative_error,
+                          convergence.iterations, convergence.error_estimate,
                           convergence.reached_tolerance ? 1 : 0);
             }
         }
@@ -83,14 +78,9 @@ void run(const Options& options) {
 }  // namespace
 
 void add_iterations(CLI::App& app) {
-    const auto options = std::make_shared<Options>();
-    CLI::App* command = app.add_subcommand(
-        "iterations", "Iterations of the solver in the first step, and how far they came.");
-    command->add_option("mesh", options->mesh)->required();
-    command->add_option("--depths", options->depths)->required();
-    command->add_option("--step-sizes", options->step_sizes)->required();
-    command->add_option("--configurations", options->configurations)->required();
-    command->callback([options] { run(*options); });
+    add_experiment(app, "iterations",
+                   "Prints the solver's iterations and error estimate in the first step.", run,
+                   Options());
 }
 
 }  // namespace tracked_mcf::experiments

@@ -1,9 +1,10 @@
 #!/usr/bin/python3
-"""Iterations of the converged solver in the first step.
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Counts the iterations of the converged solver in the first step.
 
-Until the preconditioned residual has fallen to 1e-5, and to the default tolerance, over step sizes and
-depths, on the sphere and five scans. Targets: at most 12 to 1e-5, at the greatest depth no more than at
-the others, and at most 6 to the default tolerance for steps of 1e-5 and more.
+The script measures tolerances of 1e-5 and the default, over step sizes and depths, on the sphere and
+five scans. Targets: at most 12 iterations to 1e-5, and at the greatest depth no more than at the others;
+at most 6 to the default tolerance for steps of 1e-5 and more.
 """
 
 from experiment import CONVERGED, SPHERE, Experiment, kappa, label
@@ -19,7 +20,7 @@ def add_options(parser):
     parser.add_argument("--step-sizes", nargs="+", type=float,
                         default=[1e-6, 1e-5, 1e-4, 1e-2, 1e-1])
     parser.add_argument("--kappas", nargs="+", type=float, default=[],
-                        help="weights of the stabilisation to compare, such as 0 0.01 0.1 1")
+                        help="stabilisation weights to compare, such as 0 0.01 0.1 1")
 
 
 def measure(experiment, configurations):
@@ -34,7 +35,7 @@ def measure(experiment, configurations):
 
 
 def of(rows, **wanted):
-    """The rows that have these values."""
+    """Returns the rows with these values."""
     return [row for row in rows if all(row[key] == value for key, value in wanted.items())]
 
 
@@ -43,7 +44,7 @@ def distinct(rows, key):
 
 
 def count(rows):
-    """The largest number of iterations, marked if a solver stopped short."""
+    """Returns the largest number of iterations, marked if a solver missed its tolerance."""
     largest = str(max(row["iterations"] for row in rows))
     return largest if all(row["reached_tolerance"] for row in rows) else f"{largest} not reached"
 

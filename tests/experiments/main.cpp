@@ -1,4 +1,5 @@
-// Runs one experiment and prints its figures as CSV.
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Runs one experiment and prints its results as CSV.
 
 #include <CLI/CLI.hpp>
 #include <exception>

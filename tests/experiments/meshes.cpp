@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/experiments/meshes.h"
 
 #include "filter_tracked_mcf/tool/mesh_file.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include <string>
@@ -6,8 +7,8 @@
 
 namespace tracked_mcf::experiments {
 
-/// A mesh by its name on the command line: "sphere:N", the unit sphere of geodesic frequency N, or
-/// a file that the program can read.
+/// Returns the mesh of a name on the command line: "sphere:N" is the unit sphere of geodesic
+/// frequency N; any other name is a file.
 TriangleMesh named_mesh(const std::string& name);
 
 }  // namespace tracked_mcf::experiments

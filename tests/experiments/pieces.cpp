@@ -1,14 +1,13 @@
-#include <CLI/CLI.hpp>
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <Eigen/Geometry>
-#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "filter_tracked_mcf/core/flow.h"
-#include "tests/experiments/configuration.h"
+#include "filter_tracked_mcf/core/flow/flow.h"
 #include "tests/experiments/csv.h"
 #include "tests/experiments/experiments.h"
+#include "tests/experiments/options.h"
 #include "tests/support/shapes.h"
 #include "tests/support/surface_distance.h"
 
@@ -19,14 +18,7 @@ namespace {
 using Eigen::Affine3d;
 using Eigen::Vector3d;
 
-struct Options {
-    std::vector<int> depths;
-    std::vector<std::string> configurations;
-    double step_size = 1e-4;
-    int steps = 5;
-};
-
-/// Gaps are this much of a cell, and grids 1.1 times as large as the longest side (grid.h).
+/// The gap as a fraction of a cell, and the grid's side relative to the longest side (grid.h).
 constexpr double kGap = 0.25;
 constexpr double kCubeToModel = 1.1;
 
@@ -40,18 +32,18 @@ TriangleMesh sphere(int frequency, const Vector3d& center, double radius) {
                                Eigen::Translation3d(center) * Eigen::Scaling(radius));
 }
 
-/// Side by side along an axis of no symmetry, but nearly x, which the longest side follows.
+/// Two spheres side by side along an axis without symmetry near the x axis.
 Pieces two_spheres(int depth) {
     constexpr double radius = 0.7;
     const Vector3d axis = Vector3d(1, 0.05, 0.03).normalized();
-    // The longest side is (1 + gap + radius) axis_x + 1 + radius, and the gap a part of that.
+    // The longest side is (1 + gap + radius) axis_x + 1 + radius. The gap is a fraction of it.
     const double part = std::ldexp(kGap * kCubeToModel, -depth);
     const double gap = part * (1 + radius) * (1 + axis[0]) / (1 - part * axis[0]);
     return {"two spheres", sphere(48, Vector3d::Zero(), 1),
             sphere(40, (1 + gap + radius) * axis, radius)};
 }
 
-/// The patch is 3 by 3 and turned a little, so that its sides lie in no grid planes.
+/// The patch is 3 by 3. It is turned slightly, so that its sides do not lie in grid planes.
 Pieces sphere_above_plane(int depth) {
     const double angle = 0.1;
     const double side = 3 * (std::cos(angle) + std::sin(angle));
@@ -67,7 +59,7 @@ struct Flowed {
     bool reached_tolerance = true;
 };
 
-/// step_size: absolute, so that a piece flows as fast alone.
+/// `step_size` is absolute, so that a piece flows alike alone and together.
 Flowed flowed(TriangleMesh mesh, FlowParameters parameters, const Grid& grid, double step_size,
               int steps) {
     parameters.step_size = step_size / std::pow(longest_side(mesh), 2);
@@ -77,19 +69,19 @@ Flowed flowed(TriangleMesh mesh, FlowParameters parameters, const Grid& grid, do
         flow.step();
         result.reached_tolerance &= flow.report().steps.back().reached_tolerance;
     }
-    flow.move_vertices(mesh);
+    flow.move_vertices(mesh.positions);
     result.mesh = std::move(mesh);
     return result;
 }
 
 void measure(const Pieces& pieces, int depth, const Options& options,
              const std::string& configuration) {
-    const FlowParameters parameters = parse_configuration(configuration);
+    const FlowParameters parameters = options.parameters(depth, configuration);
     const TriangleMesh both = shapes::merged(pieces.first, pieces.second);
     const Grid grid = enclosing_grid(both, depth);
-    const double step_size = options.step_size * std::pow(longest_side(both), 2);
+    const double step_size = options.step_size() * std::pow(longest_side(both), 2);
     const auto flow = [&](const TriangleMesh& mesh) {
-        return flowed(mesh, parameters, grid, step_size, options.steps);
+        return flowed(mesh, parameters, grid, step_size, options.last_step());
     };
     const Flowed together = flow(both);
     const Flowed first = flow(pieces.first);
@@ -116,16 +108,11 @@ void run(const Options& options) {
 }  // namespace
 
 void add_pieces(CLI::App& app) {
-    const auto options = std::make_shared<Options>();
-    CLI::App* command = app.add_subcommand(
-        "pieces",
-        "Two disjoint pieces, a quarter of a cell apart: worst difference of a vertex between "
-        "flowing both and flowing each alone on the same grid, in diagonals.");
-    command->add_option("--depths", options->depths)->required();
-    command->add_option("--configurations", options->configurations)->required();
-    command->add_option("--step-size", options->step_size);
-    command->add_option("--steps", options->steps);
-    command->callback([options] { run(*options); });
+    add_experiment(
+        app, "pieces",
+        "Flows two disjoint pieces, a quarter of a cell apart. Prints the largest difference of a "
+        "vertex between flowing both together and each alone on the same grid, in diagonals.",
+        run, with_defaults({5}, 1e-4));
 }
 
 }  // namespace tracked_mcf::experiments

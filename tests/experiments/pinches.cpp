@@ -1,20 +1,19 @@
-#include <CLI/CLI.hpp>
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <map>
-#include <memory>
 #include <string>
 #include <vector>
 
 #include "filter_tracked_mcf/core/errors.h"
-#include "filter_tracked_mcf/core/flow.h"
+#include "filter_tracked_mcf/core/flow/flow.h"
 #include "filter_tracked_mcf/tool/mesh_file.h"
 #include "tests/experiments/collapse.h"
-#include "tests/experiments/configuration.h"
 #include "tests/experiments/csv.h"
 #include "tests/experiments/experiments.h"
+#include "tests/experiments/options.h"
 #include "tests/experiments/reference.h"
 #include "tests/support/surface_distance.h"
 
@@ -22,23 +21,18 @@ namespace tracked_mcf::experiments {
 
 namespace {
 
-struct Options {
-    std::string mesh;
-    int depth = 0;
-    double step_size = 1e-5;
-    std::vector<int> steps;
-    std::vector<std::string> configurations;
+struct PinchOptions : Options {
     std::filesystem::path folder;
 };
 
 /// Runs all configurations on one mesh.
 class Runner {
 public:
-    explicit Runner(const Options& options)
+    explicit Runner(const PinchOptions& options)
         : options_(options),
           file_(options.mesh),
           mesh_(file_.triangle_mesh()),
-          references_(cotangent_flow(mesh_, options.step_size, options.steps)) {}
+          references_(cotangent_flow(mesh_, options.step_size(), options.steps)) {}
 
     void run() {
         for (const auto& [steps, reference] : references_) {
@@ -51,9 +45,7 @@ public:
 private:
     void run_configuration(std::size_t index) {
         const std::string& configuration = options_.configurations[index];
-        FlowParameters parameters = parse_configuration(configuration);
-        parameters.depth = options_.depth;
-        parameters.step_size = options_.step_size;
+        FlowParameters parameters = options_.parameters(options_.depths.front(), configuration);
         parameters.boundary = BoundaryCondition::Free;
         try {
             flow(parameters, index);
@@ -69,8 +61,8 @@ private:
         for (int step = 1; step <= references_.rbegin()->first; ++step) {
             flow.step();
             TriangleMesh moved = mesh_;
-            flow.move_vertices(moved);
-            collapse.look(moved);
+            flow.move_vertices(moved.positions);
+            collapse.record(moved);
             if (references_.count(step) == 0) continue;
             print(options_.configurations[index], step, moved, collapse.drift(moved));
             save(moved, std::to_string(index), step);
@@ -90,7 +82,8 @@ private:
                   drift.worst / unit, outside(moved) / unit, reference.smallest_quality);
     }
 
-    /// How far vertices have left the initial bounding box: the flow of a surface does not.
+    /// Returns the largest distance of a vertex from the initial bounding box. The exact flow stays
+    /// inside.
     double outside(const TriangleMesh& moved) const {
         Eigen::AlignedBox3d box;
         for (const Eigen::Vector3d& position : mesh_.positions) box.extend(position);
@@ -108,36 +101,36 @@ private:
                     options_.folder);
     }
 
-    Options options_;
+    PinchOptions options_;
     MeshFile file_;
     TriangleMesh mesh_;
     std::map<int, Reference> references_;
 };
 
+void run(const PinchOptions& options) {
+    print_row("configuration", "finite", "steps", "rms", "worst", "sound_rms", "sound_worst",
+              "sound_part", "moved", "farthest", "collapsed", "drift_rms", "drift_worst", "outside",
+              "smallest_quality");
+    Runner(options).run();
+}
+
 }  // namespace
 
 void add_pinches(CLI::App& app) {
-    const auto options = std::make_shared<Options>();
-    CLI::App* command = app.add_subcommand(
-        "pinches",
-        "Long flows against the cotangent flow, in diagonals of the initial bounding box: "
-        "distances as in accuracy; 'farthest' is the largest displacement of a vertex; 'collapsed' "
-        "vertices have lost their surface, and 'drift' is what they moved since; 'outside' is how "
-        "far a vertex is out of the initial bounding box. Boundaries are free.");
-    command->add_option("mesh", options->mesh, "a file")->required();
-    command->add_option("--depth", options->depth);
-    command->add_option("--step-size", options->step_size);
-    command->add_option("--steps", options->steps, "measure after so many")->required();
-    command->add_option("--configurations", options->configurations)->required();
+    const auto [command, options] = add_experiment(
+        app, "pinches",
+        "Compares long flows of a file with the cotangent flow, in diagonals of the initial "
+        "bounding "
+        "box. The distances are those of accuracy. 'farthest' is the largest displacement of a "
+        "vertex. 'collapsed' vertices have lost their surface; 'drift' is their movement since "
+        "then. "
+        "'outside' is the largest distance of a vertex from the initial bounding box. Boundaries "
+        "are "
+        "free.",
+        run, PinchOptions());
     command->add_option("--folder", options->folder,
-                        "write the surfaces there as NAME_STEPS.ply, NAME being 'cotangent' or a "
-                        "configuration's place in the list");
-    command->callback([options] {
-        print_row("configuration", "finite", "steps", "rms", "worst", "sound_rms", "sound_worst",
-                  "sound_part", "moved", "farthest", "collapsed", "drift_rms", "drift_worst",
-                  "outside", "smallest_quality");
-        Runner(*options).run();
-    });
+                        "write the surfaces there as NAME_STEPS.ply; NAME is 'cotangent' or the "
+                        "configuration's index");
 }
 
 }  // namespace tracked_mcf::experiments

@@ -1,10 +1,11 @@
 #!/usr/bin/python3
-"""Long flows of scans with thin parts, which pinch: numbers and pictures.
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Measures and draws long flows of scans with thin parts, which pinch.
 
-100 and 200 steps of 1e-5, and 80 of 5e-4, beside the cotangent flow; distances leave out where its
-triangles have degenerated, and are in 1e-3 of the diagonal. Targets: after 100 steps of 1e-5 the converged
-solver is no farther than the paper's; nothing leaves the initial bounding box by more than 1e-3 of the
-diagonal; what has collapsed moves, in the root mean square, by at most 1e-2 of it afterwards.
+The scans flow 100 and 200 steps of 1e-5, and 80 of 5e-4. Distances to the cotangent flow are in 1e-3 of
+the diagonal and omit degenerated triangles. Targets: after 100 steps of 1e-5 the converged solver is no
+farther than the paper's; no vertex leaves the initial bounding box by more than 1e-3 of the diagonal;
+collapsed vertices then move by at most 1e-2 of it, in the root mean square.
 """
 
 import pathlib
@@ -13,7 +14,7 @@ import sys
 
 from experiment import CGAL_THIN_SCANS, CONVERGED, PAPER, SHARED_THIN_SCANS, Experiment, label
 
-UNANCHORED = f"{CONVERGED},unanchored"
+FREE_PINCHES = f"{CONVERGED},free-pinches"
 UNIT = 1e-3
 FLOWS = [(1e-5, [100, 200]), (5e-4, [80])]
 CHECKED_FLOW = (1e-5, 100)
@@ -23,7 +24,7 @@ LENGTHS = {"sound_rms": "RMS distance", "sound_worst": "worst", "rms": "RMS, all
            "farthest": "farthest", "drift_rms": "RMS drift", "drift_worst": "worst drift",
            "outside": "outside"}
 
-# The direction in which the camera looks, and the one that is up.
+# The directions of the camera and of up.
 UP = (0, 1, 0)
 USUAL_VIEW = ((0, 0, -1), UP)
 VIEWS = {"armadillo_50k": ((0, 0, 1), UP), "armadillo": ((0, 0, 1), UP),
@@ -33,12 +34,12 @@ VIEWS = {"armadillo_50k": ((0, 0, 1), UP), "armadillo": ((0, 0, 1), UP),
 def add_options(parser):
     parser.add_argument("--depth", type=int, default=0, help="0: automatic")
     parser.add_argument("--configurations", nargs="+", default=[],
-                        help="others to compare, as configuration.h spells them")
+                        help="further configurations to compare, see configuration.h")
     parser.add_argument("--no-pictures", action="store_true")
 
 
 def measure(experiment, scan, step_size, steps, configurations):
-    """Rows of all configurations; the surfaces are written to the folder returned."""
+    """Returns the rows of all configurations, and the folder with the surfaces."""
     folder = experiment.output / f"pinches_{label(scan)}_{step_size:g}"
     rows = experiment.run("pinches", scan, "--depth", experiment.options.depth, "--step-size",
                           step_size, "--steps", *steps, "--configurations", *configurations,
@@ -47,7 +48,7 @@ def measure(experiment, scan, step_size, steps, configurations):
 
 
 def draw(experiment, scan, folder, steps, configurations):
-    """The initial surface, every configuration's, and the cotangent flow's, side by side."""
+    """Draws the initial surface, those of all configurations and the cotangent flow's side by side."""
     picture = experiment.output / f"{folder.name}_{steps}.png"
     surfaces = [folder / f"{i}_{steps}.ply" for i in range(len(configurations))]
     surfaces.append(folder / f"cotangent_{steps}.ply")
@@ -108,7 +109,7 @@ def plot(experiment, rows, configurations):
 def main():
     experiment = Experiment("pinches", __doc__, add_options)
     options = experiment.options
-    configurations = [PAPER, CONVERGED, UNANCHORED, *options.configurations]
+    configurations = [PAPER, CONVERGED, FREE_PINCHES, *options.configurations]
     scans = experiment.scans(SHARED_THIN_SCANS, CGAL_THIN_SCANS)
     rows, drawings = [], []
     for scan in scans:

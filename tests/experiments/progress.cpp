@@ -1,33 +1,28 @@
-#include <CLI/CLI.hpp>
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <ctime>
-#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "filter_tracked_mcf/core/evolve.h"
-#include "filter_tracked_mcf/core/stopwatch.h"
-#include "tests/experiments/configuration.h"
+#include "filter_tracked_mcf/core/parallel/stopwatch.h"
 #include "tests/experiments/csv.h"
 #include "tests/experiments/experiments.h"
 #include "tests/experiments/meshes.h"
+#include "tests/experiments/options.h"
 
 namespace tracked_mcf::experiments {
 
 namespace {
 
-struct Options {
-    std::string mesh;
-    std::string configuration = "converged";
+struct ProgressOptions : Options {
     std::vector<int> threads = {1, 2};
-    int depth = 0;
-    int iterations = 3;
     int repetitions = 5;
 };
 
-/// The largest times without a call of the callback, in seconds: in the set-up, in the steps and
-/// what follows them, and from the last call until evolve() returns.
+/// The longest times without a call of the callback, in seconds: during the set-up, from the first
+/// step on, and from the last call until evolve() returns.
 struct Gaps {
     double setup = 0, steps = 0, end = 0;
     int calls = 0;
@@ -49,7 +44,7 @@ Gaps gaps_of(TriangleMesh mesh, const FlowParameters& parameters) {
     return gaps;
 }
 
-/// Processor time of all threads, in seconds, that a flow takes.
+/// Returns the processor time of a flow, over all threads, in seconds.
 double cost_of(TriangleMesh mesh, const FlowParameters& parameters, const Progress& progress) {
     const std::clock_t start = std::clock();
     evolve(mesh, parameters, progress);
@@ -62,10 +57,10 @@ double median(std::vector<double> values) {
     return *middle;
 }
 
-void measure(const TriangleMesh& mesh, const Options& options, int threads) {
-    FlowParameters parameters = parse_configuration(options.configuration);
-    parameters.depth = options.depth;
-    parameters.iterations = options.iterations;
+void measure(const TriangleMesh& mesh, const ProgressOptions& options, int threads) {
+    FlowParameters parameters =
+        options.parameters(options.depths.front(), options.configurations.front());
+    parameters.iterations = options.last_step();
     parameters.threads = threads;
     std::vector<double> setup, steps, end, calls, with, without;
     for (int repetition = 0; repetition < options.repetitions; ++repetition) {
@@ -74,7 +69,7 @@ void measure(const TriangleMesh& mesh, const Options& options, int threads) {
         steps.push_back(1e3 * gaps.steps);
         end.push_back(1e3 * gaps.end);
         calls.push_back(gaps.calls);
-        // In turn, so that what else the machine does falls on both alike.
+        // Alternates, so that other load on the machine affects both alike.
         with.push_back(cost_of(mesh, parameters, [](double, std::string_view) { return true; }));
         without.push_back(cost_of(mesh, parameters, {}));
     }
@@ -82,7 +77,7 @@ void measure(const TriangleMesh& mesh, const Options& options, int threads) {
               median(without));
 }
 
-void run(const Options& options) {
+void run(const ProgressOptions& options) {
     print_row("threads", "calls", "setup_ms", "steps_ms", "end_ms", "cpu_seconds",
               "cpu_seconds_without");
     const TriangleMesh mesh = named_mesh(options.mesh);
@@ -92,16 +87,13 @@ void run(const Options& options) {
 }  // namespace
 
 void add_progress(CLI::App& app) {
-    const auto options = std::make_shared<Options>();
-    CLI::App* command = app.add_subcommand(
-        "progress", "The largest times between calls of the callback, and what the calls cost.");
-    command->add_option("mesh", options->mesh)->required();
-    command->add_option("--configuration", options->configuration);
+    const auto [command, options] =
+        add_experiment(app, "progress",
+                       "Prints the longest times between calls of the progress "
+                       "callback, and the cost of the calls.",
+                       run, with_defaults<ProgressOptions>({3}, 1e-5));
     command->add_option("--threads", options->threads);
-    command->add_option("--depth", options->depth);
-    command->add_option("--iterations", options->iterations);
     command->add_option("--repetitions", options->repetitions)->check(CLI::PositiveNumber);
-    command->callback([options] { run(*options); });
 }
 
 }  // namespace tracked_mcf::experiments

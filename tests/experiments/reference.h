@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include <cstdint>
@@ -9,14 +10,14 @@
 
 namespace tracked_mcf::experiments {
 
-/// The cotangent flow after some number of steps.
+/// The cotangent flow after a number of steps.
 struct Reference {
     TriangleMesh mesh;
-    std::vector<std::uint8_t> left_out;  ///< of every vertex: triangles around it have degenerated
+    std::vector<std::uint8_t> left_out;  ///< for each vertex: triangles around it have degenerated
     double smallest_quality = 0;         ///< of its triangles
 };
 
-/// After each of these numbers of steps.
+/// Returns the cotangent flow after each of these numbers of steps.
 std::map<int, Reference> cotangent_flow(const TriangleMesh& mesh, double step_size,
                                         const std::vector<int>& steps,
                                         BoundaryCondition boundary = BoundaryCondition::Free);

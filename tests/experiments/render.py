@@ -1,11 +1,11 @@
 #!/usr/bin/python3
-"""Draws surfaces side by side, all with the camera and the scale of the first, so that one sees
-noise vanish and shapes shrink.
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Draws surfaces side by side with the camera and the scale of the first.
 
     render.py --output picture.png before.ply after.ply [--labels before after]
 
-Reads PLY, OBJ, STL and OFF. Needs Debian's python3-vtk9, and xvfb, since VTK draws through an X
-display: the script starts itself again on a virtual one, so that none need be there.
+Reads PLY, OBJ, STL and OFF. Needs Debian's python3-vtk9 and xvfb. VTK needs an X display, so the script
+restarts itself on a virtual one.
 """
 
 import argparse
@@ -26,16 +26,16 @@ def parse_arguments():
     parser.add_argument("meshes", nargs="+", metavar="MESH", help=".ply, .obj, .stl or .off")
     parser.add_argument("--output", required=True, metavar="PICTURE.png")
     parser.add_argument("--labels", nargs="+", default=[], metavar="TEXT",
-                        help="what to write below each")
+                        help="text below each surface")
     parser.add_argument("--view", nargs=3, type=float, default=(0, 0, -1), metavar=("X", "Y", "Z"),
-                        help="the direction in which the camera looks (default: 0 0 -1)")
+                        help="direction of the camera (default: 0 0 -1)")
     parser.add_argument("--up", nargs=3, type=float, default=(0, 1, 0), metavar=("X", "Y", "Z"),
-                        help="the direction that is up in the picture (default: 0 1 0)")
-    parser.add_argument("--zoom", type=float, default=1, help="above 1 shows a part, but larger")
+                        help="upward direction of the picture (default: 0 1 0)")
+    parser.add_argument("--zoom", type=float, default=1, help="above 1: enlarge the middle")
     parser.add_argument("--center", nargs=2, type=float, default=(0, 0), metavar=("RIGHT", "UP"),
-                        help="the middle of the picture, in half widths and heights of the mesh")
-    parser.add_argument("--flat", action="store_true", help="show each triangle's own shade")
-    parser.add_argument("--height", type=int, default=900, help="of the picture, in pixels")
+                        help="middle of the picture, in half widths and heights of the mesh")
+    parser.add_argument("--flat", action="store_true", help="flat shading")
+    parser.add_argument("--height", type=int, default=900, help="height of the picture in pixels")
     arguments = parser.parse_args()
     if arguments.labels and len(arguments.labels) != len(arguments.meshes):
         parser.error("give one label for each mesh")
@@ -45,18 +45,18 @@ def parse_arguments():
 
 
 def restart_on_virtual_display():
-    """Any display that is there already may be out of reach, or one without OpenGL."""
+    """Restarts the script. An existing display may be unreachable or lack OpenGL."""
     if os.environ.get(ON_VIRTUAL_DISPLAY):
         return
     if not shutil.which("xvfb-run"):
-        sys.exit("render.py: needs xvfb-run; on Debian: apt-get install xvfb xauth")
+        sys.exit("render.py: xvfb-run is missing. On Debian: apt-get install xvfb xauth")
     os.environ[ON_VIRTUAL_DISPLAY] = "1"
     screen = ["xvfb-run", "--auto-servernum", "--server-args=-screen 0 1280x1024x24"]
     os.execvp(screen[0], screen + [sys.executable, os.path.abspath(__file__)] + sys.argv[1:])
 
 
 def read_off(path):
-    """VTK reads every format but this one."""
+    """Reads an OFF file, the only format that VTK does not read."""
     with open(path, encoding="ascii", errors="replace") as file:
         words = [word for line in file for word in line.split("#")[0].split()]
     if not words or words[0] != "OFF":
@@ -92,7 +92,7 @@ def read_surface(path):
 
 
 def add_normals(surface):
-    """The faces' orientation is taken as it is; creases are not looked for: noise has many."""
+    """Keeps the orientation of faces and does not detect creases, because noise has many."""
     normals = vtkPolyDataNormals()
     normals.SetInputData(surface)
     normals.SplittingOff()
@@ -123,7 +123,7 @@ def make_actor(surface, flat):
 
 
 def add_lights(renderer):
-    """A key light from the upper left that grazes the surface, for relief, and two weak ones."""
+    """Adds a grazing key light from the upper left and two weak lights."""
     for position, intensity, color in [((-1.5, 1.5, 1.0), 0.88, (1.0, 0.98, 0.95)),
                                        ((1.8, 0.2, 1.0), 0.34, (0.9, 0.95, 1.0)),
                                        ((0.0, 0.3, 2.0), 0.22, (1.0, 1.0, 1.0))]:
@@ -136,7 +136,7 @@ def add_lights(renderer):
 
 
 class View:
-    """A camera without perspective that holds the whole of one surface."""
+    """Returns a parallel camera that shows a whole surface."""
 
     def __init__(self, surface, arguments):
         self.forward = numpy.array(arguments.view, float) / numpy.linalg.norm(arguments.view)

@@ -1,25 +1,21 @@
-#include <CLI/CLI.hpp>
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <limits>
-#include <memory>
 #include <string>
 #include <vector>
 
-#include "filter_tracked_mcf/core/flow.h"
-#include "filter_tracked_mcf/core/stopwatch.h"
-#include "tests/experiments/configuration.h"
+#include "filter_tracked_mcf/core/flow/flow.h"
+#include "filter_tracked_mcf/core/parallel/stopwatch.h"
 #include "tests/experiments/csv.h"
 #include "tests/experiments/experiments.h"
 #include "tests/experiments/meshes.h"
+#include "tests/experiments/options.h"
 
 namespace tracked_mcf::experiments {
 
 namespace {
 
-struct Options {
-    std::string mesh;
-    std::vector<int> depths;
-    std::vector<std::string> configurations;
+struct SetupOptions : Options {
     int repetitions = 7;
 };
 
@@ -28,24 +24,22 @@ struct Cost {
     double seconds = std::numeric_limits<double>::infinity();  ///< the shortest of all
 };
 
-void set_up(const TriangleMesh& mesh, int depth, const std::string& configuration, Cost& cost) {
-    FlowParameters parameters = parse_configuration(configuration);
-    parameters.depth = depth;
+void set_up(const TriangleMesh& mesh, const FlowParameters& parameters, Cost& cost) {
     const Stopwatch stopwatch;
     const Flow flow(mesh, parameters);
     cost.seconds = std::min(cost.seconds, stopwatch.seconds());
     cost.unknowns = flow.report().unknowns;
 }
 
-void run(const Options& options) {
+void run(const SetupOptions& options) {
     print_row("depth", "configuration", "unknowns", "seconds");
     const TriangleMesh mesh = named_mesh(options.mesh);
     for (const int depth : options.depths) {
         std::vector<Cost> costs(options.configurations.size());
-        // In turn, so that what else the machine does falls on all alike.
+        // Alternates, so that other load on the machine affects all configurations alike.
         for (int repetition = 0; repetition < options.repetitions; ++repetition) {
             for (std::size_t i = 0; i < costs.size(); ++i) {
-                set_up(mesh, depth, options.configurations[i], costs[i]);
+                set_up(mesh, options.parameters(depth, options.configurations[i]), costs[i]);
             }
         }
         for (std::size_t i = 0; i < costs.size(); ++i) {
@@ -57,14 +51,10 @@ void run(const Options& options) {
 }  // namespace
 
 void add_setup(CLI::App& app) {
-    const auto options = std::make_shared<Options>();
-    CLI::App* command =
-        app.add_subcommand("setup", "Unknowns, and the shortest of several times of the set-up.");
-    command->add_option("mesh", options->mesh)->required();
-    command->add_option("--depths", options->depths)->required();
-    command->add_option("--configurations", options->configurations)->required();
+    const auto [command, options] = add_experiment(
+        app, "setup", "Prints the unknowns and the shortest time of several set-ups.", run,
+        SetupOptions());
     command->add_option("--repetitions", options->repetitions);
-    command->callback([options] { run(*options); });
 }
 
 }  // namespace tracked_mcf::experiments

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/experiments/slip.h"
 
 #include <algorithm>
@@ -5,15 +6,15 @@
 
 namespace tracked_mcf::experiments {
 
-Slip slip_at_held_edges(const Flow& flow) {
+Slip slip_at_constrained_edges(const Flow& flow) {
     const TrackedElements& elements = flow.elements();
     Slip slip;
     double length = 0;
     double squares = 0;
-    for (const HeldSample& sample : elements.held_samples) {
-        const VertexPlace place = {sample.element, sample.local.cast<double>()};
-        const double distance =
-            evaluate_vertex(elements, flow.displacement(), place).norm() * elements.grid.cell_size;
+    for (const CurveSample& sample : elements.curve_samples) {
+        const VertexLocation location = {sample.element, sample.local.cast<double>()};
+        const double distance = evaluate_vertex(elements, flow.displacement(), location).norm() *
+                                elements.grid.cell_size;
         length += sample.weight;
         squares += sample.weight * distance * distance;
         slip.worst = std::max(slip.worst, distance);

@@ -1,16 +1,17 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "filter_tracked_mcf/core/flow.h"
+#include "filter_tracked_mcf/core/flow/flow.h"
 
 namespace tracked_mcf::experiments {
 
-/// How far the surface has slipped from under the edges that hold it, mesh units.
+/// The distance of the surface from its constrained edges, in mesh units.
 struct Slip {
-    double rms = 0;  ///< by length
+    double rms = 0;  ///< weighted by length
     double worst = 0;
 };
 
-/// At the flow's held samples; zero if it has none.
-Slip slip_at_held_edges(const Flow& flow);
+/// Measures the slip at the flow's curve samples. Returns zero if there are none.
+Slip slip_at_constrained_edges(const Flow& flow);
 
 }  // namespace tracked_mcf::experiments

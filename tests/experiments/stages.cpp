@@ -1,35 +1,31 @@
-#include <CLI/CLI.hpp>
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "filter_tracked_mcf/core/errors.h"
-#include "filter_tracked_mcf/core/flow.h"
-#include "filter_tracked_mcf/core/rescaling.h"
+#include "filter_tracked_mcf/core/flow/flow.h"
+#include "filter_tracked_mcf/core/flow/preserving.h"
+#include "filter_tracked_mcf/core/mesh/measures.h"
 #include "filter_tracked_mcf/tool/mesh_file.h"
-#include "tests/experiments/configuration.h"
 #include "tests/experiments/csv.h"
 #include "tests/experiments/experiments.h"
+#include "tests/experiments/options.h"
+#include "tests/support/shapes.h"
 
 namespace tracked_mcf::experiments {
 
 namespace {
 
-struct Options {
-    std::string mesh;
-    int depth = 0;
-    double step_size = 1e-2;
-    std::vector<int> steps;
-    std::vector<std::string> configurations;
+struct StageOptions : Options {
     std::filesystem::path folder;
 };
 
-/// Of every vertex: a third of the area of its triangles.
+/// Returns a third of the area of the triangles around each vertex.
 std::vector<double> vertex_areas(const TriangleMesh& mesh) {
     std::vector<double> areas(mesh.positions.size());
     for (const Triangle& t : mesh.triangles) {
@@ -38,18 +34,18 @@ std::vector<double> vertex_areas(const TriangleMesh& mesh) {
     return areas;
 }
 
-/// How far the vertices are from a sphere about the surface's centroid, relative to the mean
-/// radius.
+/// The vertices' distances from a sphere about the surface's centroid, relative to its mean radius.
 struct Roundness {
     double by_area = 0;    ///< standard deviation, vertices weighted by the area around them
-    double by_vertex = 0;  ///< the same, all vertices alike
-    double worst = 0;      ///< of a vertex
+    double by_vertex = 0;  ///< the same, not weighted
+    double worst = 0;      ///< the largest
 };
 
 Roundness roundness(const TriangleMesh& mesh) {
-    const Eigen::Vector3d centre = surface_centroid(mesh);
+    const Eigen::Vector3d centre = shapes::surface_centroid(mesh);
     const std::vector<double> areas = vertex_areas(mesh);
     std::vector<double> radii;
+    radii.reserve(mesh.positions.size());
     for (const Eigen::Vector3d& position : mesh.positions) {
         radii.push_back((position - centre).norm());
     }
@@ -83,7 +79,7 @@ bool all_finite(const TriangleMesh& mesh) {
 /// Runs all configurations on one mesh.
 class Runner {
 public:
-    explicit Runner(const Options& options)
+    explicit Runner(const StageOptions& options)
         : options_(options), file_(options.mesh), mesh_(file_.triangle_mesh()) {}
 
     void run() {
@@ -92,27 +88,26 @@ public:
 
 private:
     void run_configuration(std::size_t index) {
-        FlowParameters parameters = parse_configuration(options_.configurations[index]);
-        parameters.depth = options_.depth;
-        parameters.step_size = options_.step_size;
         try {
-            flow(parameters, index);
+            flow(options_.parameters(options_.depths.front(), options_.configurations[index]),
+                 index);
         } catch (const NumericalFailure& failure) {
             std::cerr << options_.configurations[index] << ": " << failure.what() << '\n';
         }
     }
 
     void flow(const FlowParameters& parameters, std::size_t index) {
-        std::optional<Rescaler> rescaler;
-        if (parameters.rescale != Rescaling::None) rescaler.emplace(mesh_, Selection{}, parameters);
-        Flow flow(mesh_, parameters);
-        const int last = *std::max_element(options_.steps.begin(), options_.steps.end());
+        const Domain domain(mesh_, parameters.boundary);
+        check_preservable(domain, parameters);
+        Flow flow(domain, parameters);
+        std::optional<Preserver> preserver;
+        if (parameters.preserve != Preserve::None) preserver.emplace(domain, parameters, flow);
         bool goes_on = true;
-        for (int step = 1; step <= last; ++step) {
-            goes_on = goes_on && flow.step() && (!rescaler || rescaler->restore(flow));
-            if (std::count(options_.steps.begin(), options_.steps.end(), step) == 0) continue;
+        for (int step = 1; step <= options_.last_step(); ++step) {
+            goes_on = goes_on && flow.step() && (!preserver || preserver->restore(flow));
+            if (!options_.measures_after(step)) continue;
             TriangleMesh moved = mesh_;
-            flow.move_vertices(moved);
+            flow.move_vertices(moved.positions);
             print(options_.configurations[index], step, flow.report(), moved);
             save(moved, index, step);
         }
@@ -122,7 +117,7 @@ private:
                const TriangleMesh& moved) const {
         const Roundness round = roundness(moved);
         const StepReport last = report.steps.empty() ? StepReport() : report.steps.back();
-        print_row(report.depth, options_.step_size, configuration, step,
+        print_row(report.depth, options_.step_size(), configuration, step,
                   static_cast<int>(report.steps.size()), all_finite(moved) ? 1 : 0, round.by_area,
                   round.by_vertex, round.worst, surface_area(moved) / surface_area(mesh_),
                   static_cast<double>(last.collapsed_samples) / static_cast<double>(report.samples),
@@ -136,34 +131,31 @@ private:
         file_.write(moved, options_.folder / name, options_.folder);
     }
 
-    Options options_;
+    StageOptions options_;
     MeshFile file_;
     TriangleMesh mesh_;
 };
 
+void run(const StageOptions& options) {
+    print_row("depth", "step_size", "configuration", "steps", "steps_made", "finite", "by_area",
+              "by_vertex", "worst", "area", "collapsed", "iterations", "reached_tolerance");
+    Runner(options).run();
+}
+
 }  // namespace
 
 void add_stages(CLI::App& app) {
-    const auto options = std::make_shared<Options>();
-    CLI::App* command = app.add_subcommand(
-        "stages",
-        "Stages of a flow: the area relative to the start, and how near the surface has come to a "
-        "sphere: standard deviation of the radius about the surface's centroid over its mean, by "
-        "area and by vertex, and the worst vertex; 'collapsed' is a share of the samples, "
-        "'steps_made' less than asked for where nothing was left to do.");
-    command->add_option("mesh", options->mesh, "a file")->required();
-    command->add_option("--depth", options->depth);
-    command->add_option("--step-size", options->step_size);
-    command->add_option("--steps", options->steps, "measure after so many")->required();
-    command->add_option("--configurations", options->configurations)->required();
-    command->add_option("--folder", options->folder,
-                        "write the surfaces there as NAME_STEPS.ply, NAME being a configuration's "
-                        "place in the list");
-    command->callback([options] {
-        print_row("depth", "step_size", "configuration", "steps", "steps_made", "finite", "by_area",
-                  "by_vertex", "worst", "area", "collapsed", "iterations", "reached_tolerance");
-        Runner(*options).run();
-    });
+    const auto [command, options] = add_experiment(
+        app, "stages",
+        "Prints stages of the flow of a file: the area relative to the start, and the surface's "
+        "difference from a sphere: the standard deviation of the radius about the surface's "
+        "centroid "
+        "relative to its mean, by area and by vertex, and the largest deviation. 'collapsed' is a "
+        "fraction of the samples. 'steps_made' is smaller than 'steps' if the flow stopped.",
+        run, with_defaults<StageOptions>({1}, 1e-2));
+    command->add_option(
+        "--folder", options->folder,
+        "write the surfaces there as INDEX_STEPS.ply, with the configuration's index");
 }
 
 }  // namespace tracked_mcf::experiments

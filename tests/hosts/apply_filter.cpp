@@ -1,8 +1,9 @@
-// Runs the plugin's filter on a PLY file in a host without a display, as a script would:
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Runs the plugin's filter on a PLY file in a host without a display:
 // apply_filter PLUGIN IN.ply OUT.ply [NAME=VALUE]...
 //
-// Parameters that are not named have the values that a dialog starts with; a choice's value is its
-// index. Prints the host's log; ends with 1 and the filter's message if it fails.
+// Other parameters have the dialog's defaults. The value of a choice is its index. Prints the
+// host's log. Exits with 1 and the filter's message if the filter fails.
 
 #include <vcg/complex/complex.h>
 #include <wrap/io_trimesh/export_ply.h>
@@ -35,12 +36,13 @@ void write(const char* file, MeshModel& layer) {
     if (error != 0) throw std::runtime_error(ExporterPLY<CMeshO>::ErrorMsg(error));
 }
 
-/// Of the type that the parameter has.
+/// Parses a value of the parameter's type.
 void set(RichParameterList& list, const QString& name, const QString& value) {
     if (!list.hasParameter(name)) throw std::runtime_error("no parameter " + name.toStdString());
     const RichParameter& parameter = list.getParameterByName(name);
     const QString type = parameter.stringType();
     if (type == "RichInt") list.setValue(name, IntValue(value.toInt()));
+    if (type == "RichAbsPerc") host::set_length(list, name, value.toFloat());
     if (type == "RichFloat") list.setValue(name, FloatValue(value.toFloat()));
     if (type == "RichBool") list.setValue(name, BoolValue(value == "true"));
     if (type == "RichEnum") list.setValue(name, *host::choice(value.toInt()));

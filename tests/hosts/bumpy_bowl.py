@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""Writes an open surface with noise, for the hosts to smooth: bumpy_bowl.py OUTPUT.off"""
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Writes an open surface with noise for the host tests: bumpy_bowl.py OUTPUT.off"""
 
 import random
 import sys
 
-# In vertices. MeshLab shows meshes of fewer than 50,000 faces with flat shading until a filter has
-# run, which would spoil pictures of before and after.
+# In vertices. MeshLab shows meshes of fewer than 50,000 faces with flat shading until a filter has run.
+# Pictures before and after would then differ by their shading.
 SIDE = 180
 
 

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Checks that a flow has left alone what it must: check_kept.py BEFORE.ply AFTER.ply
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Checks what a flow must not change: check_kept.py BEFORE.ply AFTER.ply
 
-Vertices of boundary edges, which one face alone has once vertices at the same place are one, must
-have the same bits, and so must, if the faces have flags, all vertices of faces that MeshLab's flags
-do not select; at least 99 in 100 of the others must have moved. Everything else of the file must be
-the same: faces, order, colours, flags, whatever there is.
+Vertices of boundary edges must keep their bits. A boundary edge has one face after coincident vertices
+are merged. If faces have MeshLab's flags, the vertices of unselected faces must keep their bits, too. At
+least 99 % of the other vertices must have moved. All other data of the file must stay.
 """
 
 import itertools
@@ -19,7 +19,7 @@ COMPUTED = {"x", "y", "z", "nx", "ny", "nz"}
 
 
 def bits(point):
-    """As doubles: two floats have the same bits if these have."""
+    """Returns the bits of a point's coordinates as doubles. Floats are equal if and only if these are."""
     return struct.pack("<3d", *point)
 
 
@@ -30,7 +30,7 @@ def vertex_indices(elements):
 
 
 def on_boundary(points, faces):
-    """The places of vertices of boundary edges."""
+    """Returns the positions of the vertices of boundary edges."""
     edges = Counter()
     for corners in faces:
         for a, b in zip(corners, corners[1:] + corners[:1]):
@@ -40,7 +40,7 @@ def on_boundary(points, faces):
 
 
 def unselected(points, faces, elements):
-    """The places of vertices of faces that are not selected; none if faces have no flags."""
+    """Returns the positions of the vertices of unselected faces; none if faces have no flags."""
     if "flags" not in elements["face"].properties:
         return set()
     flags = elements["face"].column("flags")
@@ -59,20 +59,20 @@ def everything_else(elements):
 def main(before_path, after_path):
     before, after = read_ply(before_path), read_ply(after_path)
     if list(everything_else(before)) != list(everything_else(after)):
-        sys.exit("something else than positions has changed")
+        sys.exit("data other than positions has changed")
     start, end, faces = positions(before), positions(after), vertex_indices(before)
     boundary, left_out = on_boundary(start, faces), unselected(start, faces, before)
     used = set(itertools.chain(*faces))
-    held = [i for i, p in enumerate(start) if i not in used or p in boundary or p in left_out]
-    free = sorted(set(range(len(start))).difference(held))
-    changed = [i for i in held if bits(start[i]) != bits(end[i])]
+    constrained = [i for i, p in enumerate(start) if i not in used or p in boundary or p in left_out]
+    free = sorted(set(range(len(start))).difference(constrained))
+    changed = [i for i in constrained if bits(start[i]) != bits(end[i])]
     moved = sum(bits(start[i]) != bits(end[i]) for i in free)
-    print(f"{len(held)} vertices keep their bits, {len(boundary)} places of the boundary and "
-          f"{len(left_out)} of faces left out among them; {moved} of {len(free)} others moved")
+    print(f"{len(constrained)} vertices must keep their bits, {len(boundary)} positions of the boundary "
+          f"and {len(left_out)} of unselected faces among them; {moved} of {len(free)} others moved")
     if changed:
-        sys.exit(f"{len(changed)} vertices that are held have moved, the first is {changed[0]}")
+        sys.exit(f"{len(changed)} constrained vertices have moved; the first is {changed[0]}")
     if not boundary and not left_out or moved < 0.99 * len(free) or not free:
-        sys.exit("nothing to see here: nothing is held, or nothing moves")
+        sys.exit("the test is void: no vertex is constrained, or too few others have moved")
 
 
 if __name__ == "__main__":

@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Compares the vertices of PLY files: compare_positions.py A.ply B.ply REFERENCE.ply ULPS
 
-Fails unless A and B have the same vertices in the same order, each coordinate to within ULPS units
-in the last place of a float as large as the largest coordinate, and they have moved from REFERENCE
-by a hundred times that.
+Fails unless each coordinate of A and B agrees within a tolerance, and the largest movement from
+REFERENCE is a hundred times the tolerance. The tolerance is ULPS units in the last place of a float as
+large as the largest coordinate.
 """
 
 import math
@@ -13,7 +14,7 @@ from ply_file import positions, read_ply
 
 
 def read_coordinates(path):
-    """x, y, z of the first vertex, then of the second, and so on."""
+    """Returns x, y and z of each vertex, in order."""
     return [coordinate for point in positions(read_ply(path)) for coordinate in point]
 
 
@@ -22,7 +23,7 @@ def float_ulp(number):
 
 
 def largest_difference(a, b):
-    """Infinite where one is not a number, so that no comparison passes by accident."""
+    """Returns the largest difference, infinite if a number is a NaN."""
     return max(math.inf if math.isnan(p - q) else abs(p - q) for p, q in zip(a, b))
 
 

@@ -1,4 +1,5 @@
-// The part of the plugin that no host is needed for: what it makes of the values that hosts pass.
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Tests the code of the plugin that needs no host: it converts the values that hosts pass.
 
 #include <gtest/gtest.h>
 
@@ -6,7 +7,7 @@
 #include <limits>
 
 #include "filter_tracked_mcf/core/errors.h"
-#include "filter_tracked_mcf/parameters/early_stop.h"
+#include "filter_tracked_mcf/parameters/flow_warnings.h"
 #include "filter_tracked_mcf/parameters/parameter_table.h"
 #include "filter_tracked_mcf/plugin/parameter_values.h"
 #include "filter_tracked_mcf/plugin/run_filter.h"
@@ -16,9 +17,10 @@ namespace tracked_mcf {
 namespace {
 
 ParameterValues values_other_than_default() {
-    return {{"depth", 7},  {"step_size", 2e-4},       {"absolute", true}, {"iterations", 3},
-            {"flow", 1},   {"boundary", 2},           {"selected", true}, {"rescale", 1},
-            {"solver", 1}, {"separate_sheets", false}};
+    return {{"detail_size", 0.5}, {"order", 2},      {"depth", 7},  {"step_size", 2e-4},
+            {"absolute", true},   {"iterations", 5}, {"flow", 1},   {"boundary", 2},
+            {"selected", true},   {"preserve", 1},   {"solver", 1}, {"separate_sheets", false},
+            {"quality", 1}};
 }
 
 TEST(ParameterValues, EveryParameterOfTheTableIsRead) {
@@ -35,13 +37,16 @@ TEST(ParameterValues, EveryParameterOfTheTableIsRead) {
 
 TEST(ParameterValues, ReachTheCoreUnchanged) {
     const FlowParameters parameters = flow_parameters(values_other_than_default());
+    EXPECT_EQ(parameters.detail_size, 0.5);
+    EXPECT_EQ(parameters.order, 3) << "the first choice is order 1";
     EXPECT_EQ(parameters.depth, 7);
     EXPECT_EQ(parameters.step_size, 2e-4);
     EXPECT_TRUE(parameters.absolute);
-    EXPECT_EQ(parameters.iterations, 3);
+    EXPECT_EQ(parameters.iterations, 5);
     EXPECT_EQ(parameters.flow, FlowKind::Conformalized);
     EXPECT_EQ(parameters.boundary, BoundaryCondition::Free);
-    EXPECT_EQ(parameters.rescale, Rescaling::KeepArea);
+    EXPECT_EQ(parameters.preserve, Preserve::Area);
+    EXPECT_EQ(parameters.quality, Quality::Displacement);
     EXPECT_FALSE(parameters.separate_sheets);
     EXPECT_EQ(parameters.solver, Solver::OneWCycle);
 }
@@ -50,7 +55,9 @@ TEST(ParameterValues, LabelsAreThoseOfTheCoresValues) {
     const std::map<std::string, std::pair<int, std::string>> labels = {
         {"flow", {static_cast<int>(FlowKind::Conformalized), "Conformalized"}},
         {"boundary", {static_cast<int>(BoundaryCondition::LockedCells), "Locked cells (paper)"}},
-        {"rescale", {static_cast<int>(Rescaling::KeepVolume), "Keep volume"}},
+        {"order", {kMaximumOrder - 1, "Kept best (order 4)"}},
+        {"preserve", {static_cast<int>(Preserve::Volume), "Volume"}},
+        {"quality", {static_cast<int>(Quality::MeanCurvature), "Mean curvature"}},
         {"solver", {static_cast<int>(Solver::OneWCycle), "One W-cycle (paper)"}}};
     for (const ParameterDescription& parameter : parameter_table()) {
         const auto* const choice = std::get_if<ParameterDescription::Choice>(&parameter.type);
@@ -58,10 +65,12 @@ TEST(ParameterValues, LabelsAreThoseOfTheCoresValues) {
         const auto& [index, label] = labels.at(parameter.name);
         EXPECT_EQ(choice->labels.at(static_cast<std::size_t>(index)), label);
         EXPECT_EQ(choice->default_value, 0) << parameter.name;
+        const bool is_order = parameter.name == "order";
+        EXPECT_TRUE(!is_order || choice->labels.size() == std::size_t{kMaximumOrder});
     }
 }
 
-TEST(ParameterValues, WhetherOnlyTheSelectionFlowsIsRead) {
+TEST(ParameterValues, TheSelectionParameterIsRead) {
     ParameterValues values = values_other_than_default();
     EXPECT_TRUE(selected_only(values));
     values["selected"] = false;
@@ -94,8 +103,9 @@ TEST(ParameterValues, AChoiceWithoutALabelIsRefusedWithTheLabels) {
 
 TEST(ParameterValues, AValueOfTheWrongTypeIsRefused) {
     const std::map<std::string, ParameterValue> wrong = {
-        {"step_size", 1}, {"absolute", 0},  {"separate_sheets", 1}, {"solver", true},
-        {"flow", false},  {"rescale", 0.0}, {"depth", 3.0}};
+        {"detail_size", 1},     {"order", 1.0},   {"step_size", 1},
+        {"absolute", 0},        {"flow", false},  {"preserve", 0.0},
+        {"separate_sheets", 1}, {"solver", true}, {"depth", 3.0}};
     for (const auto& [name, value] : wrong) {
         ParameterValues values = values_other_than_default();
         values[name] = value;
@@ -123,35 +133,55 @@ TEST(AsTyped, KeepsOtherDoubles) {
 TEST(Outputs, AreTheReportsNumbers) {
     using run_filter_detail::outputs_of;
     FlowReport report;
+    report.detail_size = 0.5;
+    report.step_size = 0.0625;
     report.unknowns = 1234;
     report.depth = 7;
+    report.cell_size = 0.375;
+    report.largest_displacement = 0.75;
+    report.rms_displacement = 0.25;
     report.area_before = 2.5;
     report.area_after = 2.25;
+    report.volume_change = -1.5;
     report.steps.resize(3);
-    report.steps[1].relative_residual = 0.5;
-    report.steps[2].relative_residual = 0.125;
+    report.steps[1].error_estimate = 0.5;
+    report.steps[2].error_estimate = 0.125;
     report.steps[2].residual_before = 8;
     report.steps[2].residual_after = 2;
     FlowParameters parameters;
-    EXPECT_EQ(outputs_of(parameters, report), (Outputs{{"unknowns", 1234},
+    EXPECT_EQ(outputs_of(parameters, report), (Outputs{{"detail_size", 0.5},
+                                                       {"step_size", 0.0625},
                                                        {"depth", 7},
+                                                       {"cell_size", 0.375},
+                                                       {"unknowns", 1234},
                                                        {"steps", 3},
-                                                       {"final_residual", 0.125},
+                                                       {"stopped_early", 0},
+                                                       {"converged", 1},
+                                                       {"error_estimate", 0.125},
+                                                       {"largest_displacement", 0.75},
+                                                       {"rms_displacement", 0.25},
                                                        {"area_before", 2.5},
-                                                       {"area_after", 2.25}}));
+                                                       {"area_after", 2.25},
+                                                       {"volume_change", -1.5}}));
+    report.oriented_consistently = false;
+    EXPECT_EQ(outputs_of(parameters, report).count("volume_change"), 0u);
+    report.stop = Stop::Vanished;
+    EXPECT_EQ(outputs_of(parameters, report).at("stopped_early"), Outputs::mapped_type(1));
+    report.steps[0].reached_tolerance = false;
+    EXPECT_EQ(outputs_of(parameters, report).at("converged"), Outputs::mapped_type(0));
     parameters.solver = Solver::OneWCycle;
-    EXPECT_EQ(outputs_of(parameters, report).at("final_residual"), Outputs::mapped_type(0.25));
+    EXPECT_EQ(outputs_of(parameters, report).at("error_estimate"), Outputs::mapped_type(0.25));
     report.steps.clear();
-    EXPECT_EQ(outputs_of(parameters, report).at("final_residual"), Outputs::mapped_type(0.0));
+    EXPECT_EQ(outputs_of(parameters, report).at("error_estimate"), Outputs::mapped_type(0.0));
 }
 
-TEST(Summary, SaysWhichStepStoppedShortOfTheToleranceAndWhatToDo) {
+TEST(Summary, NamesTheFirstStepAboveTheToleranceAndTheRemedy) {
     using run_filter_detail::summary;
     FlowReport report;
     report.steps.resize(5);
     EXPECT_EQ(summary({}, report).find("Warning"), std::string::npos);
     report.steps[3].reached_tolerance = false;
-    report.steps[3].relative_residual = 0.02;
+    report.steps[3].error_estimate = 0.02;
     report.steps[3].solver_iterations = 100;
     const std::string text = summary({}, report);
     EXPECT_NE(text.find(" Warning: The solver stopped short of the tolerance 0.001 in 1 of 5 "
@@ -160,7 +190,7 @@ TEST(Summary, SaysWhichStepStoppedShortOfTheToleranceAndWhatToDo) {
         << text;
 }
 
-TEST(Summary, TellsTheFlowAndWhatIsHeld) {
+TEST(Summary, NamesTheFlowAndTheConstrainedVertices) {
     using run_filter_detail::summary;
     FlowParameters parameters;
     FlowReport report;
@@ -169,18 +199,62 @@ TEST(Summary, TellsTheFlowAndWhatIsHeld) {
     EXPECT_EQ(summary(parameters, report).find("Smoothed 100 vertices by 10 steps of mean-curv"),
               0u);
     parameters.flow = FlowKind::Conformalized;
-    report.held_vertices = 12;
+    report.constrained_vertices = 12;
     EXPECT_EQ(summary(parameters, report)
-                  .find("Smoothed 100 vertices, of which 12 are held, by 10 steps of conformalized "
+                  .find("Smoothed 100 vertices (12 constrained) by 10 steps of conformalized "
                         "mean-curvature flow: "),
               0u);
 }
 
-TEST(Summary, SaysWhereTheFlowStoppedAndWhy) {
+TEST(Summary, TellsWhatWasRemovedAndHowFarTheSurfaceHasMoved) {
+    FlowReport report;
+    EXPECT_EQ(changes(report), "Nothing has moved.");
+    report.steps.resize(1);
+    report.detail_size = 0.5;
+    report.step_size = 0.015625;
+    report.largest_displacement = 0.1234567;
+    report.rms_displacement = 0.0625;
+    report.area_before = 8;
+    report.area_after = 7;
+    report.volume_change = -0.25;
+    const std::string halved = "Waves of length 0.5 keep half of their amplitude. ";
+    const std::string moved =
+        "The step size was 0.0156 squared units of the mesh. The vertices moved by up to 0.123, "
+        "RMS 0.0625; the area changed by -12.5 %";
+    EXPECT_EQ(changes(report), halved + moved + ", the volume by -0.25.");
+    report.oriented_consistently = false;
+    EXPECT_EQ(changes(report), halved + moved + ".");
+    EXPECT_NE(run_filter_detail::summary({}, report).find(" s for the steps. " + changes(report)),
+              std::string::npos);
+    report.stop = Stop::Pinched;
+    EXPECT_EQ(changes(report), moved + ".");
+}
+
+TEST(DefaultDetailSize, IsThatOfTheSelectedTriangles) {
+    using run_filter_detail::default_detail_size_or_zero;
+    const TriangleMesh mesh = {{{0, 0, 0}, {3, 0, 0}, {0, 4, 0}, {0, 4, 6}},
+                               {{0, 1, 2}, {0, 2, 3}}};
+    const double second = 10 + std::sqrt(52);
+    EXPECT_DOUBLE_EQ(default_detail_size_or_zero(mesh, {1, 0}), kDefaultDetailInEdges * 4);
+    EXPECT_DOUBLE_EQ(default_detail_size_or_zero(mesh, {}),
+                     kDefaultDetailInEdges * (12 + second) / 6);
+}
+
+TEST(DefaultDetailSize, OfAMeshThatCannotFlowIsZero) {
+    using run_filter_detail::default_detail_size_or_zero;
+    EXPECT_EQ(default_detail_size_or_zero({}, {}), 0);
+    EXPECT_EQ(default_detail_size_or_zero({{{0, 0, 0}, {1, 0, 0}, {0, NAN, 0}}, {{0, 1, 2}}}, {}),
+              0);
+    EXPECT_EQ(default_detail_size_or_zero({{{0, 0, 0}}, {{0, 1, 2}}}, {}), 0);
+}
+
+TEST(Summary, NamesTheStepAtWhichTheFlowStoppedAndTheReason) {
+    FlowParameters parameters;
+    parameters.iterations = 10;
     FlowReport report;
     report.steps.resize(3);
     report.stop = Stop::Vanished;
-    const std::string text = run_filter_detail::summary({}, report);
+    const std::string text = run_filter_detail::summary(parameters, report);
     EXPECT_NE(text.find("by 3 steps"), std::string::npos) << text;
     EXPECT_NE(text.find(" Warning: The flow stopped after step 3 of 10: step 4 would have left no "
                         "surface."),
@@ -188,26 +262,66 @@ TEST(Summary, SaysWhereTheFlowStoppedAndWhy) {
         << text;
 }
 
-TEST(EarlyStop, SaysWhenWhyAndWhatToDo) {
+TEST(EarlyStop, NamesTheStepTheReasonAndTheRemedy) {
+    FlowParameters parameters;
+    parameters.iterations = 10;
     FlowReport report;
-    EXPECT_EQ(early_stop(report, 10), "");
+    const auto early_stop = [&] {
+        const std::vector<std::string> warnings = flow_warnings(parameters, report, "");
+        return warnings.empty() ? "" : warnings.front();
+    };
+    EXPECT_EQ(early_stop(), "");
     report.stop = Stop::Vanished;
-    EXPECT_EQ(early_stop(report, 10),
-              "Nothing has moved: the first step would have left no surface. Take a smaller step "
-              "size.");
+    EXPECT_EQ(early_stop(),
+              "Nothing has moved: the first step would have left no surface. Take a smaller detail "
+              "size or step size.");
+    report.stop = Stop::NotPreserved;
+    EXPECT_EQ(early_stop(),
+              "Nothing has moved: step 1 would have changed the surface so much that its volume "
+              "cannot be restored. Take more steps, or a smaller detail size or step size.");
     report.stop = Stop::NothingMoves;
-    EXPECT_EQ(early_stop(report, 10),
-              "Nothing has moved: all of the surface is held. Free the boundary, or select more; "
-              "where cells are locked, take a greater depth.");
+    EXPECT_EQ(
+        early_stop(),
+        "Nothing has moved: all of the surface is constrained. Free the boundary, or select more; "
+        "where cells are locked, take a greater depth.");
     report.stop = Stop::Pinched;
     report.steps.resize(3);
-    EXPECT_EQ(early_stop(report, 10),
-              "The flow stopped after step 3 of 10: so much has pinched that rescaling would blow "
-              "up what is left.");
+    EXPECT_EQ(early_stop(),
+              "The flow stopped after step 3 of 10: so much has pinched that preserving would "
+              "blow up what is left.");
     report.stop = Stop::NothingMoves;
     report.steps.resize(1);
-    EXPECT_EQ(early_stop(report, 10),
+    EXPECT_EQ(early_stop(),
               "The flow stopped after step 1 of 10: everything that could move has pinched.");
+}
+
+TEST(Warnings, TellOfALimitedStepADetailBelowACellAndASuddenLoss) {
+    FlowReport report;
+    report.detail_size = report.cell_size = report.step_size = report.asked_step_size = 1;
+    report.steps.resize(2);
+    report.steps[0].area = 10;
+    report.steps[1].area = report.area_after = 9.1;
+    const auto warnings = [&] { return flow_warnings({}, report, ""); };
+    EXPECT_TRUE(warnings().empty());
+    report.asked_step_size = 4;
+    ASSERT_EQ(warnings().size(), 1U);
+    EXPECT_EQ(warnings()[0],
+              "The step size is limited to 1 squared units of the mesh, instead of 4: waves longer "
+              "than 1 keep more than half of their amplitude. A smaller depth or more steps go "
+              "further.");
+    report.asked_step_size = 1;
+    report.cell_size = 2;
+    report.depth = 7;
+    ASSERT_EQ(warnings().size(), 1U);
+    EXPECT_EQ(warnings()[0],
+              "The detail size 1 is smaller than a cell of the grid, 2. If the mesh has detail as "
+              "small as that, take a greater depth than 7.");
+    report.cell_size = 1;
+    report.area_after = 8;
+    ASSERT_EQ(warnings().size(), 1U);
+    EXPECT_EQ(warnings()[0],
+              "Step 2 removed 12 % of the area. If that is more than noise, take a smaller detail "
+              "size, or a greater order to keep the shape.");
 }
 
 TEST(Guard, TurnsEveryExceptionIntoAMessage) {
@@ -225,7 +339,7 @@ TEST(Guard, TurnsEveryExceptionIntoAMessage) {
     EXPECT_FALSE(message_of(42).empty());
 }
 
-TEST(Progress, CountsInPercentAndPassesOnTheWishToStop) {
+TEST(Progress, IsInPercentAndStopsWhenTheHostAsks) {
     EXPECT_FALSE(run_filter_detail::as_progress(nullptr));
     const Progress progress = run_filter_detail::as_progress(
         +[](int percent, const char* phase) { return percent == 50 && phase == std::string("x"); });

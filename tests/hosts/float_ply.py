@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""Writes the vertices and triangles of a PLY or OFF file as a binary PLY file of floats, which every
-host reads to the bit: float_ply.py IN OUT.ply"""
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Converts a PLY or OFF file to a binary PLY file of floats. All hosts read the same bits from it:
+float_ply.py IN OUT.ply"""
 
 import struct
 import sys
@@ -9,7 +10,7 @@ from ply_file import positions, read_ply
 
 
 def read_off(path):
-    """The vertices and faces of an OFF file without colours."""
+    """Returns the vertices and faces of an OFF file without colours."""
     with open(path, encoding="ascii") as file:
         words = iter([word for line in file for word in line.split("#")[0].split()])
     if next(words) != "OFF":

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/hosts/host.h"
 
 #include <stdexcept>
@@ -38,7 +39,7 @@ Declaration Filter::declaration() const {
 }
 
 int Filter::filters_in_plugin() const {
-    return static_cast<int>(loaded_->plugin.filters().actions().size());
+    return loaded_->plugin.filters().actions().size();
 }
 
 bool Filter::is_applicable(const MeshModel& layer) const {
@@ -65,6 +66,12 @@ Outcome Filter::apply(MeshDocument& document, const RichParameterList& parameter
     log.print(lines);
     outcome.log = lines.join("\n").toStdString();
     return outcome;
+}
+
+void set_length(RichParameterList& parameters, const QString& name, float length) {
+    const std::unique_ptr<Value> value(parameters.getParameterByName(name).value().clone());
+    value->set(FloatValue(length));
+    parameters.setValue(name, *value);
 }
 
 }  // namespace tracked_mcf::host

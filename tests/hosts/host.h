@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include <QVariant>
@@ -7,12 +8,12 @@
 
 #include "meshlab_api.h"
 
-/// What the tests need of a MeshLab release: its common library, without a display or its programs.
-/// What differs between releases is in release.h and release.cpp: legacy is MeshLab 2020.09, modern
-/// 2022.02 and later, and PyMeshLab.
+/// Runs filters with a MeshLab release's common library, without a display and without its
+/// programs. release.h and release.cpp contain the differences between releases: legacy is MeshLab
+/// 2020.09, modern is 2022.02 and later, and PyMeshLab.
 namespace tracked_mcf::host {
 
-/// What a filter says of itself.
+/// A filter's description of itself.
 struct Declaration {
     std::string name, python_name, help;
     std::string built_for;  ///< version and precision, such as "2025.07d double"
@@ -20,7 +21,7 @@ struct Declaration {
     int requirements, post_condition;
 };
 
-/// How a run of a filter ended.
+/// The result of a run of a filter.
 struct Outcome {
     bool succeeded;
     std::string message;  ///< the error of a failure
@@ -28,8 +29,8 @@ struct Outcome {
     std::map<std::string, QVariant> outputs;
 };
 
-/// A filter of a plugin, loaded with the checks that this release makes. The first one, or the one
-/// of that name. Throws std::runtime_error with the host's own words if it cannot be loaded.
+/// A filter of a plugin: the first, or the one of a name. The plugin is loaded with the checks of
+/// this release. Throws std::runtime_error with the host's message if it cannot be loaded.
 class Filter {
 public:
     explicit Filter(const std::string& plugin_file, const std::string& name = {});
@@ -38,12 +39,12 @@ public:
     Filter& operator=(const Filter&) = delete;
 
     Declaration declaration() const;
-    /// How many filters the plugin has.
+    /// Returns the number of the plugin's filters.
     int filters_in_plugin() const;
     bool is_applicable(const MeshModel& layer) const;
-    /// As a dialog starts with them.
+    /// Returns the parameters with the dialog's defaults.
     RichParameterList parameters(MeshDocument& document) const;
-    /// Gives the current layer what the filter requires, as hosts do, and applies the filter.
+    /// Adds the attributes that the filter requires to the current layer, then applies the filter.
     Outcome apply(MeshDocument& document, const RichParameterList& parameters,
                   vcg::CallBackPos* callback = nullptr) const;
 
@@ -52,15 +53,18 @@ private:
     std::unique_ptr<Loaded> loaded_;
 };
 
-/// An empty layer, made current.
+/// Adds an empty layer and makes it the current one.
 MeshModel& add_layer(MeshDocument& document, const char* label);
 
 void hide(MeshModel& layer);
 
-/// For what a file with this vcg::tri::io::Mask holds besides positions.
+/// Enables the attributes of a vcg::tri::io::Mask in the layer.
 void make_room(MeshModel& layer, int io_mask);
 
-/// The value of a choice.
+/// Returns the value of a choice.
 std::unique_ptr<Value> choice(int index);
+
+/// Sets a parameter that is a length. Its type of value differs between releases.
+void set_length(RichParameterList& parameters, const QString& name, float length);
 
 }  // namespace tracked_mcf::host

@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""Prints, as a table, how far the results of the last host tests are from the command-line tool's:
-host_table.py BUILD_DIR
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Prints a table of the differences between the hosts' results and the command-line tool's, from the
+last host tests: host_table.py BUILD_DIR
 
-Every figure is the largest difference of a coordinate over all parameters that were tried, as a part
-of the mesh's largest coordinate.
+Each number is the largest difference of a coordinate over all tested parameters, relative to the mesh's
+largest coordinate.
 """
 
 import pathlib
@@ -17,13 +18,13 @@ DIFFERENCE = re.compile(r"largest difference (\S+) of the largest coordinate")
 
 
 def cached(build, name):
-    """A value that CMake keeps."""
+    """Returns a value of CMake's cache."""
     text = (build / "CMakeCache.txt").read_text(encoding="utf-8")
     return re.search(rf"^{name}:\w+=(.*)$", text, re.MULTILINE).group(1)
 
 
 def largest_difference(folder):
-    """As text; empty where the test was not run."""
+    """Returns the difference as text; empty if the test has not run."""
     file = folder / "differences.txt"
     found = DIFFERENCE.findall(file.read_text(encoding="utf-8")) if file.exists() else []
     return f"{max(map(float, found)):.1e}" if found else ""

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/hosts/layer.h"
 
 #include <vcg/complex/algorithms/create/platonic.h>
@@ -23,7 +24,7 @@ void add_bumps(CMeshO& mesh) {
     }
 }
 
-/// Texture coordinates are floats whatever positions are.
+/// Texture coordinates are floats in either precision.
 vcg::Point2f texture(std::size_t u, int v) {
     return {static_cast<float>(u) / 4, static_cast<float>(v)};
 }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include <array>
@@ -7,20 +8,20 @@
 
 namespace tracked_mcf {
 
-/// A bumpy torus with every attribute that a layer can carry, each with values of its own, and some
-/// vertices and faces selected.
+/// Adds a bumpy torus with values in every attribute of a layer. Some vertices and faces are
+/// selected.
 void make_layer(MeshModel& layer);
 
-/// Deletes the first vertex and its faces, and puts the vertex out of place, to see that nobody
-/// looks at it. The elements stay in memory, as filters leave them.
+/// Deletes the first vertex and its faces, and moves the vertex away, so that its use would show.
+/// The elements stay in memory, as after MeshLab's own filters.
 void delete_first_vertex(MeshModel& layer);
 
 using PositionBits = std::array<unsigned char, 3 * sizeof(Scalarm)>;
 
-/// The positions' bits, deleted vertices included.
+/// Returns the bits of the positions, including deleted vertices.
 std::vector<PositionBits> position_bits(const MeshModel& layer);
 
-/// Everything of a layer but positions, normals and box: what the filter has no business with.
+/// Returns all of a layer except positions, normals and box. The filter must not change it.
 struct Belongings {
     explicit Belongings(const MeshModel& layer);
     bool operator==(const Belongings& other) const;

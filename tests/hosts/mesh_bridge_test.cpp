@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "filter_tracked_mcf/mesh_bridge/mesh_bridge.h"
 
 #include <gtest/gtest.h>
@@ -10,17 +11,20 @@ namespace tracked_mcf {
 
 namespace {
 
-/// The least that a vcglib mesh can be, of floats or doubles.
+/// A minimal vcglib mesh of floats or doubles.
 template <class Scalar>
 struct Minimal {
     template <class Next>
     class Position : public vcg::vertex::Coord<vcg::Point3<Scalar>, Next> {};
 
+    template <class Next>
+    class Quality : public vcg::vertex::Quality<Scalar, Next> {};
+
     class Vertex;
     class Face;
     struct Types : vcg::UsedTypes<vcg::Use<Vertex>::template AsVertexType,
                                   vcg::Use<Face>::template AsFaceType> {};
-    class Vertex : public vcg::Vertex<Types, Position, vcg::vertex::BitFlags> {};
+    class Vertex : public vcg::Vertex<Types, Position, Quality, vcg::vertex::BitFlags> {};
     class Face : public vcg::Face<Types, vcg::face::VertexRef, vcg::face::BitFlags> {};
     class Mesh : public vcg::tri::TriMesh<std::vector<Vertex>, std::vector<Face>> {};
 };
@@ -75,7 +79,7 @@ TYPED_TEST(MeshBridge, MarksEveryKindOfDamagedReference) {
     EXPECT_THROW(validate(result), InvalidMesh);
 }
 
-TYPED_TEST(MeshBridge, FindsSelectedFacesWhateverTheCountersSay) {
+TYPED_TEST(MeshBridge, FindsSelectedFacesDespiteWrongCounters) {
     EXPECT_FALSE(has_selected_faces(this->mesh));
     EXPECT_EQ(selected_faces(this->mesh), (Selection{0, 0, 0}));
     this->mesh.face[1].SetS();
@@ -98,6 +102,14 @@ TYPED_TEST(MeshBridge, WritesPositionsPastDeletedVertices) {
     EXPECT_EQ(this->mesh.vert[4].cP()[0], TypeParam(8));
 }
 
+TYPED_TEST(MeshBridge, WritesQualityPastDeletedVertices) {
+    TestFixture::Allocator::DeleteVertex(this->mesh, this->mesh.vert[1]);
+    this->mesh.vert[1].Q() = 7;
+    write_quality({0.5, -1, 2, 3}, this->mesh);
+    const TypeParam expected[] = {TypeParam(0.5), 7, -1, 2, 3};
+    for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(this->mesh.vert[i].Q(), expected[i]);
+}
+
 TYPED_TEST(MeshBridge, AVertexThatDidNotMoveKeepsItsBits) {
     const TypeParam nan = std::numeric_limits<TypeParam>::signaling_NaN();
     const TypeParam tiny = std::numeric_limits<TypeParam>::denorm_min();
@@ -108,7 +120,7 @@ TYPED_TEST(MeshBridge, AVertexThatDidNotMoveKeepsItsBits) {
     for (std::size_t i = 0; i < before.size(); ++i) {
         const auto was = before[i].cP();
         const auto is = this->mesh.vert[i].cP();
-        // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison): the representation is the point
+        // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison): the test compares bits, not values
         EXPECT_EQ(std::memcmp(was.V(), is.V(), 3 * sizeof(TypeParam)), 0);
     }
 }

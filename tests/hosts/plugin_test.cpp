@@ -1,11 +1,15 @@
-// The real plugin, loaded as the hosts of its release load it, in a program without a display.
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Tests the real plugin, loaded as in the hosts of its release, without a display.
 
 #include <gtest/gtest.h>
 
 #include <QApplication>
+#include <cmath>
 #include <functional>
 #include <limits>
+#include <utility>
 
+#include "filter_tracked_mcf/core/flow_parameters.h"
 #include "filter_tracked_mcf/parameters/parameter_table.h"
 #include "filter_tracked_mcf/plugin/parameter_values.h"
 #include "tests/hosts/host.h"
@@ -20,7 +24,7 @@ const host::Filter& filter() {
     return filter;
 }
 
-/// A document with one layer, and the plugin's parameters as a dialog starts with them.
+/// A document with one layer, and the plugin's parameters with the dialog's defaults.
 class Plugin : public testing::Test {
 protected:
     Plugin() : layer(host::add_layer(document, "layer")) {
@@ -55,8 +59,8 @@ TEST_F(Plugin, DeclaresItselfAsAPreviewableSmoother) {
     EXPECT_TRUE(declaration.smooths);
     EXPECT_TRUE(declaration.takes_one_layer);
     EXPECT_EQ(declaration.requirements, MeshModel::MM_NONE);
-    EXPECT_EQ(declaration.post_condition,
-              MeshModel::MM_VERTCOORD | MeshModel::MM_VERTNORMAL | MeshModel::MM_FACENORMAL);
+    EXPECT_EQ(declaration.post_condition, MeshModel::MM_VERTCOORD | MeshModel::MM_VERTNORMAL |
+                                              MeshModel::MM_FACENORMAL | MeshModel::MM_VERTQUALITY);
 }
 
 TEST_F(Plugin, IsApplicableToFacesOnly) {
@@ -64,9 +68,10 @@ TEST_F(Plugin, IsApplicableToFacesOnly) {
     EXPECT_FALSE(filter().is_applicable(host::add_layer(document, "empty")));
 }
 
-/// Expects of a parameter what the table says about it.
+/// Compares a parameter with the table.
 struct ExpectParameter {
     const RichParameter& actual;
+    Scalarm diagonal;  ///< of the layer's box
 
     void operator()(const ParameterDescription::Integer& expected) const {
         EXPECT_EQ(actual.stringType(), "RichInt");
@@ -75,6 +80,12 @@ struct ExpectParameter {
     void operator()(const ParameterDescription::Real& expected) const {
         EXPECT_EQ(actual.stringType(), "RichFloat");
         EXPECT_EQ(as_typed(actual.value().getFloat()), expected.default_value);
+    }
+    void operator()(const ParameterDescription::Length&) const {
+        ASSERT_EQ(actual.stringType(), "RichAbsPerc");
+        const auto& length = dynamic_cast<const RichLength&>(actual);
+        EXPECT_EQ(length.min, 0);
+        EXPECT_EQ(length.max, diagonal);
     }
     void operator()(const ParameterDescription::Boolean& expected) const {
         EXPECT_EQ(actual.stringType(), "RichBool");
@@ -101,14 +112,66 @@ TEST_F(Plugin, ParametersAreThoseOfTheTable) {
         const ParameterDescription& expected = parameter_table()[i];
         EXPECT_EQ(defaults.at(i).name().toStdString(), expected.name);
         EXPECT_EQ(defaults.at(i).fieldDescription().toStdString(), expected.label);
-        EXPECT_EQ(defaults.at(i).toolTip().toStdString(), expected.tooltip);
-        std::visit(ExpectParameter{defaults.at(i)}, expected.type);
+        // HTML, which MeshLab wraps. No help needs escapes.
+        EXPECT_EQ(defaults.at(i).toolTip().toStdString(), "<span>" + expected.tooltip + "</span>");
+        std::visit(ExpectParameter{defaults.at(i), layer.cm.bbox.Diag()}, expected.type);
     }
 }
 
 TEST_F(Plugin, ParametersNeedNoLayer) {
     MeshDocument empty;
-    EXPECT_EQ(filter().parameters(empty).size(), parameter_table().size());
+    const RichParameterList defaults = filter().parameters(empty);
+    EXPECT_EQ(defaults.size(), parameter_table().size());
+    EXPECT_EQ(defaults.getParameterByName("detail_size").value().getFloat(), 0);
+}
+
+/// Returns the mean length of the sides of those faces.
+double mean_edge(const MeshModel& layer, const std::function<bool(const CFaceO&)>& counts) {
+    double sum = 0;
+    int sides = 0;
+    for (const CFaceO& face : layer.cm.face) {
+        if (face.IsD() || !counts(face)) continue;
+        for (int i = 0; i < 3; ++i, ++sides) sum += vcg::Distance(face.cP(i), face.cP((i + 1) % 3));
+    }
+    return sum / sides;
+}
+
+TEST_F(Plugin, TheDetailSizeIsAtFirstThatOfTheFacesThatWillFlow) {
+    const auto at_first = [&] {
+        const RichParameterList defaults = filter().parameters(document);
+        return defaults.getParameterByName("detail_size").value().getFloat();
+    };
+    const auto is_selected = [](const CFaceO& face) { return face.IsS(); };
+    const auto all = [](const CFaceO&) { return true; };
+    // The inner faces of the torus are smaller.
+    for (CFaceO& face : layer.cm.face) {
+        const Point3m p = face.cP(0);
+        std::hypot(p[0], p[1]) < 1.5 ? face.SetS() : face.ClearS();
+    }
+    EXPECT_LT(mean_edge(layer, is_selected), 0.9 * mean_edge(layer, all));
+    EXPECT_NEAR(at_first(), kDefaultDetailInEdges * mean_edge(layer, is_selected), 1e-6);
+    for (CFaceO& face : layer.cm.face) face.ClearS();
+    EXPECT_NEAR(at_first(), kDefaultDetailInEdges * mean_edge(layer, all), 1e-6);
+    delete_first_vertex(layer);
+    EXPECT_NEAR(at_first(), kDefaultDetailInEdges * mean_edge(layer, all), 1e-6)
+        << "deleted elements do not count";
+    layer.cm.vert[17].P()[1] = std::numeric_limits<Scalarm>::quiet_NaN();
+    EXPECT_EQ(at_first(), 0) << "the mesh cannot flow";
+}
+
+TEST_F(Plugin, ADetailSizeOfZeroIsTheOneAtFirst) {
+    const auto original = layer.cm.vert;
+    for (CFaceO& face : layer.cm.face) face.ClearS();
+    parameters.setValue("detail_size",
+                        filter().parameters(document).getParameterByName("detail_size").value());
+    ASSERT_TRUE(apply()) << outcome.message;
+    const auto first = layer.cm.vert;
+    for (std::size_t i = 0; i < original.size(); ++i) layer.cm.vert[i].P() = original[i].cP();
+    host::set_length(parameters, "detail_size", 0);
+    ASSERT_TRUE(apply()) << outcome.message;
+    for (std::size_t i = 0; i < original.size(); ++i) {
+        EXPECT_LT(vcg::Distance(layer.cm.vert[i].cP(), first[i].cP()), 1e-6) << i;
+    }
 }
 
 TEST_F(Plugin, MovesPositionsAndNothingElse) {
@@ -122,7 +185,7 @@ TEST_F(Plugin, MovesPositionsAndNothingElse) {
 }
 
 TEST_F(Plugin, EveryParameterHasAnEffect) {
-    // So flat that its two sides share cells.
+    // The two sides of this flat mesh share cells.
     for (CVertexO& vertex : layer.cm.vert) vertex.P()[2] *= Scalarm(0.05);
     const auto original = layer.cm.vert;
     const auto smoothed = [&] {
@@ -132,24 +195,57 @@ TEST_F(Plugin, EveryParameterHasAnEffect) {
     };
     const auto by_default = smoothed();
     EXPECT_EQ(smoothed(), by_default);
-    const auto with = [&](const char* name, const Value& value) {
+    const auto after = [&](const auto& change) {
         const RichParameterList defaults = parameters;
-        parameters.setValue(name, value);
+        change();
         auto result = smoothed();
         parameters = defaults;
         return result;
     };
+    const auto with = [&](const char* name, const Value& value) {
+        return after([&] { parameters.setValue(name, value); });
+    };
+    const auto with_detail_size_1 = [&] {
+        return after([&] { host::set_length(parameters, "detail_size", 1); });
+    };
+    EXPECT_NE(with_detail_size_1(), by_default);
+    EXPECT_NE(with("order", *host::choice(1)), by_default);
+    EXPECT_NE(with("order", *host::choice(2)), with("order", *host::choice(1)));
+    EXPECT_NE(with("order", *host::choice(3)), with("order", *host::choice(2)));
     EXPECT_NE(with("depth", IntValue(3)), by_default);
-    EXPECT_NE(with("step_size", FloatValue(1e-4f)), by_default);
-    EXPECT_NE(with("absolute", BoolValue(true)), by_default);
     EXPECT_NE(with("iterations", IntValue(1)), by_default);
     EXPECT_NE(with("flow", *host::choice(1)), by_default);
     EXPECT_NE(with("selected", BoolValue(true)), by_default);
-    EXPECT_NE(with("rescale", *host::choice(1)), by_default);
-    EXPECT_NE(with("rescale", *host::choice(2)), by_default);
-    EXPECT_NE(with("rescale", *host::choice(2)), with("rescale", *host::choice(1)));
+    EXPECT_NE(with("preserve", *host::choice(1)), by_default);
+    EXPECT_NE(with("preserve", *host::choice(2)), by_default);
+    EXPECT_NE(with("preserve", *host::choice(2)), with("preserve", *host::choice(1)));
     EXPECT_NE(with("separate_sheets", BoolValue(false)), by_default);
     EXPECT_NE(with("solver", *host::choice(1)), by_default);
+    const auto by_step_size = with("step_size", FloatValue(1e-4f));
+    EXPECT_NE(by_step_size, by_default);
+    parameters.setValue("step_size", FloatValue(1e-4f));
+    EXPECT_NE(with("absolute", BoolValue(true)), by_step_size);
+    EXPECT_EQ(with_detail_size_1(), by_step_size) << "the step size replaces it";
+}
+
+TEST_F(Plugin, WritesTheQualityThatIsAskedFor) {
+    const auto quality = [&] {
+        std::vector<double> numbers;
+        for (const CVertexO& vertex : layer.cm.vert) numbers.push_back(vertex.cQ());
+        return numbers;
+    };
+    for (CVertexO& vertex : layer.cm.vert) vertex.Q() = 42;
+    const std::vector<double> before = quality();
+    ASSERT_TRUE(apply()) << outcome.message;
+    EXPECT_EQ(quality(), before);
+    parameters.setValue("quality", *host::choice(1));
+    ASSERT_TRUE(apply()) << outcome.message;
+    const std::vector<double> displacement = quality();
+    parameters.setValue("quality", *host::choice(2));
+    ASSERT_TRUE(apply()) << outcome.message;
+    EXPECT_NE(displacement, before);
+    EXPECT_NE(quality(), displacement);
+    EXPECT_TRUE(layer.hasDataMask(MeshModel::MM_VERTQUALITY));
 }
 
 TEST_F(Plugin, EveryBoundaryHasAnEffectOnAnOpenMesh) {
@@ -196,7 +292,16 @@ TEST_F(Plugin, OnlySelectedFacesMove) {
     const auto after = position_bits(layer);
     for (std::size_t i = 0; i < before.size(); ++i) EXPECT_EQ(before[i] == after[i], stays[i]) << i;
     EXPECT_TRUE(Belongings(layer) == belongings);
-    EXPECT_TRUE(contains(outcome.log, "are held")) << outcome.log;
+    EXPECT_TRUE(contains(outcome.log, "constrained)")) << outcome.log;
+
+    // The same vertices move if the volume is preserved.
+    const auto smoothed = position_bits(layer);
+    parameters.setValue("preserve", *host::choice(2));
+    ASSERT_TRUE(apply()) << outcome.message;
+    const auto again = position_bits(layer);
+    for (std::size_t i = 0; i < again.size(); ++i) {
+        EXPECT_EQ(smoothed[i] == again[i], stays[i]) << i;
+    }
 }
 
 TEST_F(Plugin, ABoundaryKeepsItsBits) {
@@ -211,7 +316,7 @@ TEST_F(Plugin, ABoundaryKeepsItsBits) {
     EXPECT_TRUE(Belongings(layer) == belongings);
 }
 
-TEST_F(Plugin, AFlowThatVanishesSucceedsAndSaysSo) {
+TEST_F(Plugin, AFlowThatVanishesSucceedsAndLogsIt) {
     parameters.setValue("step_size", FloatValue(1e3f));
     parameters.setValue("iterations", IntValue(100));
     const auto before = position_bits(layer);
@@ -229,7 +334,7 @@ TEST_F(Plugin, UpdatesBoxAndNormals) {
     EXPECT_EQ(face_normal, layer.cm.face[11].cN());
 }
 
-TEST_F(Plugin, DeletedElementsHaveNoSay) {
+TEST_F(Plugin, DeletedElementsAreIgnored) {
     delete_first_vertex(layer);
     const Belongings belongings(layer);
     const auto before = position_bits(layer);
@@ -267,21 +372,21 @@ TEST_F(Plugin, ReportsProgressInPercent) {
     EXPECT_EQ(last_percent, 100);
 }
 
-TEST_F(Plugin, StopsWhenTheCallbackSaysSo) {
+TEST_F(Plugin, StopsWhenTheCallbackReturnsFalse) {
     const auto before = position_bits(layer);
     EXPECT_FALSE(apply([](int percent, const char*) { return percent < 50; }));
     EXPECT_EQ(position_bits(layer), before);
     EXPECT_TRUE(contains(outcome.message, "Stopped")) << outcome.message;
 }
 
-TEST_F(Plugin, WithoutALayerThereIsAMessage) {
+TEST_F(Plugin, FailsWithAMessageIfThereIsNoLayer) {
     MeshDocument empty;
     outcome = filter().apply(empty, parameters);
     EXPECT_FALSE(outcome.succeeded);
     EXPECT_TRUE(contains(outcome.message, "no layer")) << outcome.message;
 }
 
-/// Something that must not work: what spoils it, and a word that the message must hold.
+/// An invalid input: the change that makes it invalid, and a word of the expected message.
 struct BadInput {
     const char* name;
     std::function<void(MeshModel&, RichParameterList&)> spoil;
@@ -294,7 +399,7 @@ std::ostream& operator<<(std::ostream& stream, const BadInput& input) {
 
 class PluginRefuses : public Plugin, public testing::WithParamInterface<BadInput> {};
 
-TEST_P(PluginRefuses, WithAMessageAndTheLayerUntouched) {
+TEST_P(PluginRefuses, WithAMessageAndLeavesTheLayerUnchanged) {
     GetParam().spoil(layer, parameters);
     const Belongings belongings(layer);
     const auto before = position_bits(layer);
@@ -307,13 +412,18 @@ TEST_P(PluginRefuses, WithAMessageAndTheLayerUntouched) {
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-/// Spoils one parameter.
+/// Makes one parameter invalid.
 template <class ValueType, class Number>
 auto set(const char* name, Number value) {
     return [=](MeshModel&, RichParameterList& list) { list.setValue(name, ValueType(value)); };
 }
 
-/// Spoils one coordinate.
+auto set_detail_size(float value) {
+    return
+        [=](MeshModel&, RichParameterList& list) { host::set_length(list, "detail_size", value); };
+}
+
+/// Makes one coordinate invalid.
 auto put(float value) {
     return [=](MeshModel& layer, RichParameterList&) { layer.cm.vert[17].P()[1] = value; };
 }
@@ -338,7 +448,7 @@ void break_a_face(MeshModel& layer, RichParameterList&) {
     layer.cm.face[3].V(1) = nullptr;
 }
 
-/// Puts a parameter of the same name, but another type, into the list.
+/// Replaces a parameter by one of the same name and another type.
 template <class RichType, class Number>
 auto replace(const char* name, Number value) {
     return [=](MeshModel&, RichParameterList& list) {
@@ -353,19 +463,25 @@ auto replace(const char* name, Number value) {
 
 void select_nothing(MeshModel& layer, RichParameterList& list) {
     for (CFaceO& face : layer.cm.face) face.ClearS();
-    layer.cm.sfn = 17;  // out of date, as hosts leave it
+    layer.cm.sfn = 17;  // hosts do not keep this counter up to date
     list.setValue("selected", BoolValue(true));
 }
 
-void rescale_the_selection(MeshModel&, RichParameterList& list) {
+void preserve_the_area_of_a_selection(MeshModel&, RichParameterList& list) {
     list.setValue("selected", BoolValue(true));
-    list.setValue("rescale", *host::choice(1));
+    list.setValue("preserve", *host::choice(1));
 }
 
-void keep_the_volume_of_an_open_mesh(MeshModel& layer, RichParameterList& list) {
+void conformalize_an_open_volume(MeshModel& layer, RichParameterList& list) {
     vcg::tri::Allocator<CMeshO>::DeleteFace(layer.cm, layer.cm.face[7]);
+    list.setValue("flow", *host::choice(1));
     list.setValue("boundary", *host::choice(2));
-    list.setValue("rescale", *host::choice(2));
+    list.setValue("preserve", *host::choice(2));
+}
+
+void preserve_the_volume_of_a_turned_face(MeshModel& layer, RichParameterList& list) {
+    std::swap(layer.cm.face[7].V(0), layer.cm.face[7].V(1));
+    list.setValue("preserve", *host::choice(2));
 }
 
 auto set_absolute_step_size(float value) {
@@ -388,7 +504,12 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"DepthTooLarge", set<IntValue>("depth", 13), "depth"},
         BadInput{"NoIterations", set<IntValue>("iterations", 0), "iterations"},
         BadInput{"TooManyIterations", set<IntValue>("iterations", 1000001), "iterations"},
-        BadInput{"StepSizeZero", set<FloatValue>("step_size", 0.0f), "step_size"},
+        BadInput{"DetailSizeNegative", set_detail_size(-1.0f), "detail_size"},
+        BadInput{"DetailSizeNaN", set_detail_size(kNaN), "detail_size"},
+        BadInput{"DetailSizeInfinite", set_detail_size(kInfinity), "detail_size"},
+        BadInput{"DetailSizeOfTheWrongType", replace<RichInt>("detail_size", 1), "detail_size"},
+        BadInput{"OrderTooLarge", set_choice("order", 4), "order"},
+        BadInput{"OrderNegative", set_choice("order", -1), "order"},
         BadInput{"StepSizeNegative", set<FloatValue>("step_size", -1e-5f), "step_size"},
         BadInput{"StepSizeNaN", set<FloatValue>("step_size", kNaN), "step_size"},
         BadInput{"StepSizeInfinite", set<FloatValue>("step_size", kInfinity), "step_size"},
@@ -396,11 +517,14 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"BoundaryNegative", set_choice("boundary", -1), "boundary"},
         BadInput{"FlowTooLarge", set_choice("flow", 2), "flow"},
         BadInput{"FlowNegative", set_choice("flow", -1), "flow"},
-        BadInput{"RescaleTooLarge", set_choice("rescale", 3), "rescale"},
-        BadInput{"RescaleNegative", set_choice("rescale", -1), "rescale"},
+        BadInput{"PreserveTooLarge", set_choice("preserve", 3), "preserve"},
+        BadInput{"PreserveNegative", set_choice("preserve", -1), "preserve"},
+        BadInput{"QualityTooLarge", set_choice("quality", 3), "quality"},
+        BadInput{"QualityNegative", set_choice("quality", -1), "quality"},
         BadInput{"NothingSelected", select_nothing, "No face is selected"},
-        BadInput{"RescaledPartOfTheMesh", rescale_the_selection, "rescale"},
-        BadInput{"VolumeOfAnOpenMesh", keep_the_volume_of_an_open_mesh, "open"},
+        BadInput{"AreaOfASelection", preserve_the_area_of_a_selection, "Preserving the area"},
+        BadInput{"ConformalizedOpenVolume", conformalize_an_open_volume, "open"},
+        BadInput{"VolumeOfATurnedFace", preserve_the_volume_of_a_turned_face, "oriented"},
         BadInput{"SelectedOfTheWrongType", replace<RichInt>("selected", 1), "selected"},
         BadInput{"AbsoluteOfTheWrongType", replace<RichInt>("absolute", 1), "absolute"},
         BadInput{"AbsoluteStepSizeNaN", set_absolute_step_size(kNaN), "step_size"},

@@ -1,4 +1,5 @@
-"""Reads PLY files, as far as the tests here need it."""
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Reads PLY files for the host tests."""
 
 import struct
 
@@ -8,8 +9,8 @@ BYTE_ORDER = {"binary_little_endian": "<", "binary_big_endian": ">"}
 
 
 class Element:
-    """One kind of things in a file: `rows`, each a list of the values of `properties`, in which a
-    list is a tuple."""
+    """An element of the header. Each of its `rows` is a list of the values of `properties`; a list
+    property is a tuple."""
 
     def __init__(self, name, count):
         self.name, self.count = name, count
@@ -69,7 +70,7 @@ def read_rows(file, encoding, element):
 
 
 def read_ply(path):
-    """The {name: Element} of a file."""
+    """Returns the {name: Element} of a file."""
     with open(path, "rb") as file:
         encoding, elements = read_header(file)
         for element in elements:
@@ -78,6 +79,6 @@ def read_ply(path):
 
 
 def positions(elements):
-    """x, y, z of each vertex."""
+    """Returns x, y and z of each vertex."""
     vertices = elements["vertex"]
     return list(zip(*(vertices.column(axis) for axis in "xyz")))

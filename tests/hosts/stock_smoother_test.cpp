@@ -1,4 +1,6 @@
-// Where users know what to expect, from MeshLab's own Laplacian smoother: ours does the same.
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Our filter treats deleted, selected, transformed and hidden elements as MeshLab's Laplacian
+// smoother.
 
 #include <gtest/gtest.h>
 
@@ -11,7 +13,7 @@ namespace tracked_mcf {
 
 namespace {
 
-/// A smoother as a dialog starts it.
+/// A smoother with the dialog's defaults.
 class Smoother {
 public:
     explicit Smoother(const std::string& plugin_file, const std::string& name = {})
@@ -36,7 +38,7 @@ const Smoother& ours() {
     return smoother;
 }
 
-/// Two layers, each whole and without a selection, of which the first is current.
+/// Two complete layers without a selection. The first is current.
 struct Scene {
     Scene()
         : first(host::add_layer(document, "first")), second(host::add_layer(document, "second")) {
@@ -68,6 +70,7 @@ struct Result {
 
     std::vector<bool> moved_in_first() const {
         std::vector<bool> moved;
+        moved.reserve(first_before.size());
         for (std::size_t i = 0; i < first_before.size(); ++i) {
             moved.push_back(first_before[i] != first_after[i]);
         }
@@ -79,7 +82,7 @@ struct Result {
     }
 };
 
-/// What a smoother makes of a scene that `prepare` has worked on.
+/// Returns the scene after `prepare` and then the smoother.
 Result result_of(const Smoother& smoother, const std::function<void(Scene&)>& prepare) {
     Scene scene;
     prepare(scene);
@@ -101,7 +104,7 @@ TEST(AsTheStockSmoother, DeletedElementsStayAsTheyAre) {
     }
 }
 
-TEST(AsTheStockSmoother, OnlyVerticesInsideOfASelectionMove) {
+TEST(AsTheStockSmoother, OnlyVerticesInsideASelectionMove) {
     const auto prepare = [](Scene& scene) {
         Scene::select(scene.first, [](const CFaceO& face) { return face.cV(0)->cP()[0] > 0; });
     };
@@ -111,7 +114,7 @@ TEST(AsTheStockSmoother, OnlyVerticesInsideOfASelectionMove) {
     EXPECT_LT(own.moved_count(), 1300);
 }
 
-TEST(AsTheStockSmoother, ATransformedLayerMovesAsIfItWereNot) {
+TEST(AsTheStockSmoother, ATransformationMatrixIsIgnored) {
     const auto turn = [](Scene& scene) {
         vcg::Matrix44<Scalarm> matrix;
         matrix.SetRotateDeg(30, Point3m(1, 2, 3));

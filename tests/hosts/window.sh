@@ -1,9 +1,10 @@
-# How the scripts that source this work MeshLab's window, as a person would, and look at it. They run
-# on a display of their own, xvfb-run -a -s "-screen 0 1360x1280x24", and say $out, a folder for
-# pictures and MeshLab's log, and $filter, the filter's name. Here $window becomes MeshLab's window
-# and $dialog the filter's.
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Functions that operate MeshLab's window as a user would, for scripts that source this file. The
+# scripts run on a display of their own, such as xvfb-run -a -s "-screen 0 1920x1080x24". They set $out, a
+# folder for pictures and MeshLab's log, and $filter, the filter's name. The functions set $window,
+# MeshLab's window, $dialog, the filter's dialog, and $width and $height, the size of the screen.
 
-# MeshLab's own, so that nothing of the user's is read or changed.
+# A new home folder, so that the test neither reads nor changes the user's settings.
 make_home() {
     rm -rf "$out"
     mkdir -p "$out"
@@ -12,6 +13,7 @@ make_home() {
     export HOME="$out/home" XDG_RUNTIME_DIR="$out/home"
 }
 start_meshlab() { # PROGRAM MESH
+    read -r width height < <(xdotool getdisplaygeometry)
     LIBGL_ALWAYS_SOFTWARE=1 "$@" > "$out/log.txt" 2>&1 &
     meshlab=$!
     trap 'kill $meshlab' EXIT
@@ -19,14 +21,14 @@ start_meshlab() { # PROGRAM MESH
     window=$(timeout 30 xdotool search --sync --onlyvisible --name "Project_1")
     wait_for "the window fills the screen" fill_screen
 }
-# Away from the mesh, and with the keyboard's focus.
+# Opens the dialog, moves it away from the mesh and gives it the keyboard focus.
 start_filter() {
     wait_for "the filter is found and its dialog opens" open_dialog
     dialog=$(find_dialog)
-    xdotool windowmove --sync "$dialog" 750 80 windowfocus --sync "$dialog"
+    xdotool windowmove --sync "$dialog" $((width - 790)) 80 windowfocus --sync "$dialog"
 }
 
-wait_for() { # WHAT COMMAND...: until it succeeds
+wait_for() { # WHAT COMMAND...: repeats COMMAND until it succeeds
     for _ in {1..300}; do
         if "${@:2}" > /dev/null 2>&1; then return; fi
         sleep 0.2
@@ -35,13 +37,13 @@ wait_for() { # WHAT COMMAND...: until it succeeds
     echo "failed: $1 (see $out/failed.png and log.txt)" >&2
     exit 1
 }
-# MeshLab gives its window a size of its own as it starts, at any moment.
+# MeshLab changes the size of its window at an unknown time during its start.
 fill_screen() {
-    xdotool windowsize "$window" 1360 1280 sleep 1
-    xdotool getwindowgeometry "$window" | grep -q 1360x1280
+    xdotool windowsize "$window" "$width" "$height" sleep 1
+    xdotool getwindowgeometry "$window" | grep -q "${width}x$height"
 }
 find_dialog() { timeout 10 xdotool search --sync --onlyvisible --name "^$filter\$"; }
-# On a busy machine keys come before the search is there to take them: begin again.
+# On a busy machine, keys may arrive before the search box is open. Then begin again.
 open_dialog() {
     xdotool windowfocus --sync "$window" key Escape sleep 0.5 key ctrl+f sleep 1
     xdotool type --delay 50 "$filter"
@@ -53,9 +55,9 @@ smaller_than() { # WIDTH HEIGHT
     [ "$WIDTH" -le "$1" ] && [ "$HEIGHT" -lt "$2" ]
 }
 picture() { sleep 0.5; import -window root "$out/$1.png"; }
-# The mesh's part of the window: left of where the dialog is put, above the frame rate.
-surface() { import -window root -crop 740x740+5+75 +repage "$out/$1.png"; }
-differing_pixels() { # PICTURE: of the surface at another time
+# The mesh's part of the window: left of the dialog, above the frame rate.
+surface() { import -window root -crop $((width - 800))x740+5+75 +repage "$out/$1.png"; }
+differing_pixels() { # PICTURE: an earlier picture of the surface
     surface now
     convert "$out/$1.png" "$out/now.png" -compose difference -composite -colorspace Gray \
         -threshold 0 -format "%[fx:round(mean*w*h)]" info:

@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
-# Installs into a private root as configured, and as if configured for every other host, and checks
-# where the plugin and the tool have gone:
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Installs into a private root, as configured and as if configured for every other host, and checks
+# where the plugin, the tool and the licence are:
 # install_works.sh BUILD_DIR RELEASE SCALAR TOOL MESHLAB_LIBRARY_DIR WORK_DIR
 #
-# TOOL is empty if it is not built, MESHLAB_LIBRARY_DIR if the plugin's MeshLab is not here.
+# TOOL is empty if it is not built, MESHLAB_LIBRARY_DIR if the plugin's MeshLab is not installed.
 set -euo pipefail
 
 build=$1 release=$2 scalar=$3 tool=$4 library_dir=$5 work=$6
@@ -13,9 +14,9 @@ user_plugins=VCG/MeshLab_64bit_fp/MeshLabExtraPlugins
 rm -rf "$work"
 mkdir -p "$work"
 
-# As cmake --install does it, but the list of what was installed, which is kept in the build folder
-# for the component at hand, stays that of the real installation.
-run_install() { # NAME=VALUE...: configured otherwise, or in the environment
+# Installs as cmake --install does. The component's name keeps the build folder's list of installed
+# files that of the real installation.
+run_install() { # NAME=VALUE...: other settings, or XDG_... in the environment
     local settings=(-DCMAKE_INSTALL_COMPONENT=Unspecified -DCMAKE_INSTALL_PREFIX=/usr/local
         -DTRACKED_MCF_USER_INSTALL=OFF -DTRACKED_MCF_PLUGIN_DIR=) setting
     local environment=(DESTDIR="$work/root" HOME="$home" XDG_DATA_HOME=)
@@ -37,7 +38,11 @@ fail() {
 }
 goes_to() { # PLUGIN_DIR TOOL_DIR NAME=VALUE...
     local expected found
-    expected=$({ echo "$1/$plugin" && [ -z "$tool" ] || echo "$2/$tool"; } | sort)
+    expected=$({
+        echo "$1/$plugin"
+        [ -z "$tool" ] || echo "$2/$tool"
+        echo "$(dirname "$2")/share/doc/filter_tracked_mcf/LICENSE"
+    } | sort)
     if ! run_install "${@:3}"; then
         fail "cannot install: ${*:3}"
         return
@@ -55,7 +60,7 @@ is_refused() { # MESSAGE NAME=VALUE...
         [ -n "$(find "$work/root" -name "$plugin")" ]; then
         fail "not refused with '$1': ${*:2}"
     else
-        echo "${*:2}: refused as it should be"
+        echo "${*:2}: refused, as expected"
     fi
 }
 

@@ -1,12 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/support/cotangent_flow.h"
+#include "filter_tracked_mcf/core/mesh/weld.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
+#include "filter_tracked_mcf/core/cells/grid.h"
 #include "filter_tracked_mcf/core/errors.h"
-#include "filter_tracked_mcf/core/grid.h"
-#include "filter_tracked_mcf/core/mesh_topology.h"
+#include "filter_tracked_mcf/core/mesh/mesh_topology.h"
 
 namespace tracked_mcf {
 
@@ -15,19 +17,19 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// A triangle's stiffness is that of one with at least this quality: larger cotangents would drown
-/// all others. It is stiff enough for collinear vertices to stay so.
+/// The stiffness of a triangle is that of one with at least this quality. Larger cotangents would
+/// drown all others; this one still keeps collinear vertices collinear.
 constexpr double kLeastQuality = 1e-6;
 
-/// Of a vertex's initial mass: what it keeps at least. The matrix would become singular otherwise
-/// where the surface has shrunk to nothing.
+/// A vertex keeps at least this share of its initial mass. Otherwise the matrix would become
+/// singular where the surface has shrunk to nothing.
 constexpr double kLeastMassRatio = 1e-4;
 
-/// Below, a triangle's part of the surface is no longer to be trusted.
+/// Below one of these, a triangle counts as degenerated.
 constexpr double kDoubtfulQuality = 0.01;
 constexpr double kDoubtfulAreaRatio = 0.01;
 
-/// Above, the solution is refined once.
+/// Above this relative residual, the solution is refined once.
 constexpr double kResidualGoal = 1e-12;
 
 double area(const TriangleMesh& mesh, const Triangle& t) {
@@ -36,7 +38,7 @@ double area(const TriangleMesh& mesh, const Triangle& t) {
                      .norm();
 }
 
-/// Columns: the edges opposite to the corners, going round.
+/// Returns, as columns, the edges opposite to the corners, in the order of the corners.
 Matrix3d opposite_edges(const TriangleMesh& mesh, const Triangle& t) {
     Matrix3d edges;
     for (int i = 0; i < 3; ++i) {
@@ -45,14 +47,14 @@ Matrix3d opposite_edges(const TriangleMesh& mesh, const Triangle& t) {
     return edges;
 }
 
-/// What a triangle's three linear functions add to the system of the displacement.
+/// A triangle's part of the linear system for the displacement: one linear function per corner.
 struct Element {
     Matrix3d matrix;       ///< mass + δ stiffness
     Matrix3d right_sides;  ///< columns: -δ times the gradient of the area, corner by corner
 };
 
-/// The gradient, which is S x, is formed as n × edge / 2: the rounding errors of large cotangents
-/// would not cancel in a product.
+/// The gradient S x is computed as n × edge / 2: in the product with S, the rounding errors of
+/// large cotangents would not cancel.
 Element element_of(const TriangleMesh& mesh, const Triangle& t, double step_size) {
     const Matrix3d edges = opposite_edges(mesh, t);
     if (edges.isZero(0)) return {Matrix3d::Zero(), Matrix3d::Zero()};
@@ -68,14 +70,14 @@ Element element_of(const TriangleMesh& mesh, const Triangle& t, double step_size
     return element;
 }
 
-/// Of every welded vertex.
+/// Returns, per welded vertex, whether it lies on the boundary.
 std::vector<std::uint8_t> boundary_vertices(const TriangleMesh& mesh) {
     const MeshTopology topology = topology_of(mesh);
     std::vector<std::uint8_t> on_boundary(mesh.positions.size());
     const std::vector<std::uint8_t> edges = boundary_edges(topology);
     for (std::size_t t = 0; t < edges.size(); ++t) {
         for (int i = 0; i < 3; ++i) {
-            if ((edges[t] >> i & 1) == 0) continue;
+            if (!has_bit(edges[t], i)) continue;
             on_boundary[topology.triangles[t][i]] = 1;
             on_boundary[topology.triangles[t][(i + 1) % 3]] = 1;
         }
@@ -93,11 +95,11 @@ double triangle_quality(const TriangleMesh& mesh, const Triangle& triangle) {
 CotangentFlow::CotangentFlow(const TriangleMesh& mesh, double step_size, BoundaryCondition boundary)
     : mesh_(mesh),
       welded_(weld_coincident_vertices(mesh)),
-      held_(mesh.positions.size()),
+      constrained_(mesh.positions.size()),
       degenerated_(mesh.triangles.size()) {
     const double side = longest_side(mesh);
     step_size_ = step_size * side * side;
-    if (boundary != BoundaryCondition::Free) held_ = boundary_vertices(mesh);
+    if (boundary != BoundaryCondition::Free) constrained_ = boundary_vertices(mesh);
     for (const Triangle& t : mesh.triangles) initial_areas_.push_back(area(mesh, t));
     initial_masses_ = masses();
     look_for_degenerated();
@@ -120,7 +122,7 @@ std::vector<double> CotangentFlow::masses() const {
     return masses;
 }
 
-/// The pattern is the same in every step: entries that are not to count are there, and zero.
+/// The pattern is the same in every step: entries of constrained vertices are stored as zeros.
 void CotangentFlow::assemble() {
     const auto size = static_cast<Eigen::Index>(mesh_.positions.size());
     std::vector<Eigen::Triplet<double>> entries;
@@ -132,17 +134,18 @@ void CotangentFlow::assemble() {
             const std::int32_t row = welded_[t[i]];
             for (int j = 0; j < 3; ++j) {
                 const std::int32_t column = welded_[t[j]];
-                const bool counts = held_[row] == 0 && held_[column] == 0;
+                const bool counts = constrained_[row] == 0 && constrained_[column] == 0;
                 entries.emplace_back(row, column, counts ? element.matrix(i, j) : 0);
             }
-            if (held_[row] == 0) right_side_.row(row) += element.right_sides.col(i).transpose();
+            if (constrained_[row] == 0)
+                right_side_.row(row) += element.right_sides.col(i).transpose();
         }
     }
     const std::vector<double> masses = this->masses();
     for (std::int32_t i = 0; i < size; ++i) {
         const double missing = std::max(0.0, kLeastMassRatio * initial_masses_[i] - masses[i]);
-        // A held vertex, or one in no triangle, has an empty row and no right side.
-        const bool is_empty = held_[i] != 0 || masses[i] + missing == 0;
+        // A constrained vertex, or one in no triangle, has an empty row and no right-hand side.
+        const bool is_empty = constrained_[i] != 0 || masses[i] + missing == 0;
         entries.emplace_back(i, i, is_empty ? step_size_ : missing);
     }
     matrix_.resize(size, size);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/support/minimal_surfaces.h"
 
 #include <Eigen/LU>
@@ -18,7 +19,7 @@ double root_mean_square(double squares, std::size_t count) {
 }  // namespace
 
 Catenoid::Catenoid(double distance) : height_(distance), neck_(1) {
-    // From above, so to the root with the wider neck.
+    // Starting from above, the iteration finds the root with the wider neck.
     for (int i = 0; i < 1000; ++i) neck_ = 1 / std::cosh(0.5 * distance / neck_);
 }
 
@@ -39,9 +40,9 @@ double Catenoid::rms_offset(const std::vector<Vector3d>& points) const {
 double Catenoid::rms_of_chords(const std::vector<Vector3d>& points, const Grid& grid) const {
     double squares = 0;
     for (const Vector3d& point : points) {
-        const double place = grid.to_grid(point)[2];
-        const double low = grid.origin[2] + grid.cell_size * std::floor(place);
-        const double share = place - std::floor(place);
+        const double z = grid.to_grid(point)[2];
+        const double low = grid.origin[2] + grid.cell_size * std::floor(z);
+        const double share = z - std::floor(z);
         const double chord = (1 - share) * radius(low) + share * radius(low + grid.cell_size);
         squares += (chord - radius(point[2])) * (chord - radius(point[2]));
     }
@@ -77,18 +78,18 @@ TriangleMesh Enneper::cone(int n, int m) const {
 }
 
 double Enneper::distance(const Vector3d& point) const {
-    // Gauss and Newton's iteration; the surface is nearly flat beside the distances asked for.
-    Eigen::Vector2d place = point.head<2>();
+    // Gauss-Newton: the surface is nearly flat over the distance to the point.
+    Eigen::Vector2d parameters = point.head<2>();
     Vector3d miss;
     for (int i = 0; i < 50; ++i) {
-        const double u = place[0];
-        const double v = place[1];
+        const double u = parameters[0];
+        const double v = parameters[1];
         miss = point - this->point(u, v);
         Eigen::Matrix<double, 3, 2> slopes;
         slopes << 1 - u * u + v * v, 2 * u * v, 2 * u * v, 1 - v * v + u * u, 2 * u, -2 * v;
-        place += (slopes.transpose() * slopes).inverse() * slopes.transpose() * miss;
+        parameters += (slopes.transpose() * slopes).inverse() * slopes.transpose() * miss;
     }
-    return (point - this->point(place[0], place[1])).norm();
+    return (point - this->point(parameters[0], parameters[1])).norm();
 }
 
 }  // namespace tracked_mcf

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include <string>
@@ -6,8 +7,7 @@
 
 namespace tracked_mcf {
 
-/// Reads the vertices and triangles of an OFF file, for tests that must not need vcglib. Throws
-/// std::runtime_error if it cannot.
+/// Reads an OFF file of triangles. Throws std::runtime_error if it cannot.
 TriangleMesh read_off(const std::string& path);
 
 }  // namespace tracked_mcf

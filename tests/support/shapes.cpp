@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/support/shapes.h"
 
 #include <array>
@@ -35,21 +36,7 @@ private:
     std::map<std::array<std::int64_t, 3>, std::int32_t> index_;
 };
 
-/// Splits the square spanned by two edges into n by n quads of two triangles.
-void add_square(Welder& welder, const Vector3d& origin, const Vector3d& u, const Vector3d& v,
-                int n) {
-    const auto point = [&](int i, int j) -> Vector3d {
-        return origin + (static_cast<double>(i) / n) * u + (static_cast<double>(j) / n) * v;
-    };
-    for (int i = 0; i < n; ++i) {
-        for (int j = 0; j < n; ++j) {
-            welder.triangle(point(i, j), point(i + 1, j), point(i + 1, j + 1));
-            welder.triangle(point(i, j), point(i + 1, j + 1), point(i, j + 1));
-        }
-    }
-}
-
-/// n by m quads of two triangles between the points of a grid.
+/// Adds n by m quads of two triangles between the points of a grid.
 void add_quads(Welder& welder, int n, int m, const std::function<Vector3d(int, int)>& point) {
     for (int i = 0; i < n; ++i) {
         for (int j = 0; j < m; ++j) {
@@ -59,7 +46,15 @@ void add_quads(Welder& welder, int n, int m, const std::function<Vector3d(int, i
     }
 }
 
-/// The icosahedron's corners, not on the unit sphere, and its faces.
+/// Adds the square spanned by two edges as n by n quads.
+void add_square(Welder& welder, const Vector3d& origin, const Vector3d& u, const Vector3d& v,
+                int n) {
+    add_quads(welder, n, n, [&](int i, int j) -> Vector3d {
+        return origin + (static_cast<double>(i) / n) * u + (static_cast<double>(j) / n) * v;
+    });
+}
+
+/// Returns the icosahedron's corners, which do not lie on the unit sphere.
 std::array<Vector3d, 12> icosahedron_corners() {
     const double g = (1 + std::sqrt(5.0)) / 2;
     return {Vector3d(-1, g, 0), Vector3d(1, g, 0), Vector3d(-1, -g, 0), Vector3d(1, -g, 0),
@@ -72,7 +67,7 @@ constexpr std::array<Triangle, 20> kIcosahedronFaces = {
      {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}}};
 
 /// Splits the faces of an icosahedron into frequency² triangles each, on the sphere. Vertices that
-/// faces share are found by their place on an edge, without a search: spheres may be large.
+/// faces share are found by their position on an edge, without a search: spheres may be large.
 class GeodesicSphere {
 public:
     explicit GeodesicSphere(int frequency)
@@ -103,12 +98,12 @@ private:
         }
     }
 
-    /// The vertex of a face that is i steps from its first corner towards the second and j towards
-    /// the third; made when it is first asked for.
+    /// Returns the vertex of a face that is i steps from its first corner towards the second and j
+    /// towards the third. The first call for a vertex adds it.
     std::int32_t vertex(const Triangle& face, int i, int j) {
         std::int32_t& in_face = in_face_[i * row_length_ + j];
         if (in_face != kNone) return in_face;
-        std::int32_t* const shared = place_on_edge(face, i, j);
+        std::int32_t* const shared = number_on_edge(face, i, j);
         if (shared != nullptr && *shared != kNone) return in_face = *shared;
         in_face = static_cast<std::int32_t>(mesh_.positions.size());
         if (shared != nullptr) *shared = in_face;
@@ -118,8 +113,8 @@ private:
         return in_face;
     }
 
-    /// Where the number of a vertex on a face's rim is kept; null inside.
-    std::int32_t* place_on_edge(const Triangle& face, int i, int j) {
+    /// Returns where the number of a vertex on the boundary of a face is stored; null inside.
+    std::int32_t* number_on_edge(const Triangle& face, int i, int j) {
         const std::array<int, 3> steps = {frequency_ - i - j, i, j};
         for (int corner = 0; corner < 3; ++corner) {
             if (steps[corner] == frequency_) return entry(face[corner], face[corner], 0);
@@ -140,8 +135,8 @@ private:
     int frequency_;
     std::size_t row_length_;  ///< vertices along an edge
     std::array<Vector3d, 12> corners_ = icosahedron_corners();
-    std::vector<std::int32_t> on_edge_;  ///< by first and last corner and steps between them
-    std::vector<std::int32_t> in_face_;  ///< of the present face, by i and j
+    std::vector<std::int32_t> on_edge_;  ///< by first corner, last corner and steps between them
+    std::vector<std::int32_t> in_face_;  ///< of the current face, by i and j
     TriangleMesh mesh_;
 };
 
@@ -272,6 +267,22 @@ double volume(const TriangleMesh& mesh) {
         six += mesh.positions[t[0]].dot(mesh.positions[t[1]].cross(mesh.positions[t[2]]));
     }
     return six / 6;
+}
+
+Vector3d surface_centroid(const TriangleMesh& mesh) {
+    // Relative to a vertex, so that a mesh far from the origin loses no digits.
+    const Vector3d& near = mesh.positions[mesh.triangles.front()[0]];
+    Vector3d moment = Vector3d::Zero();
+    double weight = 0;
+    for (const Triangle& t : mesh.triangles) {
+        const Vector3d a = mesh.positions[t[0]] - near;
+        const Vector3d b = mesh.positions[t[1]] - near;
+        const Vector3d c = mesh.positions[t[2]] - near;
+        const double area = (b - a).cross(c - a).norm();
+        moment += area * (a + b + c);
+        weight += 3 * area;
+    }
+    return near + moment / weight;
 }
 
 }  // namespace tracked_mcf::shapes

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include <Eigen/Geometry>
@@ -32,19 +33,23 @@ TriangleMesh moebius_band(int n, int m);
 /// A sphere with bumps and no symmetry: a stand-in for a scan.
 TriangleMesh bumpy_sphere(int frequency);
 
-/// Every vertex moved by a transformation.
+/// Moves every vertex by a transformation.
 TriangleMesh transformed(TriangleMesh mesh, const Eigen::Affine3d& transformation);
 
-/// Both meshes in one.
+/// Joins two meshes into one.
 TriangleMesh merged(TriangleMesh first, const TriangleMesh& second);
 
-/// Every triangle with three vertices of its own.
+/// Gives every triangle three vertices of its own.
 TriangleMesh soup(const TriangleMesh& mesh);
 
-/// Small triangles that have nothing to do with each other, anywhere in the unit cube.
+/// Small unconnected triangles at random positions in the unit cube.
 TriangleMesh separate_triangles(int count);
 
-/// Sum of the triangles' signed volumes towards the origin: the volume inside a closed mesh.
+/// Returns the volume inside a closed mesh: the sum of the signed volumes of the tetrahedra between
+/// its triangles and the origin.
 double volume(const TriangleMesh& mesh);
+
+/// Returns the centre of mass of the surface. The surface must have an area.
+Eigen::Vector3d surface_centroid(const TriangleMesh& mesh);
 
 }  // namespace tracked_mcf::shapes

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/support/surface_distance.h"
 
 #include <Eigen/Geometry>
@@ -10,7 +11,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// A third of the vector areas, and of the areas, of the triangles around every vertex.
+/// Per vertex: a third of the vector areas, and of the areas, of the triangles around it.
 struct VertexAreas {
     std::vector<Vector3d> vectors;
     std::vector<double> areas;
@@ -31,7 +32,7 @@ VertexAreas vertex_areas(const TriangleMesh& mesh) {
     return sums;
 }
 
-/// Marks the vertices of marked triangles.
+/// Flags the vertices of flagged triangles.
 std::vector<std::uint8_t> corners_of(const TriangleMesh& mesh,
                                      const std::vector<std::uint8_t>& triangles) {
     std::vector<std::uint8_t> marked(mesh.positions.size());

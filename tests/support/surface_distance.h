@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include <cstdint>
@@ -7,28 +8,28 @@
 
 namespace tracked_mcf {
 
-/// How far two embeddings of one mesh are apart along the normal of the second, mesh units.
+/// The distance between two embeddings of one mesh along the normals of the second, in mesh units.
 struct NormalDistance {
-    double rms = 0;      ///< root mean square over the vertices, weighted by the reference's areas
-    double worst = 0;    ///< of a vertex
-    double covered = 0;  ///< part of the reference's area that was looked at, 0 to 1
+    double rms = 0;      ///< root mean square over vertices, weighted by the reference's areas
+    double worst = 0;    ///< largest distance of a vertex
+    double covered = 0;  ///< share of the reference's area that was compared, 0 to 1
 };
 
-/// (x - x_reference) · n_reference of all vertices but those that `left_out` marks (of every
-/// vertex; empty: none). The meshes have the same triangles. A vertex has the mean normal of its
-/// triangles, weighted by area, and a third of their area. Vertices without area do not count.
+/// Returns (x - x_reference) · n_reference over all vertices except those that `left_out` flags;
+/// empty flags none. The meshes have the same triangles. A vertex has the mean normal of its
+/// triangles, weighted by area, and a third of their area. Vertices without area are ignored.
 NormalDistance normal_distance(const TriangleMesh& mesh, const TriangleMesh& reference,
                                const std::vector<std::uint8_t>& left_out = {});
 
-/// Of every vertex: whether one of these triangles (a flag for each) is next to it or next to one
-/// of its neighbours. What to leave out where a reference has degenerated.
+/// Returns, per vertex, whether a flagged triangle is next to it or next to one of its neighbours.
+/// These are the vertices to leave out where a reference has degenerated.
 std::vector<std::uint8_t> vertices_around(const TriangleMesh& mesh,
                                           const std::vector<std::uint8_t>& triangles);
 
-/// The farthest that a vertex of one is from the same vertex of the other, mesh units.
+/// Returns the largest distance between a vertex and the same vertex of the other mesh.
 double worst_distance(const TriangleMesh& a, const TriangleMesh& b);
 
-/// Of the bounding box of the vertices that triangles use, mesh units.
+/// Returns the diagonal of the bounding box of the vertices that triangles use.
 double diagonal(const TriangleMesh& mesh);
 
 }  // namespace tracked_mcf

@@ -1,5 +1,5 @@
-/// Files that are no meshes: each is refused with a line that says what is wrong with it, and no
-/// output appears.
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// The program refuses damaged files in one line that says what is wrong, and writes no output.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -94,8 +94,15 @@ const std::vector<BadFile> kBadFiles = {
     {"Infinite", "a.obj", "v 0 0 0\nv 1e999 0 0\nv 0 1 0\nf 1 2 3\n", "not a finite number"},
     {"ContinuedLineObj", "a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 \\\n3\n",
      "line 4: it goes on after a backslash"},
-    {"BlankBeforeVertexObj", "a.obj", " v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
-     "line 1: blanks precede the v"},
+    {"WordForNumberStl", "a.stl",
+     "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0,5 0\nvertex 0 1 0\n"
+     "endloop\nendfacet\nendsolid a\n",
+     "'0,5' stands where a number should"},
+    {"TwoCornersStl", "a.stl",
+     "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nendloop\nendfacet\n"
+     "endsolid a\n",
+     "line 6: a facet has not 3 vertices"},
+    {"NoFacetsStl", "a.stl", "solid a\nendsolid a\n", "it has no triangles"},
 };
 
 class BadInput : public ::testing::TestWithParam<BadFile> {};

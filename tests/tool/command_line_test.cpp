@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "filter_tracked_mcf/tool/command_line.h"
 
 #include <gmock/gmock.h>
@@ -5,6 +6,7 @@
 
 #include <cmath>
 
+#include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/parameters/parameter_table.h"
 
 namespace tracked_mcf {
@@ -20,13 +22,13 @@ CommandLine parse(std::vector<const char*> arguments) {
 std::string complaint(const std::vector<const char*>& arguments) {
     try {
         parse(arguments);
-    } catch (const UsageError& error) {
+    } catch (const InvalidParameter& error) {
         return error.what();
     }
     return "none";
 }
 
-/// Text without its line breaks and indentation.
+/// Returns the text without line breaks and indentation.
 std::string unwrapped(const std::string& text) {
     std::string result;
     for (const char c : text) {
@@ -43,6 +45,9 @@ TEST(CommandLine, DefaultsAreThoseOfTheFlow) {
     EXPECT_EQ(line.output, "b.obj");
     EXPECT_EQ(line.report, "");
     EXPECT_FALSE(line.quiet);
+    EXPECT_EQ(line.detail_size.value, defaults.detail_size);
+    EXPECT_FALSE(line.detail_size.in_per_cent);
+    EXPECT_EQ(line.parameters.order, defaults.order);
     EXPECT_EQ(line.parameters.depth, defaults.depth);
     EXPECT_EQ(line.parameters.step_size, defaults.step_size);
     EXPECT_EQ(line.parameters.absolute, defaults.absolute);
@@ -50,7 +55,7 @@ TEST(CommandLine, DefaultsAreThoseOfTheFlow) {
     EXPECT_EQ(line.parameters.flow, defaults.flow);
     EXPECT_EQ(line.parameters.boundary, defaults.boundary);
     EXPECT_EQ(line.selected, "");
-    EXPECT_EQ(line.parameters.rescale, defaults.rescale);
+    EXPECT_EQ(line.parameters.preserve, defaults.preserve);
     EXPECT_EQ(line.parameters.cubature, defaults.cubature);
     EXPECT_EQ(line.parameters.separate_sheets, defaults.separate_sheets);
     EXPECT_EQ(line.parameters.solver, defaults.solver);
@@ -63,6 +68,10 @@ TEST(CommandLine, DefaultsAreThoseOfTheFlow) {
 TEST(CommandLine, EveryOptionIsTaken) {
     const CommandLine line = parse({"a.PLY",
                                     "b.Stl",
+                                    "--detail-size",
+                                    "0.75%",
+                                    "--order",
+                                    "4",
                                     "--depth",
                                     "7",
                                     "--step-size",
@@ -75,7 +84,7 @@ TEST(CommandLine, EveryOptionIsTaken) {
                                     "free",
                                     "--selected",
                                     "my quality",
-                                    "--rescale",
+                                    "--preserve",
                                     "volume",
                                     "--separate-sheets",
                                     "off",
@@ -86,7 +95,7 @@ TEST(CommandLine, EveryOptionIsTaken) {
                                     "--stabilization",
                                     "0.5",
                                     "--cubature",
-                                    "11",
+                                    "12",
                                     "--cycles",
                                     "4",
                                     "--threads",
@@ -94,6 +103,9 @@ TEST(CommandLine, EveryOptionIsTaken) {
                                     "--report",
                                     "r.json",
                                     "--quiet"});
+    EXPECT_EQ(line.detail_size.value, 0.75);
+    EXPECT_TRUE(line.detail_size.in_per_cent);
+    EXPECT_EQ(line.parameters.order, 4);
     EXPECT_EQ(line.parameters.depth, 7);
     EXPECT_EQ(line.parameters.step_size, 2.5e-4);
     EXPECT_TRUE(line.parameters.absolute);
@@ -101,7 +113,7 @@ TEST(CommandLine, EveryOptionIsTaken) {
     EXPECT_EQ(line.parameters.flow, FlowKind::Conformalized);
     EXPECT_EQ(line.parameters.boundary, BoundaryCondition::Free);
     EXPECT_EQ(line.selected, "my quality");
-    EXPECT_EQ(line.parameters.rescale, Rescaling::KeepVolume);
+    EXPECT_EQ(line.parameters.preserve, Preserve::Volume);
     EXPECT_FALSE(line.parameters.separate_sheets);
     EXPECT_EQ(line.parameters.solver, Solver::OneWCycle);
     EXPECT_EQ(line.parameters.tolerance, 1e-10);
@@ -113,20 +125,49 @@ TEST(CommandLine, EveryOptionIsTaken) {
     EXPECT_TRUE(line.quiet);
 }
 
-TEST(CommandLine, EveryNameMeansWhatItIsCalled) {
+TEST(CommandLine, EveryValueHasTheNameThatSelectsIt) {
     const auto parameters = [](const char* option, const char* value) {
         return parse({"a.ply", "b.ply", option, value}).parameters;
     };
     for (const auto boundary :
          {BoundaryCondition::Locked, BoundaryCondition::LockedCells, BoundaryCondition::Free}) {
-        EXPECT_EQ(parameters("--boundary", boundary_name(boundary)).boundary, boundary);
+        EXPECT_EQ(parameters("--boundary", name_of(kBoundaries, boundary)).boundary, boundary);
     }
     for (const auto flow : {FlowKind::MeanCurvature, FlowKind::Conformalized}) {
-        EXPECT_EQ(parameters("--flow", flow_name(flow)).flow, flow);
+        EXPECT_EQ(parameters("--flow", name_of(kFlows, flow)).flow, flow);
     }
-    for (const auto rescale : {Rescaling::None, Rescaling::KeepArea, Rescaling::KeepVolume}) {
-        EXPECT_EQ(parameters("--rescale", rescaling_name(rescale)).rescale, rescale);
+    for (const auto preserve : {Preserve::None, Preserve::Area, Preserve::Volume}) {
+        EXPECT_EQ(parameters("--preserve", name_of(kPreserves, preserve)).preserve, preserve);
     }
+}
+
+TEST(CommandLine, ALengthIsInUnitsOfTheMeshOrInPerCent) {
+    const auto length = [](const char* text) {
+        return parse({"a.ply", "b.ply", "--detail-size", text}).detail_size;
+    };
+    const auto expect = [&](const char* text, double value, bool in_per_cent) {
+        EXPECT_EQ(length(text).value, value) << text;
+        EXPECT_EQ(length(text).in_per_cent, in_per_cent) << text;
+    };
+    expect("1.5", 1.5, false);
+    expect("2e-3", 2e-3, false);
+    expect("0", 0, false);
+    expect("0.5%", 0.5, true);
+    expect("1e2%", 100, true);
+    expect("0%", 0, true);
+}
+
+TEST(CommandLine, WhatIsNoLengthIsRefusedWithTwoExamples) {
+    for (const char* text : {"%", "", "x", "1.5mm", "1.5 %%", "5%%", "0,5%", "% 5", "1.5 2"}) {
+        EXPECT_THAT(complaint({"a.ply", "b.ply", "--detail-size", text}),
+                    HasSubstr("--detail-size: give a length such as 1.5, or 0.5% of the bounding "
+                              "box's diagonal. Run tracked_mcf --help."))
+            << text;
+    }
+}
+
+TEST(CommandLine, TheRuleOf12SamplesKeepsItsOldName) {
+    EXPECT_EQ(parse({"a.ply", "b.ply", "--cubature", "11"}).parameters.cubature, Cubature::Degree6);
 }
 
 TEST(CommandLine, OnlyAPlyHasPropertiesToSelectBy) {
@@ -137,6 +178,14 @@ TEST(CommandLine, OnlyAPlyHasPropertiesToSelectBy) {
 }
 
 TEST(CommandLine, NegativeNumbersAndNotANumberReachTheFlowsOwnCheck) {
+    const auto detail_size = [](const char* text) {
+        return parse({"a.ply", "b.ply", "--detail-size", text}).detail_size.value;
+    };
+    EXPECT_EQ(detail_size("-1"), -1);
+    EXPECT_EQ(detail_size("-1%"), -1);
+    EXPECT_TRUE(std::isnan(detail_size("nan")));
+    EXPECT_TRUE(std::isinf(detail_size("inf%")));
+    EXPECT_EQ(parse({"a.ply", "b.ply", "--order", "-1"}).parameters.order, -1);
     EXPECT_EQ(parse({"a.ply", "b.ply", "--step-size", "-1"}).parameters.step_size, -1);
     EXPECT_TRUE(std::isnan(parse({"a.ply", "b.ply", "--step-size", "nan"}).parameters.step_size));
     EXPECT_EQ(parse({"a.ply", "b.ply", "--depth", "-2"}).parameters.depth, -2);
@@ -155,7 +204,7 @@ TEST(CommandLine, TheSolverDecidesOnTheStabilizationUnlessItIsGiven) {
     EXPECT_EQ(stabilization({"--stabilization", "0"}), 0);
 }
 
-TEST(CommandLine, WhatCannotBeUnderstoodIsSaid) {
+TEST(CommandLine, InvalidArgumentsAreNamed) {
     EXPECT_THAT(complaint({"a.ply"}), HasSubstr("OUTPUT is required"));
     EXPECT_THAT(complaint({"a.ply", "b.ply", "--iterations", "abc"}),
                 HasSubstr("--iterations = abc"));
@@ -164,8 +213,11 @@ TEST(CommandLine, WhatCannotBeUnderstoodIsSaid) {
     EXPECT_THAT(complaint({"a.ply", "b.ply", "--depth", "99999999999"}), HasSubstr("--depth"));
     EXPECT_THAT(complaint({"a.ply", "b.ply", "--boundary", "open"}), HasSubstr("locked-cells"));
     EXPECT_THAT(complaint({"a.ply", "b.ply", "--flow", "x"}), HasSubstr("conformalized"));
-    EXPECT_THAT(complaint({"a.ply", "b.ply", "--rescale", "x"}), HasSubstr("volume"));
-    EXPECT_THAT(complaint({"a.ply", "b.ply", "--cubature", "2"}), HasSubstr("11"));
+    EXPECT_THAT(complaint({"a.ply", "b.ply", "--preserve", "x"}), HasSubstr("volume"));
+    EXPECT_THAT(complaint({"a.ply", "b.ply", "--rescale", "volume"}), HasSubstr("--rescale"));
+    EXPECT_THAT(complaint({"a.ply", "b.ply", "--order", "x"}), HasSubstr("--order = x"));
+    EXPECT_THAT(complaint({"a.ply", "b.ply", "--order", "1.5"}), HasSubstr("--order = 1.5"));
+    EXPECT_THAT(complaint({"a.ply", "b.ply", "--cubature", "2"}), HasSubstr("12"));
     EXPECT_THAT(complaint({"a.ply", "b.ply", "--separate-sheets", "1"}), HasSubstr("off"));
     EXPECT_THAT(complaint({"a.ply", "b.ply", "--solver", "cg"}), HasSubstr("w-cycle"));
     EXPECT_THAT(complaint({"a.ply", "b.ply", "--tolerance", "x"}), HasSubstr("--tolerance = x"));
@@ -175,7 +227,7 @@ TEST(CommandLine, WhatCannotBeUnderstoodIsSaid) {
     EXPECT_THAT(complaint({"a.ply", "b.ply", "--bad"}), HasSubstr("tracked_mcf --help"));
 }
 
-TEST(CommandLine, FormatsAreToldByExtension) {
+TEST(CommandLine, TheExtensionTellsTheFormat) {
     EXPECT_EQ(complaint({"a.ply", "b.xyz"}),
               "b.xyz: the extension tells the format; give .ply, .obj, .off or .stl.");
     EXPECT_EQ(complaint({"scan", "b.ply"}),
@@ -193,6 +245,8 @@ TEST(CommandLine, HelpNamesEveryOptionAndExplainsTheSharedParameters) {
     const std::string help = parse({"--help"}).answer;
     for (const char* option : {"INPUT",
                                "OUTPUT",
+                               "--detail-size X|X%",
+                               "--order",
                                "--depth",
                                "--step-size",
                                "--absolute",
@@ -203,7 +257,7 @@ TEST(CommandLine, HelpNamesEveryOptionAndExplainsTheSharedParameters) {
                                "locked|locked-cells|free",
                                "--selected",
                                "PROPERTY",
-                               "--rescale",
+                               "--preserve",
                                "none|area|volume",
                                "--separate-sheets",
                                "on|off",
@@ -212,7 +266,7 @@ TEST(CommandLine, HelpNamesEveryOptionAndExplainsTheSharedParameters) {
                                "--tolerance",
                                "--stabilization",
                                "--cubature",
-                               "1|3|11",
+                               "1|3|12",
                                "--cycles",
                                "--threads",
                                "--report",

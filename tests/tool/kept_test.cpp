@@ -1,5 +1,6 @@
-/// What must not change through the program: positions that are held, to the bit, and everything of
-/// a file but positions and normals.
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// The program keeps the bits of constrained vertices, and everything of a file but positions and
+/// normals.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -20,7 +21,7 @@ namespace tracked_mcf {
 namespace {
 
 using Marks = std::vector<bool>;
-using Place = std::array<double, 3>;
+using Location = std::array<double, 3>;
 
 std::unique_ptr<PlyDocument> open_ply(const std::filesystem::path& path) {
     auto document = std::make_unique<PlyDocument>(parse_ply_table(read_file(path)));
@@ -28,9 +29,9 @@ std::unique_ptr<PlyDocument> open_ply(const std::filesystem::path& path) {
     return document;
 }
 
-/// A number for every vertex, the same for those at the same place.
-std::vector<std::size_t> places(const Points& positions) {
-    std::map<Place, std::size_t> numbers;
+/// Numbers the vertices; coincident vertices get the same number.
+std::vector<std::size_t> location_numbers(const Points& positions) {
+    std::map<Location, std::size_t> numbers;
     std::vector<std::size_t> result;
     for (const Eigen::Vector3d& p : positions) {
         result.push_back(numbers.try_emplace({p.x(), p.y(), p.z()}, numbers.size()).first->second);
@@ -49,34 +50,34 @@ void for_each_side(const Polygons& polygons, Visit visit) {
     }
 }
 
-/// Of every vertex, whether it is at an end of an edge that one face alone has.
+/// Returns for each vertex whether a boundary edge ends there.
 Marks boundary_vertices(const PlyDocument& document) {
-    const std::vector<std::size_t> place = places(document.positions());
+    const std::vector<std::size_t> number_of = location_numbers(document.positions());
     std::map<std::pair<std::size_t, std::size_t>, int> sides;
     for_each_side(document.polygons(), [&](std::size_t, std::size_t a, std::size_t b) {
-        if (place[a] != place[b]) ++sides[std::minmax({place[a], place[b]})];
+        if (number_of[a] != number_of[b]) ++sides[std::minmax({number_of[a], number_of[b]})];
     });
-    Marks at(place.size(), false);
+    Marks at(number_of.size(), false);
     for (const auto& [edge, count] : sides) {
         if (count == 1) at[edge.first] = at[edge.second] = true;
     }
     Marks result;
-    for (const std::size_t number : place) result.push_back(at[number]);
+    for (const std::size_t number : number_of) result.push_back(at[number]);
     return result;
 }
 
-/// The marks, and those of all vertices at the places of marked ones.
+/// Returns the marks, and marks all vertices that coincide with a marked one.
 Marks with_twins(const Marks& marks, const Points& positions) {
-    const std::vector<std::size_t> place = places(positions);
-    Marks at(place.size(), false), result;
-    for (std::size_t i = 0; i < place.size(); ++i) {
-        if (marks[i]) at[place[i]] = true;
+    const std::vector<std::size_t> number_of = location_numbers(positions);
+    Marks at(number_of.size(), false), result;
+    for (std::size_t i = 0; i < number_of.size(); ++i) {
+        if (marks[i]) at[number_of[i]] = true;
     }
-    for (const std::size_t number : place) result.push_back(at[number]);
+    for (const std::size_t number : number_of) result.push_back(at[number]);
     return result;
 }
 
-/// Of every vertex, whether a face uses it.
+/// Returns for each vertex whether a face uses it.
 Marks used_vertices(const PlyDocument& document) {
     Marks result(document.positions().size(), false);
     for (const std::int32_t corner : document.polygons().corners) {
@@ -85,7 +86,7 @@ Marks used_vertices(const PlyDocument& document) {
     return result;
 }
 
-/// Of every vertex, whether it has the same bits in both.
+/// Returns for each vertex whether it has the same bits in both.
 Marks unchanged(const Points& a, const Points& b) {
     Marks result;
     for (std::size_t i = 0; i < a.size(); ++i) {
@@ -95,8 +96,7 @@ Marks unchanged(const Points& a, const Points& b) {
     return result;
 }
 
-/// Expects that what is to be kept is unchanged, as is all that no face uses, and that nearly all
-/// of the others have moved.
+/// Expects that marked and unused vertices are unchanged and that nearly all others have moved.
 void expect_kept(const PlyDocument& before, const PlyDocument& after, const Marks& kept) {
     ASSERT_EQ(before.positions().size(), after.positions().size());
     const Marks same = unchanged(before.positions(), after.positions());
@@ -117,8 +117,8 @@ void expect_kept(const PlyDocument& before, const PlyDocument& after, const Mark
     EXPECT_EQ(before.polygons().corners, after.polygons().corners);
 }
 
-/// `document` as a file whose faces have the number `chosen`: whether they lie in the lower half of
-/// the longest axis.
+/// Returns `document` with a property `chosen` of the faces: 1 in the lower half of the longest
+/// axis.
 std::string with_lower_half_chosen(const PlyDocument& document, Marks& kept) {
     Eigen::AlignedBox<double, 3> box;
     const Marks used = used_vertices(document);
@@ -147,7 +147,7 @@ std::string with_lower_half_chosen(const PlyDocument& document, Marks& kept) {
     return text.str();
 }
 
-/// A bumpy square with a seam, along which vertices are double: no boundary.
+/// A bumpy square with a seam of duplicate vertices. The seam is not a boundary.
 std::string bumpy_square() {
     constexpr int n = 40;
     std::ostringstream text;
@@ -215,7 +215,7 @@ INSTANTIATE_TEST_SUITE_P(OpenMeshes, Kept,
                              return test.param.empty() ? "bumpy_square" : test.param;
                          });
 
-/// Of a PLY file, the bytes of all fields but positions, and the number of fields.
+/// Returns the bytes of all fields of a PLY file but positions, and the number of these fields.
 std::pair<std::string, std::size_t> all_but_positions(const std::filesystem::path& path) {
     std::pair<std::string, std::size_t> result;
     for (const PlyElement& element : parse_ply_table(read_file(path)).elements) {
@@ -256,7 +256,7 @@ TEST(EverythingElse, OfAPlyIsKept) {
     }
 }
 
-/// The lines of a text file but those that begin with one of `skipped`.
+/// Returns the lines of a text file that do not begin with one of `skipped`.
 std::vector<std::string> lines_but(const std::filesystem::path& path,
                                    const std::vector<std::string>& skipped) {
     std::istringstream text(read_file(path));

@@ -1,4 +1,5 @@
-/// OBJ to OBJ: the file comes back as it was, but for positions and normals.
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// OBJ to OBJ: only positions and normals change.
 
 #include <gtest/gtest.h>
 
@@ -57,9 +58,15 @@ TEST(Obj, NormalsForSomeCornersOnlyLoseNoFace) {
     EXPECT_EQ(mesh.triangles, (std::vector<Triangle>{{0, 1, 2}, {1, 2, 3}, {4, 3, 2}}));
 }
 
-TEST(Obj, FacesThatNameAVertexTwiceAreNotLost) {
+TEST(Obj, BlanksMayPrecedeAKeyword) {
+    const TriangleMesh mesh = read_obj(" v 0 0 0\n\tv 1 0 0\nv 0 1 0\n f 1 2 3\n");
+    EXPECT_EQ(mesh.positions.size(), 3u);
+    EXPECT_EQ(mesh.triangles, (std::vector<Triangle>{{0, 1, 2}}));
+}
+
+TEST(Obj, FacesThatNameAVertexTwiceKeepTheirOrder) {
     const TriangleMesh mesh = read_obj("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 2\nf 1 2 3\n");
-    EXPECT_EQ(mesh.triangles, (std::vector<Triangle>{{0, 1, 2}, {0, 1, 1}}));
+    EXPECT_EQ(mesh.triangles, (std::vector<Triangle>{{0, 1, 1}, {0, 1, 2}}));
 }
 
 TEST(Obj, DigitsOfDoublesAreReadAndWritten) {

@@ -1,7 +1,9 @@
-/// OFF to OFF: the file comes back as it was, but for positions and normals.
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// OFF to OFF: only positions and normals change.
 
 #include <gtest/gtest.h>
 
+#include "filter_tracked_mcf/core/mesh/measures.h"
 #include "filter_tracked_mcf/tool/mesh_file.h"
 #include "tests/tool/temporary_folder.h"
 
@@ -43,6 +45,28 @@ TEST(Off, AttributesOfVerticesStayAndNormalsAreThoseOfTheNewShape) {
 TEST(Off, NumbersMayBeSpreadOverLines) {
     EXPECT_EQ(written_with_x_doubled("OFF\n3 1 0\n0 0\n0 1 0 0\n0\n1 0\n3 0 1 2\n"),
               "OFF\n3 1 0\n0 0\n0 2 0 0\n0\n1 0\n3 0 1 2\n");
+}
+
+TEST(Off, QuadranglesAreSplitAsMeshLabDoes) {
+    const auto triangles = [](const std::string& content) {
+        const TemporaryFolder folder;
+        write_file(folder / "in.off", content);
+        return MeshFile(folder / "in.off").triangle_mesh().triangles;
+    };
+    using Triangles = std::vector<Triangle>;
+    EXPECT_EQ(triangles("OFF\n4 1 0\n0 0 0\n3 0 0\n4 1 0\n1 1 0\n4 0 1 2 3\n"),
+              (Triangles{{1, 2, 3}, {1, 3, 0}}))
+        << "along the shorter diagonal of a parallelogram";
+    EXPECT_EQ(triangles("OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n"),
+              (Triangles{{0, 1, 2}, {0, 2, 3}}))
+        << "from the first corner if both diagonals are as good";
+    EXPECT_EQ(triangles("OFF\n4 1 0\n0 0 0\n2 1 0\n4 0 0\n2 3 0\n4 0 1 2 3\n"),
+              (Triangles{{1, 2, 3}, {1, 3, 0}}))
+        << "inside a quadrangle that is not convex";
+    EXPECT_EQ(triangles("OFF\n5 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 9\n"
+                        "4 0 1 2 3\n4 0 3 2 1\n"),
+              (Triangles{{0, 1, 2}, {0, 2, 3}, {3, 2, 1}, {3, 1, 0}}))
+        << "two quadrangles do not share a diagonal";
 }
 
 TEST(Off, QuadranglesAndPentagonsBecomeTriangles) {

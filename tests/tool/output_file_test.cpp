@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "filter_tracked_mcf/tool/output_file.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +16,7 @@ std::size_t file_count(const TemporaryFolder& folder) {
         std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()));
 }
 
-TEST(OutputFile, AppearsWithAllThatBelongsToItWhenCommitted) {
+TEST(OutputFile, AppearsWithAllStagedFilesWhenCommitted) {
     const TemporaryFolder folder;
     OutputFile output(folder / "a.obj");
     write_file(output.stage(), "mesh");
@@ -26,7 +27,7 @@ TEST(OutputFile, AppearsWithAllThatBelongsToItWhenCommitted) {
     EXPECT_EQ(read_file(folder / "a.obj.mtl"), "materials");
 }
 
-TEST(OutputFile, LeavesWhatWasThereUnlessCommitted) {
+TEST(OutputFile, KeepsTheOldFileUnlessCommitted) {
     const TemporaryFolder folder;
     write_file(folder / "a.ply", "before");
     {
@@ -54,7 +55,7 @@ TEST(OutputFile, ReplacesTheFileThatALinkLeadsTo) {
     EXPECT_EQ(read_file(folder / "real.ply"), "after");
 }
 
-TEST(OutputFile, PlacesThatCannotBeWrittenAreRefusedAtOnce) {
+TEST(OutputFile, RefusesPathsThatCannotBeWrittenAtOnce) {
     const TemporaryFolder folder;
     EXPECT_THROW(OutputFile(folder / "missing/a.ply"), UnwritableFile);
     EXPECT_THROW(OutputFile(folder.path()), UnwritableFile);

@@ -1,4 +1,5 @@
-/// PLY to PLY: the file comes back as it was, but for positions and normals.
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// PLY to PLY: only positions and normals change.
 
 #include <gtest/gtest.h>
 
@@ -181,6 +182,31 @@ TEST(Ply, NormalsAreThoseOfTheNewShape) {
         EXPECT_NEAR(actual, wanted, i % 6 < 3 ? 0 : 1e-15) << "number " << i;
     }
     EXPECT_EQ(written.substr(header + 240), expected.substr(header + 240));
+}
+
+TEST(Ply, TheQualityReplacesThePropertyOfThatNameOrComesLast) {
+    const std::string header = "ply\nformat binary_little_endian 1.0\nelement vertex 3\n";
+    const auto coordinates = [](const std::string& type) {
+        return "property " + type + " x\nproperty " + type + " y\nproperty " + type + " z\n";
+    };
+    const std::string rest = "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+    const std::string face = packed(std::uint8_t{3}, 0, 1, 2);
+    const TemporaryFolder folder;
+    const auto written = [&](const std::string& content) {
+        write_file(folder / "in.ply", content);
+        MeshFile file(folder / "in.ply");
+        file.set_quality({0.25, -1, 1e-9});
+        file.write(file.triangle_mesh(), folder / "out.ply", folder.path());
+        return read_file(folder / "out.ply");
+    };
+    EXPECT_EQ(written(header + coordinates("float") + rest +
+                      packed(0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 1.f, .5f) + face),
+              header + coordinates("double") + "property double quality\n" + rest +
+                  packed(0., 0., 0., .25, 1., 0., 0., -1., 0., 1., .5, 1e-9) + face);
+    EXPECT_EQ(written(header + "property float quality\n" + coordinates("double") + rest +
+                      packed(9.f, 0., 0., 0., 9.f, 1., 0., 0., 9.f, 0., 1., .5) + face),
+              header + "property double quality\n" + coordinates("double") + rest +
+                  packed(.25, 0., 0., 0., -1., 1., 0., 0., 1e-9, 0., 1., .5) + face);
 }
 
 TEST(Ply, TextureNamesFollowTheFile) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The program as a whole: exit codes, streams, files.
 
 #include <gmock/gmock.h>
@@ -5,6 +6,8 @@
 
 #include <sstream>
 
+#include "filter_tracked_mcf/core/mesh/measures.h"
+#include "filter_tracked_mcf/tool/documents/ply_table.h"
 #include "filter_tracked_mcf/tool/mesh_file.h"
 #include "tests/tool/temporary_folder.h"
 
@@ -21,7 +24,7 @@ using ::testing::StartsWith;
 const std::string kTetrahedron =
     "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
 
-/// All numbers in an OFF file.
+/// Returns all numbers in an OFF file.
 std::vector<double> numbers_in(const std::string& off) {
     std::istringstream text(off);
     std::string word;
@@ -49,7 +52,7 @@ protected:
 
     ProgramRun run(const std::string& arguments) const { return run_program(folder_, arguments); }
 
-    /// Of the surface in a file.
+    /// Returns the area of the surface in a file.
     double area(const std::string& name) const {
         return surface_area(MeshFile(folder_ / name).triangle_mesh());
     }
@@ -58,17 +61,19 @@ protected:
 };
 
 TEST_F(Program, SmoothsAndSummarises) {
-    const ProgramRun result = run("a.off b.ply --depth 4 --step-size 1e-3 --iterations 3");
+    const ProgramRun result = run("a.off b.ply --depth 4 --step-size 5e-4 --iterations 3");
     EXPECT_EQ(result.exit_code, 0);
     EXPECT_THAT(result.errors, IsEmpty()) << "no progress bar where there is no terminal";
     EXPECT_THAT(result.output, HasSubstr("a.off: 4 vertices, 4 triangles\ndepth 4: "));
-    EXPECT_THAT(result.output, HasSubstr(" of conjugate gradients in each step\n3 steps of 0.001 "
-                                         "in "));
+    EXPECT_THAT(result.output, HasSubstr(" of conjugate gradients in each step\nWaves of "
+                                         "length "));
+    EXPECT_THAT(result.output, HasSubstr("The step size was 0.0005 squared units of the mesh. "));
+    EXPECT_THAT(result.output, HasSubstr("\n3 steps in "));
     EXPECT_LT(area("b.ply"), 0.99 * area("a.off"));
 }
 
 TEST_F(Program, QuietSaysNothing) {
-    const ProgramRun result = run("a.off b.ply --depth 3 --quiet");
+    const ProgramRun result = run("a.off b.ply --depth 3 --step-size 1e-5 --quiet");
     EXPECT_EQ(result.exit_code, 0);
     EXPECT_THAT(result.output, IsEmpty());
     EXPECT_THAT(result.errors, IsEmpty());
@@ -86,8 +91,9 @@ TEST_F(Program, ATightToleranceIsReached) {
 
 TEST_F(Program, AToleranceThatIsNotReachedIsAWarningEvenWhenQuiet) {
     // Beyond double precision.
-    const ProgramRun result =
-        run("a.off b.ply --depth 4 --tolerance 1e-30 --iterations 2 --report r.json --quiet");
+    const ProgramRun result = run(
+        "a.off b.ply --depth 4 --step-size 1e-5 --tolerance 1e-30 --iterations 2 --report r.json "
+        "--quiet");
     EXPECT_EQ(result.exit_code, 0);
     EXPECT_THAT(result.output, IsEmpty());
     EXPECT_THAT(result.errors,
@@ -115,7 +121,7 @@ TEST_F(Program, SolversDiffer) {
     EXPECT_NE(smoothed("--stabilization 0.1"), converged);
 }
 
-TEST_F(Program, SheetsHaveFunctionsOfTheirOwnUnlessSwitchedOff) {
+TEST_F(Program, SeparateSheetsHaveMoreUnknowns) {
     // Two squares so close that every cell has both.
     std::string two = "OFF\n8 4 0\n";
     for (const char* z : {"0", "0.01"}) {
@@ -150,11 +156,55 @@ TEST_F(Program, AbsoluteStepsAreInSquaredUnitsOfTheMesh) {
     EXPECT_NE(positions("wide.off b.off --step-size 0.015625"), relative);
 }
 
-TEST_F(Program, RescalingKeepsAreaOrVolume) {
+TEST_F(Program, ADetailSizeInPerCentIsPartOfTheBoxesDiagonal) {
+    // The vertex far away has no face, but is part of the box.
+    write_file(folder_ / "far.off",
+               "OFF\n5 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n6 6 7\n3 0 2 1\n3 0 1 3\n3 0 3 2\n"
+               "3 1 2 3\n");
+    const auto positions = [&](const std::string& options) {
+        const ProgramRun result = run("far.off b.off --depth 4 --report r.json " + options);
+        EXPECT_EQ(result.exit_code, 0) << result.errors;
+        return read_file(folder_ / "b.off");
+    };
+    const std::string absolute = positions("--detail-size 1.375");
+    EXPECT_THAT(read_file(folder_ / "r.json"), HasSubstr("\n    \"detail_size\": 1.375,\n"));
+    EXPECT_EQ(positions("--detail-size 12.5%"), absolute);
+    EXPECT_THAT(read_file(folder_ / "r.json"), HasSubstr("\n    \"detail_size\": 1.375,\n"));
+    EXPECT_NE(positions("--detail-size 12.5"), absolute);
+    EXPECT_EQ(positions("--detail-size 0%"), positions(""));
+}
+
+TEST_F(Program, TheDetailSizeIsOneOfTheTwoWaysToGiveTheStepSize) {
+    const auto positions = [&](const std::string& options) {
+        const ProgramRun result = run("a.off b.off --depth 4 --iterations 1 " + options);
+        EXPECT_EQ(result.exit_code, 0) << result.errors;
+        return numbers_in(read_file(folder_ / "b.off"));
+    };
+    // One step of order 1 halves waves of length 2 pi sqrt(delta).
+    EXPECT_THAT(positions("--detail-size 0.6283185307179586"),
+                Pointwise(DoubleNear(1e-12), positions("--step-size 0.01")));
+    EXPECT_EQ(positions("--detail-size 5 --step-size 0.01"), positions("--step-size 0.01"));
+    EXPECT_NE(positions("--detail-size 5"), positions("--step-size 0.01"));
+}
+
+TEST_F(Program, OrdersDiffer) {
+    const auto smoothed = [&](const std::string& options) {
+        const ProgramRun result = run("a.off b.off --depth 4 --step-size 1e-3 " + options);
+        EXPECT_EQ(result.exit_code, 0) << result.errors;
+        return read_file(folder_ / "b.off");
+    };
+    std::vector<std::string> results = {smoothed("--order 1"), smoothed("--order 2"),
+                                        smoothed("--order 3"), smoothed("--order 4")};
+    EXPECT_EQ(smoothed(""), results[0]);
+    std::sort(results.begin(), results.end());
+    EXPECT_EQ(std::unique(results.begin(), results.end()), results.end());
+}
+
+TEST_F(Program, AreaOrVolumeIsPreserved) {
     const auto kept = [&](const char* name, auto measure) {
         const ProgramRun result =
             run("a.off b.off --depth 5 --step-size 1e-2 --iterations 50 "
-                "--rescale " +
+                "--preserve " +
                 std::string(name));
         EXPECT_EQ(result.exit_code, 0) << result.errors;
         const double before = measure(MeshFile(folder_ / "a.off").triangle_mesh());
@@ -164,15 +214,62 @@ TEST_F(Program, RescalingKeepsAreaOrVolume) {
     kept("volume", [](const TriangleMesh& mesh) { return enclosed_volume(mesh); });
 }
 
-TEST_F(Program, AnOpenSurfaceHasNoVolumeToKeepNorGoesHoldingWithRescaling) {
+TEST_F(Program, TheVolumeUnderAnOpenSurfaceIsPreservedWithAnyBoundary) {
+    // A pyramid without a base, on the grid's plane.
+    write_file(folder_ / "open.off",
+               "OFF\n5 4 0\n-1 -1 0\n1 -1 0\n1 1 0\n-1 1 0\n0 0 1\n3 0 1 4\n3 1 2 4\n3 2 3 4\n"
+               "3 3 0 4\n");
+    for (const char* boundary : {"locked", "locked-cells", "free"}) {
+        const auto change = [&](const std::string& options) {
+            const ProgramRun result =
+                run("open.off b.off --depth 5 --detail-size 1 --report r.json --boundary " +
+                    std::string(boundary) + options);
+            EXPECT_EQ(result.exit_code, 0) << result.errors;
+            const std::string report = read_file(folder_ / "r.json");
+            return std::stod(report.substr(report.find("\"volume_change\": ") + 17));
+        };
+        EXPECT_LT(change(""), -1e-3) << boundary;
+        EXPECT_NEAR(change(" --preserve volume"), 0, 1e-9) << boundary;
+        EXPECT_NEAR(change(" --preserve volume --order 2"), 0, 1e-9) << boundary;
+    }
+}
+
+TEST_F(Program, WhatCannotBePreservedIsRefused) {
     write_file(folder_ / "grid.off", grid(5));
-    ProgramRun result = run("grid.off b.ply --boundary free --rescale volume");
-    EXPECT_EQ(result.exit_code, 1);
-    EXPECT_THAT(result.errors, HasSubstr("The volume cannot be kept, for the surface is open"));
-    result = run("grid.off b.ply --rescale area");
-    EXPECT_EQ(result.exit_code, 2);
-    EXPECT_THAT(result.errors, HasSubstr("rescale would move what is held"));
-    EXPECT_FALSE(std::filesystem::exists(folder_ / "b.ply"));
+    write_file(folder_ / "twisted.off",
+               "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 1\n3 0 1 2\n3 0 3 2\n");
+    const auto refuses = [&](const std::string& arguments, int code, const char* message) {
+        const ProgramRun result = run(arguments);
+        EXPECT_EQ(result.exit_code, code) << arguments;
+        EXPECT_THAT(result.errors, HasSubstr(message)) << arguments;
+        EXPECT_FALSE(std::filesystem::exists(folder_ / "b.ply")) << arguments;
+    };
+    refuses("grid.off b.ply --boundary free --flow conformalized --preserve volume", 1,
+            "A conformalized flow cannot preserve the volume because the surface is open");
+    refuses("grid.off b.ply --flow conformalized --preserve volume", 2,
+            "Preserving the volume of a conformalized flow would move vertices that must stay");
+    refuses("grid.off b.ply --preserve area", 2,
+            "Preserving the area would move vertices that must stay");
+    refuses("twisted.off b.ply --preserve volume", 1,
+            "The volume cannot be preserved because the faces are not oriented consistently");
+}
+
+TEST_F(Program, TheQualityIsAPropertyOfThePlyFile) {
+    const auto quality = [&](const std::string& option) {
+        EXPECT_EQ(run("a.off b.ply --depth 4 --step-size 1e-4 " + option).exit_code, 0);
+        const PlyTable table = parse_ply_table(read_file(folder_ / "b.ply"));
+        return table.find("vertex")->numbers("quality");
+    };
+    EXPECT_TRUE(quality("").empty());
+    // All corners of the tetrahedron stand out and move in.
+    const auto displacement = quality("--quality displacement");
+    const auto curvature = quality("--quality mean-curvature");
+    ASSERT_EQ(displacement.size(), 4U);
+    ASSERT_EQ(curvature.size(), 4U);
+    for (std::size_t i = 0; i < 4; ++i) {
+        EXPECT_LT(displacement[i], 0);
+        EXPECT_GT(curvature[i], 0);
+    }
 }
 
 TEST_F(Program, AFlowThatVanishesStopsWithAWarningAndItsLastGoodPositions) {
@@ -181,19 +278,21 @@ TEST_F(Program, AFlowThatVanishesStopsWithAWarningAndItsLastGoodPositions) {
     EXPECT_EQ(result.exit_code, 0);
     EXPECT_THAT(result.output, IsEmpty());
     EXPECT_THAT(result.errors, StartsWith("tracked_mcf: warning: The flow stopped after step "));
-    EXPECT_EQ(result.errors.find('\n'), result.errors.size() - 1) << "one line";
     EXPECT_THAT(read_file(folder_ / "r.json"), HasSubstr("\"stop\": \"vanished\""));
     EXPECT_GT(area("b.ply"), 0);
 }
 
-TEST_F(Program, ALockThatHoldsEverythingIsAWarning) {
+TEST_F(Program, AMeshThatCannotMoveIsAWarning) {
     write_file(folder_ / "grid.off", grid(5));
     const ProgramRun result = run("grid.off b.off --depth 1 --boundary locked-cells");
     EXPECT_EQ(result.exit_code, 0);
-    EXPECT_EQ(result.errors,
-              "tracked_mcf: warning: Nothing has moved: all of the surface is held. Free the "
-              "boundary, or select more; where cells are locked, take a greater depth.\n");
-    EXPECT_THAT(result.output, HasSubstr("\n16 vertices are held\n0 steps of 1e-05 in "));
+    EXPECT_EQ(
+        result.errors,
+        "tracked_mcf: warning: Nothing has moved: all of the surface is constrained. Free the "
+        "boundary, or select more; where cells are locked, take a greater depth.\n");
+    EXPECT_THAT(result.output,
+                HasSubstr("\n16 vertices are constrained: they keep their positions\n"));
+    EXPECT_THAT(result.output, HasSubstr("\n0 steps in "));
 }
 
 TEST_F(Program, FlowsDiffer) {
@@ -240,7 +339,15 @@ TEST_F(Program, WrongUseExitsWith2) {
                                   "a.off b.ply --depth -1",
                                   "a.off b.ply --iterations 0",
                                   "a.off b.ply --iterations abc",
-                                  "a.off b.ply --step-size 0",
+                                  "a.off b.ply --detail-size -1",
+                                  "a.off b.ply --detail-size -1%",
+                                  "a.off b.ply --detail-size %",
+                                  "a.off b.ply --detail-size nan",
+                                  "a.off b.ply --detail-size inf%",
+                                  "a.off b.ply --detail-size ''",
+                                  "a.off b.ply --detail-size",
+                                  "a.off b.ply --order 0",
+                                  "a.off b.ply --order 5",
                                   "a.off b.ply --step-size -1e-5",
                                   "a.off b.ply --step-size nan",
                                   "a.off b.ply --step-size inf",
@@ -248,10 +355,14 @@ TEST_F(Program, WrongUseExitsWith2) {
                                   "a.off b.ply --threads -1",
                                   "a.off b.ply --boundary x",
                                   "a.off b.ply --flow x",
-                                  "a.off b.ply --rescale x",
+                                  "a.off b.ply --preserve x",
+                                  "a.off b.ply --quality x",
+                                  "a.off b.off --quality displacement",
+                                  "a.off b.ply --quality mean-curvature --flow conformalized",
+                                  "a.off b.ply --rescale volume",
                                   "a.off b.ply --selected flags",
                                   "a.off b.ply --absolute --step-size inf",
-                                  "a.off b.ply --absolute --step-size 0",
+                                  "a.off b.ply --absolute --step-size -1",
                                   "a.off b.ply --solver cg",
                                   "a.off b.ply --separate-sheets maybe",
                                   "a.off b.ply --tolerance 0",
@@ -267,6 +378,10 @@ TEST_F(Program, WrongUseExitsWith2) {
         EXPECT_FALSE(std::filesystem::exists(folder_ / "b.ply")) << arguments;
     }
     EXPECT_THAT(run("a.off b.ply --depth 99").errors, HasSubstr("depth is 99; give 0 to 12"));
+    EXPECT_THAT(run("a.off b.ply --order 5").errors, HasSubstr("order is 5; give 1 to 4."));
+    EXPECT_THAT(run("a.off b.ply --detail-size -1").errors,
+                HasSubstr("detail_size is -1; give a number greater than 0, a length in units of "
+                          "the mesh, or 0 to take 2.5 mean edge lengths."));
 }
 
 TEST_F(Program, UnwritableResultsExitWith3BeforeTheWork) {
@@ -283,7 +398,7 @@ TEST_F(Program, FullDiskExitsWith3AndLeavesTheOldFile) {
     write_file(folder_ / "grid.off", grid(20));
     for (const char* name : {"b.ply", "b.obj", "b.off", "b.stl"}) {
         write_file(folder_ / name, "before");
-        // No file may have more than one block: as if the disk were full.
+        // `ulimit -f 1` limits each file to one block, so writing fails as on a full disk.
         const ProgramRun result =
             run_program(folder_, "grid.off " + std::string(name) + " --depth 3", "ulimit -f 1;");
         EXPECT_EQ(result.exit_code, 3) << name;
@@ -295,7 +410,7 @@ TEST_F(Program, FullDiskExitsWith3AndLeavesTheOldFile) {
     }
 }
 
-TEST_F(Program, WhatDoesNotFitIntoMemoryExitsWith1BeforeTheWork) {
+TEST_F(Program, TooLittleMemoryExitsWith1BeforeTheWork) {
     if (TRACKED_MCF_SANITIZED) GTEST_SKIP() << "sanitizers need the whole address space";
     write_file(folder_ / "b.ply", "before");
     const ProgramRun result =
@@ -315,7 +430,7 @@ TEST_F(Program, GermanLocaleChangesNoNumber) {
         run_program(folder_, "a.off german.off --depth 3 --step-size 1.5e-5 --report r.json",
                     "LC_ALL=de_DE.UTF-8");
     ASSERT_EQ(german.exit_code, 0);
-    EXPECT_THAT(german.output, HasSubstr("10 steps of 1.5e-05 in "));
+    EXPECT_THAT(german.output, HasSubstr("The step size was 1.5e-05 squared units"));
     EXPECT_EQ(read_file(folder_ / "german.off"), read_file(folder_ / "plain.off"));
     EXPECT_THAT(read_file(folder_ / "r.json"), HasSubstr("\"step_size\": 1.5e-05"));
 }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "filter_tracked_mcf/tool/progress_bar.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
-/// Meshes from elsewhere, where a folder of them is at hand: read and written without a change.
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Meshes of other programs, if a folder of them exists, are read and written without a change.
 
 #include <gtest/gtest.h>
 

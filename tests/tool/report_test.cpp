@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "filter_tracked_mcf/tool/report_json.h"
 
 #include <gtest/gtest.h>
@@ -16,6 +17,8 @@ TEST(Report, HoldsEveryMemberUnderItsName) {
     CommandLine line;
     line.input = "in.ply";
     line.output = "out.obj";
+    line.parameters.detail_size = 0.375;
+    line.parameters.order = 2;
     line.parameters.depth = 7;
     line.parameters.step_size = 2e-4;
     line.parameters.absolute = true;
@@ -23,7 +26,8 @@ TEST(Report, HoldsEveryMemberUnderItsName) {
     line.parameters.flow = FlowKind::Conformalized;
     line.parameters.boundary = BoundaryCondition::Free;
     line.selected = "q";
-    line.parameters.rescale = Rescaling::KeepArea;
+    line.parameters.preserve = Preserve::Area;
+    line.parameters.quality = Quality::Displacement;
     line.parameters.separate_sheets = false;
     line.parameters.cubature = Cubature::Degree6;
     line.parameters.tolerance = 0.5;
@@ -35,18 +39,23 @@ TEST(Report, HoldsEveryMemberUnderItsName) {
     report.triangles = 2;
     report.degenerate_triangles = 3;
     report.boundary_edges = 4;
-    report.held_vertices = 15;
+    report.constrained_vertices = 15;
+    report.detail_size = 0.4375;
+    report.step_size = 0.0625;
     report.depth = 5;
     report.cell_size = 6.5;
     report.cells = 7;
     report.elements = 14;
     report.unknowns = 8;
-    report.locked_unknowns = 9;
+    report.constrained_unknowns = 9;
     report.fragments = 10;
     report.split_triangles = 11;
     report.samples = 12;
     report.area_before = 20.5;
     report.area_after = 19.5;
+    report.volume_change = -2.5;
+    report.largest_displacement = 0.75;
+    report.rms_displacement = 0.25;
     report.setup_seconds = 13.5;
     report.steps = {{0.5, 0.25, 1e-3, 1e-6, 6, 0.125, true, 12.5, 1},
                     {0.75, 0.125, 1e-4, 1e-7, 100, 0.75, false, 11.5, 2}};
@@ -56,19 +65,21 @@ TEST(Report, HoldsEveryMemberUnderItsName) {
     const Json expected = Json::parse(R"({
         "program": "tracked_mcf", "version": ")" TRACKED_MCF_VERSION R"(",
         "input": "in.ply", "output": "out.obj",
-        "parameters": {"depth": 7, "step_size": 2e-4, "absolute": true, "iterations": 3,
+        "parameters": {"detail_size": 0.375, "order": 2, "depth": 7, "step_size": 2e-4, "absolute": true, "iterations": 3,
                        "flow": "conformalized", "boundary": "free", "selected": "q",
-                       "rescale": "area", "separate_sheets": false, "cubature": 11, "solver": "converged",
-                       "tolerance": 0.5, "stabilization": 0.25, "cycles": 2, "threads": 1},
+                       "preserve": "area", "quality": "displacement", "separate_sheets": false, "cubature": 12,
+                       "solver": "converged", "tolerance": 0.5, "stabilization": 0.25, "cycles": 2, "threads": 1},
         "vertices": 1, "triangles": 2, "degenerate_triangles": 3, "boundary_edges": 4,
-        "held_vertices": 15, "area_before": 20.5, "area_after": 19.5, "stop": "vanished",
-        "depth": 5, "cell_size": 6.5, "cells": 7, "elements": 14, "unknowns": 8, "locked_unknowns": 9,
+        "constrained_vertices": 15, "detail_size": 0.4375, "step_size": 0.0625,
+        "area_before": 20.5, "area_after": 19.5, "volume_change": -2.5,
+        "largest_displacement": 0.75, "rms_displacement": 0.25, "converged": false, "stop": "vanished",
+        "depth": 5, "cell_size": 6.5, "cells": 7, "elements": 14, "unknowns": 8, "constrained_unknowns": 9,
         "fragments": 10, "split_triangles": 11, "samples": 12, "setup_seconds": 13.5,
         "steps": [{"assemble_seconds": 0.5, "solve_seconds": 0.25, "residual_before": 1e-3,
-                   "residual_after": 1e-6, "solver_iterations": 6, "relative_residual": 0.125,
+                   "residual_after": 1e-6, "solver_iterations": 6, "error_estimate": 0.125,
                    "reached_tolerance": true, "area": 12.5, "collapsed_samples": 1},
                   {"assemble_seconds": 0.75, "solve_seconds": 0.125, "residual_before": 1e-4,
-                   "residual_after": 1e-7, "solver_iterations": 100, "relative_residual": 0.75,
+                   "residual_after": 1e-7, "solver_iterations": 100, "error_estimate": 0.75,
                    "reached_tolerance": false, "area": 11.5, "collapsed_samples": 2}],
         "estimated_memory_bytes": 549755813888, "peak_memory_bytes": 1099511627776})");
     EXPECT_EQ(Json::parse(report_json(line, report)), expected);
@@ -94,8 +105,26 @@ TEST(Report, WCyclesKnowNoTolerance) {
     EXPECT_EQ(json["parameters"]["solver"], "w-cycle");
     const Json step = json["steps"][0];
     EXPECT_EQ(step["solver_iterations"], 2);
-    EXPECT_TRUE(step["relative_residual"].is_null());
+    EXPECT_TRUE(step["error_estimate"].is_null());
     EXPECT_TRUE(step["reached_tolerance"].is_null());
+}
+
+TEST(Report, HasAVolumeOnlyOfConsistentlyOrientedFaces) {
+    FlowReport report;
+    report.volume_change = 0.5;
+    EXPECT_EQ(Json::parse(report_json({}, report))["volume_change"], 0.5);
+    report.oriented_consistently = false;
+    EXPECT_TRUE(Json::parse(report_json({}, report))["volume_change"].is_null());
+}
+
+TEST(Report, SaysWhetherAllStepsConverged) {
+    FlowReport report;
+    const auto converged = [&] { return Json::parse(report_json({}, report))["converged"]; };
+    EXPECT_EQ(converged(), true);
+    report.steps.resize(2);
+    EXPECT_EQ(converged(), true);
+    report.steps[1].reached_tolerance = false;
+    EXPECT_EQ(converged(), false);
 }
 
 std::string line_on_solving(Solver solver, const std::vector<int>& iterations) {
@@ -120,17 +149,13 @@ TEST(Summary, TellsTheSolversIterations) {
     EXPECT_EQ(line_on_solving(Solver::OneWCycle, {3, 3}), "solved by 3 W-cycles in each step");
 }
 
-TEST(Summary, TellsWhatIsHeldAndInWhichUnitsStepsAre) {
-    CommandLine line;
-    line.parameters.step_size = 0.25;
+TEST(Summary, TellsConstrainedVertices) {
     FlowReport report;
-    EXPECT_EQ(summary(line, report).find("held"), std::string::npos);
-    EXPECT_NE(summary(line, report).find("0 steps of 0.25 in "), std::string::npos);
-    report.held_vertices = 7;
-    line.parameters.absolute = true;
-    EXPECT_NE(summary(line, report).find("\n7 vertices are held\n0 steps of 0.25 squared units"),
+    EXPECT_EQ(summary({}, report).find("constrained"), std::string::npos);
+    report.constrained_vertices = 7;
+    EXPECT_NE(summary({}, report).find("\n7 vertices are constrained: they keep their positions\n"),
               std::string::npos)
-        << summary(line, report);
+        << summary({}, report);
 }
 
 TEST(Report, NamesEveryWayToStop) {
@@ -154,16 +179,16 @@ TEST(Warnings, NameTheWorstStepThatStoppedShort) {
     FlowReport report;
     report.steps.resize(4);
     EXPECT_TRUE(warnings(line, report).empty());
-    report.steps[2].relative_residual = 0.0321;
+    report.steps[2].error_estimate = 0.0321;
     report.steps[2].solver_iterations = 100;
     report.steps[2].reached_tolerance = false;
     EXPECT_EQ(warnings(line, report),
               std::vector<std::string>{
                   "The solver stopped short of the tolerance 0.001 in 1 of 4 steps: step 3, at "
                   "0.032 after 100 iterations. Give a larger --tolerance or a smaller "
-                  "--step-size."});
+                  "--detail-size."});
     report.steps[1] = report.steps[2];
-    report.steps[1].relative_residual = 0.5;
+    report.steps[1].error_estimate = 0.5;
     line.parameters.stabilization = 0;
     EXPECT_EQ(warnings(line, report),
               std::vector<std::string>{
@@ -172,8 +197,27 @@ TEST(Warnings, NameTheWorstStepThatStoppedShort) {
                   "--tolerance."});
 }
 
+TEST(Warnings, NameTheFirstStepThatRemovedMuchOfTheArea) {
+    FlowReport report;
+    report.steps.resize(3);
+    report.steps[0].area = 100;
+    report.steps[1].area = 91;
+    report.steps[2].area = 83;
+    report.area_after = 75;
+    EXPECT_TRUE(warnings({}, report).empty());
+    report.area_after = 62.25;
+    EXPECT_EQ(
+        warnings({}, report),
+        std::vector<std::string>{
+            "Step 3 removed 25 % of the area. If that is more than noise, take a smaller detail "
+            "size, or a greater order to keep the shape."});
+    report.steps[2].area = 45.5;
+    EXPECT_EQ(warnings({}, report).at(0).substr(0, 28), "Step 2 removed 50 % of the a");
+}
+
 TEST(Warnings, SayThatTheFlowStopped) {
     CommandLine line;
+    line.parameters.iterations = 10;
     FlowReport report;
     report.steps.resize(4);
     report.stop = Stop::NothingMoves;
@@ -202,12 +246,21 @@ TEST(Report, OfARunIsConsistent) {
     EXPECT_EQ(report["vertices"], 4) << "the last one has no face";
     EXPECT_EQ(report["triangles"], 4);
     EXPECT_EQ(report["boundary_edges"], 0);
-    EXPECT_EQ(report["locked_unknowns"], 0);
+    EXPECT_EQ(report["constrained_unknowns"], 0);
     EXPECT_EQ(report["depth"], 4);
     EXPECT_EQ(report["samples"], report["split_triangles"]) << "one sample each";
     EXPECT_GE(report["split_triangles"], report["fragments"]);
     EXPECT_GE(report["elements"], report["cells"]);
     EXPECT_GE(report["unknowns"], report["cells"]);
+    EXPECT_EQ(report["parameters"]["detail_size"], 0) << "as given";
+    const double mean_edge = (1 + std::sqrt(2)) / 2;
+    EXPECT_NEAR(report["detail_size"], kDefaultDetailInEdges * mean_edge, 1e-12);
+    EXPECT_NEAR(report["step_size"], step_size_for(report["detail_size"], 3, 1), 1e-12);
+    EXPECT_EQ(report["converged"], true);
+    EXPECT_LT(report["volume_change"], 0);
+    EXPECT_GT(report["volume_change"], -1.0 / 6);
+    EXPECT_GT(report["largest_displacement"], 0.01);
+    EXPECT_LE(report["rms_displacement"], report["largest_displacement"]);
     EXPECT_GT(report["peak_memory_bytes"], 1000000);
     EXPECT_GT(report["estimated_memory_bytes"], 10000);
     EXPECT_LT(report["estimated_memory_bytes"], report["peak_memory_bytes"]);
@@ -216,7 +269,7 @@ TEST(Report, OfARunIsConsistent) {
     for (const Json& step : report["steps"]) {
         EXPECT_LT(step["residual_after"], step["residual_before"]);
         EXPECT_GT(step["solver_iterations"], 0);
-        EXPECT_LE(step["relative_residual"], report["parameters"]["tolerance"]);
+        EXPECT_LE(step["error_estimate"], report["parameters"]["tolerance"]);
         EXPECT_TRUE(step["reached_tolerance"]);
     }
 }

@@ -1,6 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// --selected: which triangles the properties of a PLY file select.
-
-#include "filter_tracked_mcf/tool/face_selection.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,6 +7,7 @@
 #include <sstream>
 
 #include "filter_tracked_mcf/core/errors.h"
+#include "filter_tracked_mcf/tool/mesh_file.h"
 #include "tests/tool/temporary_folder.h"
 
 namespace tracked_mcf {
@@ -27,16 +27,20 @@ const std::string kPyramid =
     "3 3 0 4 0 0 0 0\n";
 
 Selection selected(const std::string& content, const std::string& name) {
-    const auto document = parse_ply(content);
-    return selected_triangles(dynamic_cast<const PlyDocument&>(*document), name, "a.ply");
+    const TemporaryFolder folder;
+    write_file(folder / "a.ply", content);
+    return MeshFile(folder / "a.ply").selection_by(name);
 }
 
+/// The message, with the file's name in place of its path.
 template <class Error>
 std::string complaint(const std::string& content, const std::string& name) {
     try {
         selected(content, name);
     } catch (const Error& error) {
-        return error.what();
+        const std::string message = error.what();
+        const std::size_t path = message.find('/'), name_in_path = message.find("a.ply");
+        return message.substr(0, path) + message.substr(name_in_path);
     }
     return "none";
 }
@@ -45,15 +49,15 @@ TEST(Selection, AFaceIsSelectedByItsNumberAndAPolygonWithAllItsTriangles) {
     EXPECT_EQ(selected(kPyramid, "of_faces"), (Selection{1, 1, 0, 0, 1, 0}));
 }
 
-TEST(Selection, OfTheSameNameThatOfFacesCounts) {
+TEST(Selection, APropertyOfFacesPrecedesOneOfVertices) {
     EXPECT_EQ(selected(kPyramid, "both"), (Selection{0, 0, 1, 0, 0, 0}));
 }
 
-TEST(Selection, VerticesSelectTheFacesThatHaveNoOthers) {
+TEST(Selection, AFaceIsSelectedIfAllItsVerticesAre) {
     EXPECT_EQ(selected(kPyramid, "of_vertices"), (Selection{1, 1, 0, 0, 0, 0}));
 }
 
-TEST(Selection, OfFlagsOnlyTheBitThatMeshLabSelectsWithCounts) {
+TEST(Selection, OnlyTheSelectedBitOfFlagsCounts) {
     EXPECT_EQ(selected(kPyramid, "flags"), (Selection{1, 1, 0, 0, 0, 0}));
     const auto of_flags = [](const std::string& flags) {
         return selected(
@@ -73,7 +77,7 @@ TEST(Selection, OfFlagsOnlyTheBitThatMeshLabSelectsWithCounts) {
     EXPECT_EQ(of_flags("1e300"), 0);
 }
 
-TEST(Selection, WhatThereIsIsListedWhereThePropertyIsNot) {
+TEST(Selection, AMissingPropertyIsAnErrorThatListsTheOthers) {
     const std::string there_are =
         " to select by; its faces have: of_faces, both, zero; its vertices: x, y, z, both, "
         "of_vertices, flags.";
@@ -99,7 +103,7 @@ TEST(Selection, SelectingNothingIsAnError) {
               "--selected out to smooth the whole mesh.");
 }
 
-/// The positions of the smoothed pyramid, as rows of text.
+/// Returns the positions of the smoothed pyramid as rows of text.
 std::vector<std::string> vertex_lines(const TemporaryFolder& folder, const std::string& options) {
     const ProgramRun run = run_program(folder, "a.ply b.off --depth 4 --quiet " + options);
     EXPECT_EQ(run.exit_code, 0) << run.errors;
@@ -109,12 +113,12 @@ std::vector<std::string> vertex_lines(const TemporaryFolder& folder, const std::
     return {lines.begin() + 2, lines.begin() + 7};
 }
 
-TEST(Selection, OnlyWhatIsSelectedMoves) {
+TEST(Selection, OnlySelectedFacesMove) {
     const TemporaryFolder folder;
     write_file(folder / "a.ply", kPyramid);
     const auto all = vertex_lines(folder, "");
-    EXPECT_NE(all[0], "0 0 0 ");
-    EXPECT_NE(all[4], "0.5 0.5 1 ");
+    EXPECT_NE(all[0], "0 0 0");
+    EXPECT_NE(all[4], "0.5 0.5 1");
     // By the sides, so that only the apex is free.
     const auto part_file = kPyramid.substr(0, kPyramid.find("4 3 2 1 0"));
     write_file(folder / "a.ply", part_file +
@@ -123,10 +127,10 @@ TEST(Selection, OnlyWhatIsSelectedMoves) {
                                      "3 3 0 4 1 0 0 0\n");
     const auto part = vertex_lines(folder, "--selected of_faces --report r.json");
     EXPECT_EQ(std::vector(part.begin(), part.begin() + 4),
-              (std::vector<std::string>{"0 0 0 ", "1 0 0 ", "1 1 0 ", "0 1 0 "}));
-    EXPECT_NE(part[4], "0.5 0.5 1 ");
+              (std::vector<std::string>{"0 0 0", "1 0 0", "1 1 0", "0 1 0"}));
+    EXPECT_NE(part[4], "0.5 0.5 1");
     EXPECT_THAT(read_file(folder / "r.json"), HasSubstr("\"selected\": \"of_faces\""));
-    EXPECT_THAT(read_file(folder / "r.json"), HasSubstr("\"held_vertices\": 4,"));
+    EXPECT_THAT(read_file(folder / "r.json"), HasSubstr("\"constrained_vertices\": 4,"));
 }
 
 TEST(Selection, ErrorsOfTheProgramAreOneLineAndLeaveNoOutput) {
@@ -143,7 +147,8 @@ TEST(Selection, ErrorsOfTheProgramAreOneLineAndLeaveNoOutput) {
     fails("--selected q a.ply", 2, "a.ply has no number 'q' to select by; its faces have: ");
     fails("--selected zero a.ply", 1, "No face of a.ply is selected by 'zero'");
     fails("--selected q a.off", 2, "--selected needs a PLY file");
-    fails("--selected of_faces --rescale area a.ply", 2, "rescale would move what is held");
+    fails("--selected of_faces --preserve area a.ply", 2,
+          "Preserving the area would move vertices that must stay");
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-/// STL: floats and triangles, each with its own vertices.
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// STL: triangles with three vertices of their own each, in floats.
 
 #include <gtest/gtest.h>
 
@@ -14,7 +15,8 @@ std::string triangle_bytes(float nx, float ny, float nz, float width, std::uint1
 
 TEST(Stl, TrianglesColoursAndOrderAreKept) {
     const TemporaryFolder folder;
-    const std::string header = std::string(80, ' ') + packed(2u);
+    const std::string name = "some scanner" + std::string(68, ' ');
+    const std::string header = name + packed(2u);
     // Red and blue in five bits each; the first bit says that there is a colour.
     const std::uint16_t red = 0x8000 | 31, blue = 0x8000 | (31 << 10);
     write_file(folder / "in.stl",
@@ -24,8 +26,8 @@ TEST(Stl, TrianglesColoursAndOrderAreKept) {
     ASSERT_EQ(mesh.triangles, (std::vector<Triangle>{{0, 1, 2}, {3, 4, 5}}));
     for (auto& p : mesh.positions) p.x() *= 2;
     file.write(mesh, folder / "out.stl", folder.path());
-    EXPECT_EQ(read_file(folder / "out.stl").substr(80),
-              packed(2u) + triangle_bytes(0, 0, 1, 2, red) + triangle_bytes(0, 0, 1, 8, blue));
+    EXPECT_EQ(read_file(folder / "out.stl"),
+              header + triangle_bytes(0, 0, 1, 2, red) + triangle_bytes(0, 0, 1, 8, blue));
 }
 
 TEST(Stl, AsciiIsReadAndBecomesBinary) {
@@ -37,6 +39,26 @@ TEST(Stl, AsciiIsReadAndBecomesBinary) {
     file.write(file.triangle_mesh(), folder / "out.stl", folder.path());
     EXPECT_EQ(read_file(folder / "out.stl").substr(80),
               packed(1u) + triangle_bytes(0, 0, 1, 1.5, 0));
+}
+
+TEST(Stl, SolidsWithNamesAndBlankLinesAreRead) {
+    const std::string facet =
+        "  facet normal 0 0 1\r\n    outer loop\r\n vertex 0 0 0\r\n  \r\n vertex 1 0 0\r\n"
+        " vertex 0 1e-1 0\r\n    endloop\r\n  endfacet\r\n";
+    const TemporaryFolder folder;
+    write_file(folder / "in.stl", "solid\r\n" + facet +
+                                      "endsolid\r\nsolid second vertex of two\r\n" + facet +
+                                      "endsolid second vertex of two");
+    const TriangleMesh mesh = MeshFile(folder / "in.stl").triangle_mesh();
+    EXPECT_EQ(mesh.triangles, (std::vector<Triangle>{{0, 1, 2}, {3, 4, 5}}));
+    EXPECT_EQ(mesh.positions[5], Eigen::Vector3d(0, double{0.1f}, 0)) << "floats";
+}
+
+TEST(Stl, BinaryFilesMayBeginWithSolid) {
+    const TemporaryFolder folder;
+    write_file(folder / "in.stl",
+               "solid" + std::string(75, ' ') + packed(1u) + triangle_bytes(0, 0, 1, 1, 0));
+    EXPECT_EQ(MeshFile(folder / "in.stl").triangle_mesh().triangles.size(), 1u);
 }
 
 }  // namespace

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/tool/temporary_folder.h"
 
 #include <stdlib.h>
@@ -44,6 +45,7 @@ ProgramRun run_program(const TemporaryFolder& folder, const std::string& argumen
     const std::string command =
         "cd " + folder.path().string() + " && (" + before + " " TRACKED_MCF_PROGRAM " " +
         arguments + ") >" + (streams / "output").string() + " 2>" + (streams / "errors").string();
+    // NOLINTNEXTLINE(bugprone-command-processor): tests redirect streams and set limits in a shell
     const int status = std::system(command.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_file(streams / "output"),
             read_file(streams / "errors")};

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include <filesystem>
@@ -5,13 +6,13 @@
 
 namespace tracked_mcf {
 
-/// A folder for one test's files, removed with all of them in the end.
+/// A folder for the files of one test. The destructor removes it with all files.
 class TemporaryFolder {
 public:
     TemporaryFolder();
     ~TemporaryFolder();
 
-    /// The path of the file `name` in it.
+    /// Returns the path of the file `name` in the folder.
     std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
 
     const std::filesystem::path& path() const { return path_; }
@@ -23,18 +24,18 @@ private:
 std::string read_file(const std::filesystem::path& path);
 void write_file(const std::filesystem::path& path, const std::string& content);
 
-/// What a run of the program tracked_mcf left behind.
+/// The results of a run of the program tracked_mcf.
 struct ProgramRun {
     int exit_code;
     std::string output, errors;
 };
 
-/// Runs it with `arguments`, as a shell would split them, in `folder`; after the shell's commands
-/// `before`, such as "ulimit -f 1;", or with variables set, such as "LC_ALL=de_DE.UTF-8".
+/// Runs the program in `folder` with `arguments`, which a shell splits. `before` is put before the
+/// call: commands such as "ulimit -f 1;" or variables such as "LC_ALL=de_DE.UTF-8".
 ProgramRun run_program(const TemporaryFolder& folder, const std::string& arguments,
                        const std::string& before = "");
 
-/// The bytes of a number in this machine's order.
+/// Returns the bytes of a number in this machine's order.
 template <class Number>
 std::string bytes_of(Number number) {
     return {reinterpret_cast<const char*>(&number), sizeof number};

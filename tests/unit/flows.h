@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include <algorithm>
@@ -23,7 +24,7 @@ inline TriangleMesh evolved(TriangleMesh mesh, const FlowParameters& p) {
     return mesh;
 }
 
-/// Largest distance between vertices of the same index.
+/// Returns the largest distance between vertices of the same index.
 inline double distance(const TriangleMesh& a, const TriangleMesh& b) {
     double largest = 0;
     for (std::size_t i = 0; i < a.positions.size(); ++i) {
@@ -32,15 +33,15 @@ inline double distance(const TriangleMesh& a, const TriangleMesh& b) {
     return largest;
 }
 
-/// Stricter than ==: tells -0 from 0, and NaN is itself.
+/// Compares bits: unlike ==, it distinguishes -0 from 0, and a NaN equals itself.
 inline bool same_bits(const TriangleMesh& a, const TriangleMesh& b) {
     if (a.positions.size() != b.positions.size()) return false;
-    if (a.positions.empty()) return true;  // memcmp must not be given the null pointers they have
+    if (a.positions.empty()) return true;  // memcmp must not get null pointers
     const std::size_t bytes = a.positions.size() * sizeof(Eigen::Vector3d);
     return std::memcmp(a.positions.data(), b.positions.data(), bytes) == 0;
 }
 
-/// The same for numbers, none of which is a NaN.
+/// Compares points without NaN in the same way.
 inline bool same_bits(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
     for (int axis = 0; axis < 3; ++axis) {
         if (a[axis] != b[axis] || std::signbit(a[axis]) != std::signbit(b[axis])) return false;
@@ -54,7 +55,7 @@ inline TriangleMesh turned(const TriangleMesh& mesh, double angle, const Eigen::
 
 inline const double kQuarterTurn = 0.5 * std::acos(-1.0);
 
-/// Adds numbers between -size and size to all coordinates.
+/// Adds random numbers between -size and size to all coordinates.
 inline TriangleMesh noisy(TriangleMesh mesh, double size) {
     std::mt19937 random(5);
     std::uniform_real_distribution<double> noise(-size, size);
@@ -64,7 +65,7 @@ inline TriangleMesh noisy(TriangleMesh mesh, double size) {
     return mesh;
 }
 
-/// The triangles whose first corner is higher than `height`.
+/// Selects the triangles whose first corner is higher than `height`.
 inline Selection above(const TriangleMesh& mesh, double height) {
     Selection selection;
     for (const Triangle& t : mesh.triangles) {
@@ -73,7 +74,7 @@ inline Selection above(const TriangleMesh& mesh, double height) {
     return selection;
 }
 
-/// All vertices of a mesh, and its selected triangles.
+/// Returns all vertices of a mesh, and its selected triangles.
 inline TriangleMesh part_of(const TriangleMesh& mesh, const Selection& selection) {
     TriangleMesh part{mesh.positions, {}};
     for (std::size_t i = 0; i < selection.size(); ++i) {
@@ -82,7 +83,7 @@ inline TriangleMesh part_of(const TriangleMesh& mesh, const Selection& selection
     return part;
 }
 
-/// An open mesh with a rim that has corners, and no symmetry.
+/// An open mesh without symmetry. Its boundary has corners.
 inline TriangleMesh bumpy_cap(int frequency, double height = 0.1) {
     const TriangleMesh sphere = shapes::bumpy_sphere(frequency);
     return part_of(sphere, above(sphere, height));

@@ -1,30 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include <Eigen/Core>
 #include <vector>
 
-#include "filter_tracked_mcf/core/element_matrices.h"
-#include "filter_tracked_mcf/core/element_multigrid.h"
-#include "filter_tracked_mcf/core/locked_cells.h"
-#include "filter_tracked_mcf/core/multigrid.h"
-#include "filter_tracked_mcf/core/stabilization.h"
-#include "filter_tracked_mcf/core/tracked_elements.h"
+#include "filter_tracked_mcf/core/solver/element_multigrid.h"
+#include "filter_tracked_mcf/core/solver/paper/multigrid.h"
+#include "filter_tracked_mcf/core/system/constrained_cells.h"
+#include "filter_tracked_mcf/core/system/element_matrices.h"
+#include "filter_tracked_mcf/core/system/stabilization.h"
+#include "tests/support/elements.h"
+#include "tests/support/shapes.h"
 
 namespace tracked_mcf {
 
-/// How a System is set up.
+/// Options of a System.
 struct SystemOptions {
-    bool lock = false;         ///< the cells of the boundary
+    bool lock = false;         ///< constrain the cells of the boundary
     double stabilization = 0;  ///< weight
-    CycleParameters cycle = {};
 };
 
-/// What a flow's first step is made of on some mesh.
+/// The system of a flow's first step on a mesh.
 struct FirstStep {
     FirstStep(const TriangleMesh& mesh, int depth, float step, const SystemOptions& options)
         : elements(
               build_tracked_elements(mesh, enclosing_grid(mesh, depth), Cubature::ThreePoints)),
-          frozen(options.lock ? unknowns_meeting_held_edges(elements) : no_unknowns(elements)) {
+          constrained(constrained_unknowns(
+              elements, options.lock ? BoundaryCondition::LockedCells : BoundaryCondition::Free)) {
         assemble_elements(elements, Coefficients::Zero(elements.finest().unknown_count(), 3),
                           {1, step}, systems);
         Stabilization(elements).add(options.stabilization, step, systems.matrices);
@@ -32,14 +34,14 @@ struct FirstStep {
     Field zero() const { return Field::Zero(4, elements.finest().unknown_count()); }
 
     TrackedElements elements;
-    std::vector<std::vector<std::uint8_t>> frozen;
+    std::vector<std::vector<std::uint8_t>> constrained;
     ElementSystems systems;
 };
 
-/// A flow's system on some mesh, at the first step, and the paper's solver for it.
+/// The system of the first step with the paper's solver.
 struct System : FirstStep {
     System(const TriangleMesh& mesh, int depth, float step, const SystemOptions& options = {})
-        : FirstStep(mesh, depth, step, options), multigrid(elements, frozen, options.cycle) {
+        : FirstStep(mesh, depth, step, options), multigrid(elements, constrained) {
         multigrid.refresh(systems.matrices);
         multigrid.finest().assemble(systems.right_sides, right_side);
     }
@@ -53,11 +55,11 @@ struct System : FirstStep {
     Field right_side;
 };
 
-/// The same with the multigrid that preconditions conjugate gradients.
+/// The system of the first step with the multigrid that preconditions conjugate gradients.
 struct ElementSystem : FirstStep {
     ElementSystem(const TriangleMesh& mesh, int depth, float step,
                   const SystemOptions& options = {})
-        : FirstStep(mesh, depth, step, options), multigrid(elements, frozen) {
+        : FirstStep(mesh, depth, step, options), multigrid(elements, constrained) {
         multigrid.refresh(systems.matrices, step);
         multigrid.assemble(systems.right_sides, right_side);
     }
@@ -72,8 +74,8 @@ inline Field random_field(const FirstStep& step) {
     return random;
 }
 
-/// A times a random field. Something random itself would be all but noise on the nearly dependent
-/// functions, beside which the rest of an operator hardly shows.
+/// Returns A times a random field. A random right-hand side would mostly excite nearly dependent
+/// functions, which would hide all other errors of an operator.
 inline Field random_right_side(const ElementSystem& system) {
     Field right_side;
     system.multigrid.multiply(random_field(system), right_side);
@@ -86,7 +88,7 @@ inline Dense dense(const SparseMatrix& matrix) {
     return Eigen::MatrixXf(matrix).cast<double>();
 }
 
-/// The sum of a level's element matrices.
+/// Returns the sum of a level's element matrices.
 inline Dense assembled(const Level& level, const MatrixBlocks& matrices) {
     Dense sum = Dense::Zero(level.unknown_count(), level.unknown_count());
     for (std::int32_t element = 0; element < level.element_count(); ++element) {
@@ -100,9 +102,21 @@ inline Dense assembled(const Level& level, const MatrixBlocks& matrices) {
     return sum;
 }
 
-/// Of the finest level.
+/// Returns the finest level's matrix.
 inline Dense assembled(const FirstStep& step) {
     return assembled(step.elements.finest(), step.systems.matrices);
+}
+
+/// Returns a field as one row per unknown.
+inline Dense as_dense(const Field& field) {
+    return field.cast<double>().transpose();
+}
+
+/// Two nearby sheets, so that several unknowns are at one corner.
+inline TriangleMesh two_shells() {
+    const TriangleMesh sphere = shapes::bumpy_sphere(20);
+    return shapes::merged(sphere,
+                          shapes::transformed(sphere, Eigen::Affine3d(Eigen::Scaling(0.97))));
 }
 
 }  // namespace tracked_mcf

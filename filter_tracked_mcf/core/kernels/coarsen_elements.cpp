@@ -1,11 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "filter_tracked_mcf/core/kernels/coarsen_elements.h"
 
-#include "filter_tracked_mcf/core/kernels/kernel_table.h"
-#include "filter_tracked_mcf/core/kernels/whole_matrices.h"
+#include "filter_tracked_mcf/core/kernels/lanes.h"
 
 namespace tracked_mcf::TRACKED_MCF_KERNELS {
 
 namespace {
+
+/// The matrices of a block, each with all 64 entries.
+struct WholeMatrices {
+    ElementMatrix of[kBlockElements];
+};
+
+TRACKED_MCF_INLINE void unpack(const MatrixBlock& block, WholeMatrices& matrices) {
+    for (int first = 0; first < kBlockElements; first += kLanes) {
+#pragma GCC unroll 16
+        for (int begin = 0; begin < 64; begin += kLanes) {
+            Lanes rows[kLanes];
+#pragma GCC unroll 16
+            for (int i = 0; i < kLanes; ++i) {
+                const int entry = kEntryIndices.of[(begin + i) / 8][(begin + i) % 8];
+                rows[i] = load(block.entry[entry] + first);
+            }
+            transpose(rows);
+            for (int i = 0; i < kLanes; ++i) {
+                store(rows[i], &matrices.of[first + i].entry[begin / 8][begin % 8]);
+            }
+        }
+    }
+}
+
+TRACKED_MCF_INLINE void pack(const WholeMatrices& matrices, MatrixBlock& block) {
+    for (int first = 0; first < kBlockElements; first += kLanes) {
+#pragma GCC unroll 16
+        for (int begin = 0; begin < 64; begin += kLanes) {
+            Lanes rows[kLanes];
+            for (int i = 0; i < kLanes; ++i) {
+                rows[i] = load(&matrices.of[first + i].entry[begin / 8][begin % 8]);
+            }
+            transpose(rows);
+#pragma GCC unroll 16
+            for (int i = 0; i < kLanes; ++i) {
+                const int row = (begin + i) / 8;
+                const int column = (begin + i) % 8;
+                if (column < row) continue;
+                store(rows[i], block.entry[kEntryIndices.of[row][column]] + first);
+            }
+        }
+    }
+}
 
 using Row = float __attribute__((vector_size(32)));
 
@@ -13,10 +56,11 @@ struct Rows {
     Row row[8];
 };
 
+/// For each axis, 1 for the corners on its upper side.
 constexpr Row kUpper[3] = {
     {0, 1, 0, 1, 0, 1, 0, 1}, {0, 0, 1, 1, 0, 0, 1, 1}, {0, 0, 0, 0, 1, 1, 1, 1}};
 
-/// Every entry's neighbour at the other end of its edge along an axis.
+/// Returns v with the entries of the two corners of each cell edge along the axis exchanged.
 template <int Axis>
 TRACKED_MCF_INLINE Row other_end(Row v) {
     if (Axis == 0) return __builtin_shufflevector(v, v, 1, 0, 3, 2, 5, 4, 7, 6);
@@ -24,9 +68,10 @@ TRACKED_MCF_INLINE Row other_end(Row v) {
     return __builtin_shufflevector(v, v, 4, 5, 6, 7, 0, 1, 2, 3);
 }
 
-/// Restricts both ends of one axis: P_c is a product of one such step for each axis. On the side of
-/// the parent that the child lies on, its outer function keeps its weight; the function in the
-/// parent's middle is half of each of the parent's two.
+/// Multiplies by the factor of P_c that belongs to one axis, from both sides. Along the axis, the
+/// child has an outer function, at the parent's corner, and one in the parent's middle. The outer
+/// one belongs to the parent's function at that corner; the middle one belongs half to each of the
+/// parent's two functions.
 template <int Axis>
 TRACKED_MCF_INLINE void coarsen_axis(Rows& m, bool upper_child) {
     constexpr int step = 1 << Axis;
@@ -45,7 +90,7 @@ TRACKED_MCF_INLINE void coarsen_axis(Rows& m, bool upper_child) {
     }
 }
 
-/// The block that was read last, unpacked.
+/// Reads matrices and keeps the block it read last unpacked.
 struct Reader {
     const MatrixBlock* blocks;
     std::int32_t block;

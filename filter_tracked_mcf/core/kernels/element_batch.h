@@ -1,19 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include "filter_tracked_mcf/core/kernels/moments.h"
 
-// For integrate_elements.cpp alone, see lanes.h.
+// Only integrate_elements.cpp includes this, see lanes.h.
 
 namespace tracked_mcf::TRACKED_MCF_KERNELS {
 
 constexpr int kCoefficients = 7;
 
-/// As many elements as there are lanes.
+/// One element for each lane.
 struct ElementBatch {
     alignas(64) float moments[kLanes][kMomentRows];
     /// The embedding's coordinates at the cell's corners, relative to corner 0.
     alignas(64) float corners[3][8][kLanes];
-    /// Of each of them as a polynomial, the coefficients of a Trilinear.
+    /// The embedding's coordinates as polynomials: the coefficients of a Trilinear.
     alignas(64) float polynomials[3][kCoefficients][kLanes];
 };
 
@@ -21,7 +22,7 @@ constexpr int bit(int corner, int axis) {
     return (corner >> axis) & 1;
 }
 
-/// One element's corners. Differences are taken in double precision.
+/// Sets one element's corners. Differences are taken in double precision.
 TRACKED_MCF_INLINE void read_corners(const IntegrationInput& input, std::int64_t element, int lane,
                                      ElementBatch& batch) {
     const std::int32_t* const unknowns = input.unknowns + 8 * element;
@@ -37,7 +38,7 @@ TRACKED_MCF_INLINE void read_corners(const IntegrationInput& input, std::int64_t
     }
 }
 
-/// The embedding's coordinates in all elements.
+/// Computes the polynomials of all elements from their corners.
 TRACKED_MCF_INLINE void find_polynomials(ElementBatch& batch) {
     for (int axis = 0; axis < 3; ++axis) {
         Lanes c[8];
@@ -66,13 +67,13 @@ TRACKED_MCF_INLINE Embedding embedding_of(const ElementBatch& batch, int lane) {
             trilinear(batch.polynomials[2], lane)};
 }
 
-/// Adds s * x, s being the product of two functions' slopes: both 1 or -1.
-TRACKED_MCF_INLINE void add_signed(Lanes& sum, bool same, const Lanes& x) {
-    sum = same ? sum + x : sum - x;
+/// Adds x or subtracts it. The sign is a product of slopes, which are 1 or -1.
+TRACKED_MCF_INLINE void add_signed(Lanes& sum, bool positive, const Lanes& x) {
+    sum = positive ? sum + x : sum - x;
 }
 
-/// ∫ ∇B_I · G ∇B_J. Each entry sums the moments whose linear functions are those that its two
-/// functions keep: ∂x of one leaves its linear functions of y and z.
+/// Returns ∫ ∇B_I · G ∇B_J, a sum of moments. ∂B_I/∂x is a slope times the linear functions of y
+/// and z in B_I; these linear functions choose the moment.
 TRACKED_MCF_INLINE Lanes stiffness_entry(const Lanes (&moments)[kMomentRows], int row, int column) {
     const int xi = bit(row, 0), yi = bit(row, 1), zi = bit(row, 2);
     const int xj = bit(column, 0), yj = bit(column, 1), zj = bit(column, 2);
@@ -94,17 +95,17 @@ TRACKED_MCF_INLINE Lanes mass_entry(const Lanes (&moments)[kMomentRows], int row
                    bit(row, 2) + bit(column, 2)];
 }
 
-/// ∫ ∇B_I · G ∇X_t for one coordinate of X_t.
-TRACKED_MCF_INLINE Lanes pull_on(const Lanes (&moments)[kMomentRows], int axis, int row) {
+/// Returns ∫ ∇B_I · G ∇X_t for one coordinate of X_t.
+TRACKED_MCF_INLINE Lanes flux_entry(const Lanes (&moments)[kMomentRows], int axis, int row) {
     const int x = bit(row, 0), y = bit(row, 1), z = bit(row, 2);
     Lanes sum = {};
-    add_signed(sum, x == 1, moments[kPullX + 4 * axis + 2 * y + z]);
-    add_signed(sum, y == 1, moments[kPullY + 4 * axis + 2 * z + x]);
-    add_signed(sum, z == 1, moments[kPullZ + 4 * axis + 2 * x + y]);
+    add_signed(sum, x == 1, moments[kFluxX + 4 * axis + 2 * y + z]);
+    add_signed(sum, y == 1, moments[kFluxY + 4 * axis + 2 * z + x]);
+    add_signed(sum, z == 1, moments[kFluxZ + 4 * axis + 2 * x + y]);
     return sum;
 }
 
-/// ∫ 1, which is the sum of all products of two functions.
+/// Returns the area, as the sum of ∫ B_I B_J over all I and J: the functions B sum to 1.
 TRACKED_MCF_INLINE Lanes area_of(const Lanes (&moments)[kMomentRows]) {
     Lanes area = {};
     for (int i = 0; i < 3; ++i) {
@@ -117,7 +118,7 @@ TRACKED_MCF_INLINE Lanes area_of(const Lanes (&moments)[kMomentRows]) {
     return area;
 }
 
-/// The matrices of as many elements as there are lanes, the first of them in this lane of a block.
+/// Writes the matrices of the batch into a block, from this lane of the block on.
 TRACKED_MCF_INLINE void write_matrices(const IntegrationInput& input,
                                        const Lanes (&moments)[kMomentRows], MatrixBlock& block,
                                        std::int64_t lane) {
@@ -126,30 +127,46 @@ TRACKED_MCF_INLINE void write_matrices(const IntegrationInput& input,
     for (int row = 0; row < 8; ++row) {
 #pragma GCC unroll 8
         for (int column = row; column < 8; ++column, entry += kBlockElements) {
-            const Lanes stiffness = input.stiffness * stiffness_entry(moments, row, column);
+            const Lanes stiffness =
+                input.step_size_in_cells * stiffness_entry(moments, row, column);
             store(stiffness + input.mass * mass_entry(moments, row, column), entry);
         }
     }
 }
 
-/// Everything else that is written of an element: right side, area.
+/// Writes the weighted stiffnesses of the batch, as write_matrices() does.
+TRACKED_MCF_INLINE void write_stiffnesses(const IntegrationInput& input,
+                                          const Lanes (&moments)[kMomentRows], MatrixBlock& block,
+                                          std::int64_t lane) {
+    float* entry = block.entry[0] + lane;
+#pragma GCC unroll 8
+    for (int row = 0; row < 8; ++row) {
+#pragma GCC unroll 8
+        for (int column = row; column < 8; ++column, entry += kBlockElements) {
+            store(input.step_size_in_cells * stiffness_entry(moments, row, column), entry);
+        }
+    }
+}
+
+/// Offsets of the other results of an element.
 constexpr int kRightSide = 0;
 constexpr int kArea = 24;
-constexpr int kResults = 32;  ///< rounded up to whole variables
+constexpr int kResults = 32;  ///< rounded up to a multiple of kLanes
 
 TRACKED_MCF_INLINE void find_results(const IntegrationInput& input,
                                      const Lanes (&moments)[kMomentRows],
                                      Lanes (&results)[kResults]) {
     for (int axis = 0; axis < 3; ++axis) {
         for (int row = 0; row < 8; ++row) {
-            results[kRightSide + 8 * axis + row] = -input.stiffness * pull_on(moments, axis, row);
+            results[kRightSide + 8 * axis + row] =
+                -input.step_size_in_cells * flux_entry(moments, axis, row);
         }
     }
     results[kArea] = area_of(moments);
     for (int i = kArea + 1; i < kResults; ++i) results[i] = Lanes{};
 }
 
-/// From an element's moments in each lane, or a row each, to the other.
+/// Transposes the moments: from one row for each element to one lane for each element.
 TRACKED_MCF_INLINE void transpose_moments(const ElementBatch& batch,
                                           Lanes (&moments)[kMomentRows]) {
     for (int m = 0; m < kMomentRows; m += kLanes) {
@@ -164,20 +181,25 @@ TRACKED_MCF_INLINE void write_systems(const IntegrationInput& input, std::int64_
                                       const ElementBatch& batch, const IntegrationOutput& output) {
     Lanes moments[kMomentRows];
     transpose_moments(batch, moments);
-    write_matrices(input, moments, output.matrices[begin / kBlockElements], begin % kBlockElements);
+    const std::int64_t block = begin / kBlockElements;
+    const std::int64_t lane = begin % kBlockElements;
+    write_matrices(input, moments, output.matrices[block], lane);
+    if (output.stiffnesses != nullptr) {
+        write_stiffnesses(input, moments, output.stiffnesses[block], lane);
+    }
     Lanes results[kResults];
     find_results(input, moments, results);
     alignas(64) float rows[kLanes][kResults];
     for (int r = 0; r < kResults; r += kLanes) {
-        Lanes block[kLanes];
-        for (int i = 0; i < kLanes; ++i) block[i] = results[r + i];
-        transpose(block);
-        for (int lane = 0; lane < kLanes; ++lane) store(block[lane], rows[lane] + r);
+        Lanes square[kLanes];
+        for (int i = 0; i < kLanes; ++i) square[i] = results[r + i];
+        transpose(square);
+        for (int i = 0; i < kLanes; ++i) store(square[i], rows[i] + r);
     }
-    for (int lane = 0; lane < count; ++lane) {
-        __builtin_memcpy(output.right_sides + begin + lane, rows[lane] + kRightSide,
+    for (int i = 0; i < count; ++i) {
+        __builtin_memcpy(output.right_sides + begin + i, rows[i] + kRightSide,
                          sizeof(ElementVector));
-        output.areas[begin + lane] = rows[lane][kArea];
+        output.areas[begin + i] = rows[i][kArea];
     }
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #ifdef __AVX__
@@ -7,20 +8,20 @@
 #include "filter_tracked_mcf/core/kernels/element_products.h"
 #include "filter_tracked_mcf/core/kernels/lanes.h"
 
-// For element_products.cpp alone, see lanes.h.
+// Only element_products.cpp includes this, see lanes.h.
 
 namespace tracked_mcf::TRACKED_MCF_KERNELS {
 
-/// What a field has for one unknown: x, y, z, and a zero.
+/// The column of a Field for one unknown: x, y, z and a zero.
 using Column = float __attribute__((vector_size(16)));
 
-/// One coordinate each, of one corner of as many elements as there are lanes.
+/// The coordinates at one corner, one variable per coordinate and one lane per element.
 struct Coordinates {
     Lanes of_axis[3];
 };
 
-/// Columns of as many elements: in the k-th of four variables those of every fourth element from
-/// the k-th on.
+/// The columns at one corner, for one element per lane. Variable k has the columns of the elements
+/// k, k + 4, k + 8 and k + 12.
 struct Columns {
     Lanes of_remainder[4];
 };
@@ -37,13 +38,13 @@ TRACKED_MCF_INLINE void add_to(float* to, const Column& column) {
 }
 
 #if defined(__AVX512F__)
-/// All lanes. The instructions that take a mask are used for all, for GCC 12 takes what the headers
-/// of the others leave undefined for a mistake.
+/// Masks that select all lanes. GCC 12 warns of undefined values in the headers of the instructions
+/// without a mask.
 constexpr __mmask16 kAll = 0xFFFF;
 constexpr __mmask8 kAllOfColumn = 0xF;
 #endif
 
-/// The columns of every fourth element from the k-th on.
+/// Returns the columns of the elements k, k + 4, k + 8, … side by side in one vector.
 template <class ColumnOf>
 TRACKED_MCF_INLINE Lanes side_by_side(int k, const ColumnOf& column) {
 #if defined(__AVX512F__)
@@ -58,7 +59,7 @@ TRACKED_MCF_INLINE Lanes side_by_side(int k, const ColumnOf& column) {
 #endif
 }
 
-/// The columns in x of one corner of the elements whose unknowns these are.
+/// Reads from x the columns at one corner. unknowns[8 * lane] is the unknown of each element.
 TRACKED_MCF_INLINE Columns read_columns(const float* x, const std::int32_t* unknowns) {
     const auto column = [&](int lane) {
         return load_column(x + std::int64_t{4} * unknowns[8 * lane]);
@@ -67,7 +68,7 @@ TRACKED_MCF_INLINE Columns read_columns(const float* x, const std::int32_t* unkn
              side_by_side(3, column)}};
 }
 
-/// The column of one of the elements.
+/// Returns the column of one element.
 template <int kLane>
 TRACKED_MCF_INLINE Column column_of(const Columns& columns) {
     const Lanes& lanes = columns.of_remainder[kLane % 4];
@@ -80,14 +81,14 @@ TRACKED_MCF_INLINE Column column_of(const Columns& columns) {
 #endif
 }
 
-/// Of four lanes at a time: the first of a, of b, the second of a, of b. Two further on, the
-/// others.
+/// In each group of four lanes: a0 b0 a1 b1. Plus 2: a2 b2 a3 b3.
 constexpr LaneIndices kPairsInFours =
     (kLaneIndex & ~3) + (kLaneIndex & 2) / 2 + (kLaneIndex & 1) * kLanes;
-/// Of four lanes at a time: the first two of a and of b. Two further on, the last two.
+/// In each group of four lanes: a0 a1 b0 b1. Plus 2: a2 a3 b2 b3.
 constexpr LaneIndices kHalvesInFours =
     (kLaneIndex & ~3) + (kLaneIndex & 1) + (kLaneIndex & 2) / 2 * kLanes;
 
+/// Transposes columns to coordinates.
 TRACKED_MCF_INLINE Coordinates coordinates(const Columns& columns) {
     const Lanes(&c)[4] = columns.of_remainder;
     const Lanes xy_low = pick(c[0], c[1], kPairsInFours);
@@ -98,6 +99,7 @@ TRACKED_MCF_INLINE Coordinates coordinates(const Columns& columns) {
              pick(z_low, z_high, kHalvesInFours)}};
 }
 
+/// Transposes coordinates to columns.
 TRACKED_MCF_INLINE Columns columns_of(const Lanes& x, const Lanes& y, const Lanes& z) {
     const Lanes zero = {};
     const Lanes xy_low = pick(x, y, kPairsInFours);

@@ -1,41 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "filter_tracked_mcf/core/kernels/element_products.h"
 
 #include "filter_tracked_mcf/core/kernels/element_columns.h"
-#include "filter_tracked_mcf/core/kernels/kernel_table.h"
 
 namespace tracked_mcf::TRACKED_MCF_KERNELS {
 
 namespace {
 
-/// What all elements of a block have at their corners.
+/// [axis][corner]: one coordinate at one corner, for as many elements as there are lanes.
 using CornerLanes = Lanes[3][8];
 
 /// A block of a range's elements.
 struct Block {
     const MatrixBlock* matrices;
-    const MatrixBlock* later;      ///< matrices that are worked on soon
-    const std::int32_t* unknowns;  ///< eight of each of kBlockElements
-    const std::int32_t* targets;   ///< likewise
-    int count;                     ///< of elements, the rest of a last block being none
-    bool detours;                  ///< some targets may be slots
+    const MatrixBlock* later;      ///< the matrices to prefetch
+    const std::int32_t* unknowns;  ///< eight for each of kBlockElements elements
+    const std::int32_t* targets;   ///< eight for each of `count` elements
+    int count;                     ///< number of elements, less than kBlockElements in a last block
+    bool direct;                   ///< the targets are the unknowns
 };
 
-/// What is read for elements beyond the end, which have matrices of zero: any unknowns.
+/// The unknowns of an incomplete last block, padded: any unknown will do where the matrix is zero.
 using Padding = std::int32_t[8 * kBlockElements];
 
 TRACKED_MCF_INLINE Block block_at(const ElementRange& range, const MatrixBlock* matrices,
                                   std::int32_t first, Padding& padding) {
     const std::int32_t left = range.end - first;
-    const std::int64_t detour = range.detours[first / kBlockElements];
-    const bool detours = detour != ElementRange::kStraight;
+    const std::int64_t offset = range.target_offsets[first / kBlockElements];
+    const bool direct = offset == ElementRange::kDirect;
     const std::int32_t* const unknowns = range.unknowns + std::int64_t{8} * first;
     const MatrixBlock* const here = matrices + first / kBlockElements;
     Block block = {here,
                    left > 2 * kBlockElements ? here + 2 : here,
                    unknowns,
-                   detours ? range.targets + detour : unknowns,
+                   direct ? unknowns : range.targets + offset,
                    left < kBlockElements ? left : kBlockElements,
-                   detours};
+                   direct};
     if (left < kBlockElements) {
         for (int i = 0; i < 8 * kBlockElements; ++i) {
             padding[i] = unknowns[i < 8 * left ? i : 0];
@@ -45,8 +45,8 @@ TRACKED_MCF_INLINE Block block_at(const ElementRange& range, const MatrixBlock* 
     return block;
 }
 
-/// Asks for a part of a block that is worked on later: what is done with one takes longer than
-/// processors look ahead by themselves.
+/// Prefetches a part of a block. The work on one block takes longer than the distance at which
+/// processors prefetch on their own.
 TRACKED_MCF_INLINE void prefetch(const MatrixBlock& block, int part, int parts) {
     for (int entry = part; entry < kMatrixEntries; entry += parts) {
         __builtin_prefetch(block.entry[entry]);
@@ -64,7 +64,7 @@ TRACKED_MCF_INLINE void read_corners(const float* x, const Block& block, int lan
     }
 }
 
-/// products = factor * M x, of the elements whose lanes begin at these entries.
+/// Computes products = factor * M x for the elements whose matrices begin at `entries`.
 TRACKED_MCF_INLINE void multiply(const float* entries, float factor, const CornerLanes& x,
                                  CornerLanes& products) {
 #pragma GCC unroll 3
@@ -86,14 +86,14 @@ TRACKED_MCF_INLINE void multiply(const float* entries, float factor, const Corne
     }
 }
 
-/// Calls visit(lane, its column) for all lanes.
+/// Calls visit(lane, column) for the column of each lane.
 template <int kLane = 0, class Visit>
 TRACKED_MCF_INLINE void for_each_column(const Columns& columns, const Visit& visit) {
     visit(kLane, column_of<kLane>(columns));
     if constexpr (kLane + 1 < kLanes) for_each_column<kLane + 1>(columns, visit);
 }
 
-/// Adds what `count` elements contribute to their targets, given where to: at(target).
+/// Adds the products of `count` elements to the addresses at(target) of their targets.
 template <class At>
 TRACKED_MCF_INLINE void add(const std::int32_t* targets, int count, const CornerLanes& products,
                             const At& at) {
@@ -106,19 +106,16 @@ TRACKED_MCF_INLINE void add(const std::int32_t* targets, int count, const Corner
     }
 }
 
-/// Where to add to.
-TRACKED_MCF_INLINE float* place_of(std::int64_t target, float* y, float* slots) {
-    return target >= 0 ? y + 4 * target : slots + 4 * (-1 - target);
+/// Adds products whose targets may be slots: few blocks have any.
+void add_to_slots(const std::int32_t* targets, int count, const CornerLanes& products, float* y,
+                  float* slots) {
+    add(targets, count, products, [&](std::int64_t target) {
+        return target >= 0 ? y + 4 * target : slots + 4 * (-1 - target);
+    });
 }
 
-/// What some blocks need, where parts meet.
-void add_with_detours(const std::int32_t* targets, int count, const CornerLanes& products, float* y,
-                      float* slots) {
-    add(targets, count, products, [&](std::int32_t target) { return place_of(target, y, slots); });
-}
-
-/// Calls visit(x at the corners, products) for as many elements as there are lanes at a time, and
-/// adds the products.
+/// Adds the products of all elements to their targets, kLanes elements at a time, and calls
+/// visit(x at the corners, products) for them.
 template <class Visit>
 TRACKED_MCF_INLINE void add_products(const ElementRange& range, const MatrixBlock* matrices,
                                      float factor, const float* x, float* y, const Visit& visit) {
@@ -133,8 +130,8 @@ TRACKED_MCF_INLINE void add_products(const ElementRange& range, const MatrixBloc
             read_corners(x, block, lane, at_corners);
             multiply(block.matrices->entry[0] + lane, factor, at_corners, products);
             visit(at_corners, products);
-            if (block.detours || count < kLanes) {
-                add_with_detours(targets, count, products, y, range.slots);
+            if (!block.direct || count < kLanes) {
+                add_to_slots(targets, count, products, y, range.slots);
             } else {
                 add(targets, kLanes, products, [&](std::int64_t target) { return y + 4 * target; });
             }
@@ -162,21 +159,6 @@ double add_element_products_and_dot(const ElementRange& range, const MatrixBlock
                      for (int lane = 0; lane < kLanes; ++lane) dot += sum[lane];
                  });
     return dot;
-}
-
-void add_element_vectors(const ElementRange& range, const ElementVector* vectors, float* y) {
-    for (std::int32_t element = range.begin; element < range.end; ++element) {
-        const std::int64_t detour = range.detours[element / kBlockElements];
-        const std::int32_t* const targets =
-            detour == ElementRange::kStraight
-                ? range.unknowns + std::int64_t{8} * element
-                : range.targets + detour + 8 * (element % kBlockElements);
-        const auto& entry = vectors[element].entry;
-        for (int i = 0; i < 8; ++i) {
-            const Column column = {entry[0][i], entry[1][i], entry[2][i], 0};
-            add_to(place_of(targets[i], y, range.slots), column);
-        }
-    }
 }
 
 }  // namespace tracked_mcf::TRACKED_MCF_KERNELS

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "filter_tracked_mcf/core/kernels/integrate_elements.h"
 
 #include "filter_tracked_mcf/core/kernels/element_batch.h"
@@ -14,7 +15,7 @@ bool any_collapsed(const SampleChunk& chunk) {
     return collapsed != 0;
 }
 
-/// What few chunks need: adds the samples that have collapsed.
+/// Adds the collapsed samples of a chunk. Few chunks have any.
 void count_collapsed(const SampleChunk& chunk, Collapse& collapse) {
     for (int i = 0; i < chunk.count; ++i) {
         const float weight = chunk.samples.weight[i];
@@ -28,7 +29,7 @@ void count_collapsed(const SampleChunk& chunk, Collapse& collapse) {
     }
 }
 
-/// Sums an element's moments and what of it has collapsed.
+/// Sums an element's moments and its collapsed samples.
 void integrate(const IntegrationInput& input, const Embedding& embedding, std::int64_t element,
                float (&moments)[kMomentRows], Collapse& collapse) {
     SampleReader reader = read_element(input.samples, element);

@@ -1,14 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "filter_tracked_mcf/core/kernels/instruction_set.h"
-#include "filter_tracked_mcf/core/kernels/kernel_table.h"
+#include <string_view>
+#include <vector>
+
+#include "filter_tracked_mcf/core/kernels/coarsen_elements.h"
+#include "filter_tracked_mcf/core/kernels/element_products.h"
+#include "filter_tracked_mcf/core/kernels/integrate_elements.h"
+#include "filter_tracked_mcf/core/kernels/integrate_normals.h"
+#include "filter_tracked_mcf/core/kernels/local_systems.h"
+#include "filter_tracked_mcf/core/kernels/tensor_products.h"
 
 namespace tracked_mcf {
 
-/// The kernels for choose_instruction_set(), which is asked at the first call; throws as it does.
+/// The innermost loops. This folder's sources that define them, and kernel_table.cpp, are compiled
+/// once for each InstructionSet, each time into another namespace, TRACKED_MCF_KERNELS. The program
+/// chooses one of them at run time.
+///
+/// To add a kernel, add a header with its signature, a source file, a member here and a line in
+/// kernel_table.cpp. A kernel may include only files that define nothing but plain structs and
+/// constants: no inline functions except those that compute constants, no templates of the standard
+/// library or Eigen, no default member initializers. A compiler need not inline such code, and the
+/// linker keeps any one of several copies, perhaps the one that needs AVX-512. kernel_table.cpp has
+/// no code, so it may include this file. The test kernel_symbols checks this.
+struct Kernels {
+    IntegrateElements* integrate_elements;
+    IntegrateNormals* integrate_normals;
+    AddElementProducts* add_element_products;
+    AddElementProductsAndDot* add_element_products_and_dot;
+    CoarsenElements* coarsen_elements;
+    SumCouplings* sum_couplings;
+    InvertLocally* invert_locally;
+    AddTensorProducts* add_tensor_products;
+};
+
+/// Instruction sets that the kernels are compiled for. Baseline is that of the rest of the program.
+/// Avx2 means AVX2 and FMA; Avx512 adds AVX-512 F, VL, DQ and BW.
+enum class InstructionSet { Baseline, Avx2, Avx512 };
+
+/// Returns "baseline", "avx2" or "avx512".
+std::string_view name_of(InstructionSet instructions);
+
+/// Returns the instruction sets that this program was built for and this machine supports, the best
+/// one last.
+std::vector<InstructionSet> available_instruction_sets();
+
+/// Returns the instruction set that the environment variable TRACKED_MCF_INSTRUCTIONS names, or the
+/// best available one if the variable is empty or unset. Throws InvalidParameter if the name is
+/// unknown or not available, because a measurement with another one would mislead.
+InstructionSet choose_instruction_set();
+
+/// Returns the kernels for choose_instruction_set(), which the first call chooses; throws as it
+/// does.
 const Kernels& kernels();
 
-/// The kernels for an available instruction set. Throws InvalidParameter if it is not available.
+/// Returns the kernels for an instruction set. Throws InvalidParameter if it is not available.
 const Kernels& kernels_for(InstructionSet instructions);
 
 }  // namespace tracked_mcf

@@ -1,14 +1,15 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// For the sources of kernels alone, see kernel_table.h: everything is internal to the file that
-// includes it.
+// Only the sources of kernels include this, see kernels.h. Everything here is internal to the
+// file that includes it.
 
-/// A helper of a kernel: never a symbol.
+/// Declares a helper of a kernel that never becomes a symbol.
 #define TRACKED_MCF_INLINE static inline __attribute__((always_inline))
 
 namespace tracked_mcf::TRACKED_MCF_KERNELS {
 
-/// How many floats an instruction works on.
+/// Number of floats in a vector register.
 #if defined(__AVX512F__)
 constexpr int kLanes = 16;
 #elif defined(__AVX__)
@@ -55,8 +56,8 @@ TRACKED_MCF_INLINE Lanes square_root(const Lanes& lanes) {
     return roots;
 }
 
-/// Lanes of a, which have the indices from 0 on, and b, from kLanes on. The indices must be
-/// constant; then both compilers make one instruction of it.
+/// Picks lanes of a by indices below kLanes, and lanes of b by the indices from kLanes on. With
+/// constant indices, GCC and Clang compile this to one or a few shuffles.
 TRACKED_MCF_INLINE Lanes pick(const Lanes& a, const Lanes& b, const LaneIndices& indices) {
 #ifdef __clang__
     Lanes picked;
@@ -69,14 +70,14 @@ TRACKED_MCF_INLINE Lanes pick(const Lanes& a, const Lanes& b, const LaneIndices&
 #endif
 }
 
-/// Of four lanes at a time: the even ones of a and b, to which the odd ones follow.
+/// In each group of four lanes: the even lanes of a, then those of b. Plus 1: the odd lanes.
 constexpr LaneIndices kEvenInFours =
     (kLaneIndex & ~3) + 2 * (kLaneIndex & 1) + (kLaneIndex & 2) / 2 * kLanes;
-/// The even fours of a and then those of b, to which the odd ones follow.
+/// The even groups of four lanes of a, then those of b. Plus 4: the odd groups.
 constexpr LaneIndices kEvenFours = 2 * (kLaneIndex & ~3) + (kLaneIndex & 3);
 
-/// Adds up the lanes of `kCount` variables, a power of two up to kLanes. With kLanes of them, the
-/// sum of variable v ends in lane v.
+/// Sums the lanes of each of `kCount` variables, a power of two up to kLanes. If kCount is kLanes,
+/// lane v of the result is the sum of variable v.
 template <int kCount>
 TRACKED_MCF_INLINE Lanes sums_of_lanes(const Lanes* variables) {
     if constexpr (kCount == 1) {
@@ -92,7 +93,8 @@ TRACKED_MCF_INLINE Lanes sums_of_lanes(const Lanes* variables) {
     }
 }
 
-/// Rows become columns. First exchanges blocks of kStride lanes between rows that far apart.
+/// Transposes a square matrix of rows. First exchanges blocks of kStride lanes between rows at a
+/// distance of kStride.
 template <int kStride = kLanes / 2>
 TRACKED_MCF_INLINE void transpose(Lanes (&rows)[kLanes]) {
     constexpr LaneIndices first =

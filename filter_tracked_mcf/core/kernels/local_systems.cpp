@@ -1,29 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "filter_tracked_mcf/core/kernels/local_systems.h"
-
-#include "filter_tracked_mcf/core/kernels/coupling_places.h"
-#include "filter_tracked_mcf/core/kernels/kernel_table.h"
 
 namespace tracked_mcf {
 
 namespace {
 
-/// A pivot that elimination has brought below this fraction of the diagonal is rounding: its
-/// function depends on those before it, and is left to them.
+/// A pivot below this fraction of its diagonal entry is a rounding error: its function depends on
+/// the functions before it, and its row is left out.
 constexpr float kDependent = 1e-5F;
 
-/// The same entry of the matrices of a block, which are inverted side by side.
+/// One entry of all matrices of a block. The matrices of a block are inverted side by side.
 using Lanes = float __attribute__((vector_size(4 * kBlockElements)));
 
-/// Their lower triangles.
+/// The lower triangles of the matrices of a block.
 struct Triangles {
     Lanes entry[8][8];
 };
 
-bool is_apart(std::uint32_t apart, int i, int j) {
-    return ((apart >> kCouplingPlaces.bit[i][j]) & 1U) != 0;
+bool is_unshared(std::uint32_t unshared, int i, int j) {
+    return ((unshared >> kCouplingIndices.bit[i][j]) & 1U) != 0;
 }
 
-/// The lower triangle of the assembled matrix, restricted to the unknowns of one element.
+/// Reads the lower triangle of the assembled matrix, restricted to the unknowns of one element.
 void restrict(const CoupledElements& range, std::int32_t element, const MatrixBlock& own,
               const Couplings* couplings, Triangles& triangles, int lane) {
     const std::int32_t* const unknowns = range.unknowns + std::int64_t{8} * element;
@@ -32,32 +30,32 @@ void restrict(const CoupledElements& range, std::int32_t element, const MatrixBl
         const float* const sum = couplings[unknowns[j]].sum;
 #pragma GCC unroll 8
         for (int i = j; i < 8; ++i) {
-            // Of two corners of a cell, the one numbered first comes first.
-            triangles.entry[i][j][lane] = sum[kCouplingPlaces.place[i][j]];
+            // Since j <= i, the Couplings of the unknown at corner j contain the entry (i, j).
+            triangles.entry[i][j][lane] = sum[kCouplingIndices.of[i][j]];
         }
     }
-    const std::uint32_t apart = range.apart[element];
-    if (apart == 0) return;
+    const std::uint32_t unshared = range.unshared[element];
+    if (unshared == 0) return;
     for (int i = 0; i < 8; ++i) {
         for (int j = 0; j < i; ++j) {
-            if (!is_apart(apart, i, j)) continue;
-            triangles.entry[i][j][lane] = own.entry[kEntryPlaces.of[i][j]][lane];
+            if (!is_unshared(unshared, i, j)) continue;
+            triangles.entry[i][j][lane] = own.entry[kEntryIndices.of[i][j]][lane];
         }
     }
 }
 
-/// The inverses of symmetric positive semi-definite matrices, in place, as L⁻ᵀ D⁻¹ L⁻¹: a sum of
-/// squares, and so positive whatever has been rounded, as an inverse by elimination would not be. A
-/// row that is left out becomes zero.
+/// Inverts symmetric positive semi-definite matrices in place, as L⁻ᵀ D⁻¹ L⁻¹. This is a sum of
+/// squares, so it is positive despite rounding errors; an inverse by elimination need not be. Rows
+/// that are left out become zero.
 void invert(Triangles& m) {
     Lanes least[8];
     Lanes inverse_pivot[8];
     for (int k = 0; k < 8; ++k) least[k] = kDependent * m.entry[k][k];
-        // The factors L, below the diagonal, and D.
+        // Factorise into L, below the diagonal, and D.
 #pragma GCC unroll 8
     for (int k = 0; k < 8; ++k) {
         const Lanes pivot = m.entry[k][k];
-        // What is not a number must not pass for a function to leave out.
+        // Written so that a NaN propagates.
         inverse_pivot[k] = pivot <= least[k] ? Lanes{} : 1 / pivot;
         Lanes column[8];
 #pragma GCC unroll 8
@@ -70,7 +68,7 @@ void invert(Triangles& m) {
             m.entry[i][k] = factor;
         }
     }
-    // L⁻¹ below the diagonal.
+    // Replace L by L⁻¹ below the diagonal.
 #pragma GCC unroll 8
     for (int i = 0; i < 8; ++i) {
 #pragma GCC unroll 8
@@ -115,7 +113,7 @@ void sum_couplings(const CoupledElements& range, const MatrixBlock* matrices,
                    Couplings* couplings) {
     for (std::int32_t element = range.begin; element < range.end; ++element) {
         const std::int32_t* const unknowns = range.unknowns + std::int64_t{8} * element;
-        const std::uint32_t apart = range.apart[element];
+        const std::uint32_t unshared = range.unshared[element];
         const MatrixBlock& block = matrices[element / kBlockElements];
         const int lane = element % kBlockElements;
 #pragma GCC unroll 8
@@ -123,15 +121,15 @@ void sum_couplings(const CoupledElements& range, const MatrixBlock* matrices,
             float* const sum = couplings[unknowns[i]].sum;
 #pragma GCC unroll 8
             for (int j = i; j < 8; ++j) {
-                if (apart != 0 && is_apart(apart, i, j)) continue;
-                sum[kCouplingPlaces.place[i][j]] += block.entry[kEntryPlaces.of[i][j]][lane];
+                if (unshared != 0 && is_unshared(unshared, i, j)) continue;
+                sum[kCouplingIndices.of[i][j]] += block.entry[kEntryIndices.of[i][j]][lane];
             }
         }
     }
 }
 
 void invert_locally(const CoupledElements& range, const MatrixBlock* matrices,
-                    const Couplings* couplings, const float* shares, MatrixBlock* inverses) {
+                    const Couplings* couplings, const float* damping, MatrixBlock* inverses) {
     for (std::int32_t first = range.begin; first < range.end; first += kBlockElements) {
         const std::int32_t left = range.end - first;
         const int count = left < kBlockElements ? left : kBlockElements;
@@ -141,7 +139,7 @@ void invert_locally(const CoupledElements& range, const MatrixBlock* matrices,
         Lanes factors = {};
         for (int lane = 0; lane < count; ++lane) {
             restrict(range, first + lane, matrices[block], couplings, triangles, lane);
-            factors[lane] = shares[first + lane];
+            factors[lane] = damping[first + lane];
         }
         invert(triangles);
         store(triangles, factors, inverses[block]);

@@ -1,32 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include "filter_tracked_mcf/core/kernels/sample_chunk.h"
 
-// For integrate_elements.cpp alone, see lanes.h.
+// Only integrate_elements.cpp includes this, see lanes.h.
 
 namespace tracked_mcf::TRACKED_MCF_KERNELS {
 
-/// Integrals from which element matrices are made. A product of two of a cell's functions is a
-/// product of three quadratic Bernstein polynomials bx_i by_j bz_k, one for each axis: (1-x)²,
-/// x(1-x) or x². So instead of 36 + 36 products of functions, 27 + 63 moments are summed, all lanes
-/// of samples at a time, and 36 for the right side. All polynomials are positive, so nothing
-/// cancels that would not in the matrices. Here is where each kind begins, and how it is numbered.
+/// Moments: integrals from which the element matrices follow. A product of two of a cell's
+/// functions is a product of three quadratic Bernstein polynomials bx_i by_j bz_k, one for each
+/// axis: (1-x)², x(1-x) or x². For each sample, the kernel adds to 27 moments for the mass, 63 for
+/// the stiffness and 36 for the right-hand side; it expands the matrices from these sums once per
+/// element. All polynomials are positive, so moments add no cancellation.
+///
+/// lx_0 = 1-x and lx_1 = x are the linear functions of x. F_a = G ∇X_t is the flux of the
+/// embedding's coordinate a. Each constant is the offset of the first moment of its kind.
 constexpr int kMass = 0;     ///< [i][j][k]: ∫ bx_i by_j bz_k
 constexpr int kXX = 27;      ///< [j][k]: ∫ G_xx by_j bz_k
 constexpr int kYY = 36;      ///< [k][i]: ∫ G_yy bz_k bx_i
 constexpr int kZZ = 45;      ///< [i][j]: ∫ G_zz bx_i by_j
-constexpr int kXY = 54;      ///< [x][y][k]: ∫ G_xy of the linear functions of x and y, and bz_k
-constexpr int kYZ = 66;      ///< [y][z][i]
-constexpr int kZX = 78;      ///< [z][x][j]
-constexpr int kPullX = 90;   ///< [axis][y][z]: ∫ of the pull along x and the linear functions
-constexpr int kPullY = 102;  ///< [axis][z][x]
-constexpr int kPullZ = 114;  ///< [axis][x][y]
+constexpr int kXY = 54;      ///< [i][j][k]: ∫ G_xy lx_i ly_j bz_k
+constexpr int kYZ = 66;      ///< [j][k][i]: ∫ G_yz ly_j lz_k bx_i
+constexpr int kZX = 78;      ///< [k][i][j]: ∫ G_zx lz_k lx_i by_j
+constexpr int kFluxX = 90;   ///< [a][j][k]: ∫ F_a,x ly_j lz_k
+constexpr int kFluxY = 102;  ///< [a][k][i]: ∫ F_a,y lz_k lx_i
+constexpr int kFluxZ = 114;  ///< [a][i][j]: ∫ F_a,z lx_i ly_j
 constexpr int kMoments = 126;
 
-/// Rounded up to whole variables.
+/// kMoments rounded up to a multiple of kLanes.
 constexpr int kMomentRows = (kMoments + kLanes - 1) / kLanes * kLanes;
 
-/// [j][k] for one i.
+/// Sums the mass moments [j][k] of one i.
 TRACKED_MCF_INLINE void mass_moments(const SampleChunk& chunk, int i, Lanes* moments) {
     Lanes sum[9] = {};
     for (int s = 0; s < chunk.count; s += kLanes) {
@@ -39,7 +43,7 @@ TRACKED_MCF_INLINE void mass_moments(const SampleChunk& chunk, int i, Lanes* mom
     for (int m = 0; m < 9; ++m) moments[m] = sum[m];
 }
 
-/// [j][k] of a diagonal entry of the tensor and two axes.
+/// Sums the moments [j][k] of a diagonal entry: ∫ G_aa bb_j bc_k, where b is `axis`, c `other`.
 TRACKED_MCF_INLINE void diagonal_moments(const SampleChunk& chunk, const Row& tensor, int axis,
                                          int other, Lanes* moments) {
     Lanes sum[9] = {};
@@ -55,7 +59,7 @@ TRACKED_MCF_INLINE void diagonal_moments(const SampleChunk& chunk, const Row& te
     for (int m = 0; m < 9; ++m) moments[m] = sum[m];
 }
 
-/// [a][b][k] of an entry beside the diagonal, its two axes, and the third.
+/// Sums the moments [i][j][k] of an off-diagonal entry: ∫ G_ab la_i lb_j bc_k, where c is `third`.
 TRACKED_MCF_INLINE void mixed_moments(const SampleChunk& chunk, const Row& tensor, int a, int b,
                                       int third, Lanes* moments) {
     Lanes sum[12] = {};
@@ -74,8 +78,8 @@ TRACKED_MCF_INLINE void mixed_moments(const SampleChunk& chunk, const Row& tenso
     for (int m = 0; m < 12; ++m) moments[m] = sum[m];
 }
 
-/// [axis][b][c] of the pull along one axis, and the other two.
-TRACKED_MCF_INLINE void pull_moments(const SampleChunk& chunk, int along, int b, int c,
+/// Sums the moments [a][j][k] of the fluxes along one axis: ∫ F_a lb_j lc_k.
+TRACKED_MCF_INLINE void flux_moments(const SampleChunk& chunk, int along, int b, int c,
                                      Lanes* moments) {
     Lanes sum[12] = {};
     for (int s = 0; s < chunk.count; s += kLanes) {
@@ -85,13 +89,14 @@ TRACKED_MCF_INLINE void pull_moments(const SampleChunk& chunk, int along, int b,
         const Lanes z1 = load(chunk.linear[2 * c + 1] + s);
         const Lanes products[4] = {y0 * z0, y0 * z1, y1 * z0, y1 * z1};
         for (int axis = 0; axis < 3; ++axis) {
-            const Lanes pull = load(chunk.pull[axis][along] + s);
-            for (int p = 0; p < 4; ++p) sum[4 * axis + p] += pull * products[p];
+            const Lanes flux = load(chunk.flux[axis][along] + s);
+            for (int p = 0; p < 4; ++p) sum[4 * axis + p] += flux * products[p];
         }
     }
     for (int m = 0; m < 12; ++m) moments[m] = sum[m];
 }
 
+/// Adds the moments of a chunk's samples to the sums.
 TRACKED_MCF_INLINE void add_moments(const SampleChunk& chunk, float (&sums)[kMomentRows]) {
     Lanes lanes[kMomentRows];
     for (int m = kMoments; m < kMomentRows; ++m) lanes[m] = Lanes{};
@@ -102,9 +107,9 @@ TRACKED_MCF_INLINE void add_moments(const SampleChunk& chunk, float (&sums)[kMom
     mixed_moments(chunk, chunk.tensor[3], 0, 1, 2, lanes + kXY);
     mixed_moments(chunk, chunk.tensor[4], 1, 2, 0, lanes + kYZ);
     mixed_moments(chunk, chunk.tensor[5], 2, 0, 1, lanes + kZX);
-    pull_moments(chunk, 0, 1, 2, lanes + kPullX);
-    pull_moments(chunk, 1, 2, 0, lanes + kPullY);
-    pull_moments(chunk, 2, 0, 1, lanes + kPullZ);
+    flux_moments(chunk, 0, 1, 2, lanes + kFluxX);
+    flux_moments(chunk, 1, 2, 0, lanes + kFluxY);
+    flux_moments(chunk, 2, 0, 1, lanes + kFluxZ);
     for (int m = 0; m < kMomentRows; m += kLanes) {
         store(load(sums + m) + sums_of_lanes<kLanes>(lanes + m), sums + m);
     }

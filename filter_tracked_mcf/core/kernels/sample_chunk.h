@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include <cstdint>
@@ -5,52 +6,52 @@
 #include "filter_tracked_mcf/core/kernels/integrate_elements.h"
 #include "filter_tracked_mcf/core/kernels/lanes.h"
 
-// For integrate_elements.cpp alone, see lanes.h.
+// Only integrate_elements.cpp includes this, see lanes.h.
 
 namespace tracked_mcf::TRACKED_MCF_KERNELS {
 
-/// Samples that are worked on at a time; what is computed of them stays in the first-level cache.
+/// Number of samples per chunk, small enough for the first-level cache.
 constexpr int kChunk = 128;
 
-constexpr float kStep = 1.0F / kSampleSteps;
+constexpr float kSampleStep = 1.0F / kSampleSteps;
 
 using Row = float[kChunk];
 
-/// Some samples of one element, one row for each of their numbers. Behind `count`, up to the next
-/// multiple of kLanes, rows are filled so that nothing is added to any integral.
+/// Some samples of one element, one row for each quantity. From `count` to the next multiple of
+/// kLanes, the rows are padded such that the padding adds nothing to any integral.
 struct SampleChunk {
     alignas(64) float normal[3][kChunk + kLanes];
-    Row linear[6];     ///< 1-x and x, and so on for y and z
+    Row linear[6];     ///< 1-x and x; the same for y and z
     Row area;          ///< w √|g|, grid units²; 0 if collapsed
     Row tensor[6];     ///< G = w √|g| T g⁻¹ Tᵀ: xx, yy, zz, xy, yz, zx; 0 if collapsed
-    Row pull[3][3];    ///< of each coordinate w √|g| T g⁻¹ Tᵀ ∇X_t; 0 if collapsed
-    Row bernstein[9];  ///< (1-x)², x(1-x), x², and so on for y and z
+    Row flux[3][3];    ///< G ∇X_t for each coordinate of X_t; 0 if collapsed
+    Row bernstein[9];  ///< (1-x)², x(1-x), x²; the same for y and z
     struct {
-        const std::uint32_t* places[2];
+        const std::uint32_t* packed_local[2];
         const float* weight;
     } samples;
     int count;
 };
 
-/// Where reading an element's samples has come to.
+/// Reads the samples of an element, chunk by chunk.
 struct SampleReader {
-    const std::uint32_t* places[2];
+    const std::uint32_t* packed_local[2];
     const float* weight;
-    std::int64_t left;
+    std::int64_t left;  ///< samples still to read
     const Fragment* fragment;
-    std::int32_t used;  ///< samples of the fragment that were read
+    std::int32_t used;  ///< number of samples read from this fragment
 };
 
 TRACKED_MCF_INLINE SampleReader read_element(const SampleArrays& samples, std::int64_t element) {
     const std::int64_t begin = samples.sample_begin[element];
-    return {{samples.places[0] + begin, samples.places[1] + begin},
+    return {{samples.packed_local[0] + begin, samples.packed_local[1] + begin},
             samples.weight + begin,
             samples.sample_begin[element + 1] - begin,
             samples.fragments + samples.fragment_begin[element],
             0};
 }
 
-/// Gives each sample its fragment's normal.
+/// Copies the normals of the fragments to their samples.
 TRACKED_MCF_INLINE void spread_normals(SampleReader& reader, SampleChunk& chunk) {
     int i = 0;
     while (i < chunk.count) {
@@ -60,7 +61,7 @@ TRACKED_MCF_INLINE void spread_normals(SampleReader& reader, SampleChunk& chunk)
         const int rest = reader.fragment->sample_count - reader.used;
         const bool all = rest <= chunk.count - i;
         const int end = all ? i + rest : chunk.count;
-        // What is written beyond the end, the next fragment overwrites.
+        // The next fragment overwrites what this loop writes beyond the end.
         for (int k = i; k < end; k += kLanes) {
             store(x, chunk.normal[0] + k);
             store(y, chunk.normal[1] + k);
@@ -70,18 +71,18 @@ TRACKED_MCF_INLINE void spread_normals(SampleReader& reader, SampleChunk& chunk)
         reader.fragment += all ? 1 : 0;
         i = end;
     }
-    // What is not used must not be NaN.
+    // The padding must not be NaN.
     for (auto& normals : chunk.normal) {
         store(Lanes{}, normals + chunk.count);
     }
 }
 
-/// Goes on to the next samples.
+/// Reads the next chunk.
 TRACKED_MCF_INLINE void read_samples(SampleReader& reader, SampleChunk& chunk) {
     chunk.count = reader.left < kChunk ? static_cast<int>(reader.left) : kChunk;
     for (int word = 0; word < 2; ++word) {
-        chunk.samples.places[word] = reader.places[word];
-        reader.places[word] += chunk.count;
+        chunk.samples.packed_local[word] = reader.packed_local[word];
+        reader.packed_local[word] += chunk.count;
     }
     chunk.samples.weight = reader.weight;
     reader.weight += chunk.count;
@@ -89,17 +90,17 @@ TRACKED_MCF_INLINE void read_samples(SampleReader& reader, SampleChunk& chunk) {
     spread_normals(reader, chunk);
 }
 
-/// The coordinate that a word of a place has whole. The word is not a signed number.
+/// Returns the upper bits of words, which are unsigned numbers, see kPackedShift.
 TRACKED_MCF_INLINE LaneIndices high_bits(const LaneIndices& words) {
-    return words >> kPlaceShift & ((1 << (32 - kPlaceShift)) - 1);
+    return words >> kPackedShift & ((1 << (32 - kPackedShift)) - 1);
 }
 
-/// The functions of one axis. That both x and 1-x are the nearest numbers is worth an instruction:
-/// of functions that hardly meet the surface, one of them is small.
+/// Computes the functions of one axis. Both x and 1-x are rounded from the exact number of steps,
+/// because one of them is small for functions that hardly meet the surface.
 TRACKED_MCF_INLINE void store_functions(const LaneIndices& steps, int axis, SampleChunk& chunk,
                                         int i) {
-    const Lanes x = to_floats(steps) * kStep;
-    const Lanes rest = to_floats(kSampleSteps - steps) * kStep;
+    const Lanes x = to_floats(steps) * kSampleStep;
+    const Lanes rest = to_floats(kSampleSteps - steps) * kSampleStep;
     store(rest, chunk.linear[2 * axis] + i);
     store(x, chunk.linear[2 * axis + 1] + i);
     store(rest * rest, chunk.bernstein[3 * axis] + i);
@@ -117,8 +118,8 @@ TRACKED_MCF_INLINE Vector cross(const Vector& a, const Vector& b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/// A coordinate of a trilinear map, as a polynomial of the local coordinates. Its constant term is
-/// of no interest here.
+/// One coordinate of a trilinear map, as a polynomial of the local coordinates without its constant
+/// term.
 struct Trilinear {
     float x, y, z, xy, yz, xz, xyz;
 };
@@ -129,15 +130,15 @@ TRACKED_MCF_INLINE Vector gradient(const Trilinear& p, const Vector& at) {
             p.z + p.xz * at.x + yz * at.y};
 }
 
-/// The embedding X_t in the element's cell, but for a constant.
+/// The embedding X_t in the element's cell, up to a constant.
 struct Embedding {
     Trilinear x, y, z;
 };
 
-/// What the metric is made of. J_i are the rows of the embedding's derivative.
+/// The vectors from which the metric follows. J_i are the rows of the embedding's derivative.
 struct Differential {
     Vector kx, ky, kz;  ///< n × J_i
-    Vector normal;      ///< -n under the cofactors of J: as long as √|g|, and normal to X_t
+    Vector normal;      ///< -cof(J) n: normal to X_t, of length √|g|
 };
 TRACKED_MCF_INLINE Differential differential(const Embedding& x, const Vector& at,
                                              const Vector& n) {
@@ -150,10 +151,10 @@ TRACKED_MCF_INLINE Differential differential(const Embedding& x, const Vector& a
     return {kx, ky, kz, {dot(jy, kz), dot(jz, kx), dot(jx, ky)}};
 }
 
-/// The tensor of the present metric. The paper's T g⁻¹ Tᵀ √|g|, T a basis of the tangents, is
-/// Σ_i (n × J_i) (n × J_i)ᵀ / √|g|: turning a basis by a right angle turns a 2×2 matrix into its
-/// adjoint. So no basis is needed, and an entry that belongs to a direction that is nearly the
-/// normal comes out small without cancellation.
+/// Computes the tensor G of the present metric. The paper has √|g| T g⁻¹ Tᵀ with a basis T of the
+/// tangents. This equals Σ_i (n × J_i) (n × J_i)ᵀ / √|g|, because the rotation of T by a right
+/// angle turns g into its adjugate. The sum needs no basis, and its entries for directions close to
+/// the normal are small without cancellation.
 TRACKED_MCF_INLINE void store_tensor(const Differential& d, const Lanes& scale, SampleChunk& chunk,
                                      int i) {
     const Vector x = {d.kx.x, d.ky.x, d.kz.x};
@@ -167,7 +168,7 @@ TRACKED_MCF_INLINE void store_tensor(const Differential& d, const Lanes& scale, 
     store(scale * dot(z, x), chunk.tensor[5] + i);
 }
 
-/// s a - t b
+/// Stores s a - t b.
 TRACKED_MCF_INLINE void store_difference(const Vector& a, const Lanes& s, const Vector& b,
                                          const Lanes& t, Row (&rows)[3], int i) {
     store(s * a.x - t * b.x, rows[0] + i);
@@ -175,17 +176,18 @@ TRACKED_MCF_INLINE void store_difference(const Vector& a, const Lanes& s, const 
     store(s * a.z - t * b.z, rows[2] + i);
 }
 
-/// The tensor times J_a, which is Σ_i (n × J_i) (n × J_i) · J_a / √|g|. The products on the right
-/// are those of the normal. Multiplying afterwards would cancel where the surface is compressed.
-TRACKED_MCF_INLINE void store_pull(const Differential& d, const Lanes& scale, SampleChunk& chunk,
+/// Computes the fluxes G J_a = Σ_i (n × J_i) (n × J_i) · J_a / √|g|. The factors (n × J_i) · J_a
+/// are 0 or, up to sign, coordinates of the normal. Multiplying G by J_a instead would cancel where
+/// the surface is compressed.
+TRACKED_MCF_INLINE void store_flux(const Differential& d, const Lanes& scale, SampleChunk& chunk,
                                    int i) {
     const Vector n = {scale * d.normal.x, scale * d.normal.y, scale * d.normal.z};
-    store_difference(d.ky, n.z, d.kz, n.y, chunk.pull[0], i);
-    store_difference(d.kz, n.x, d.kx, n.z, chunk.pull[1], i);
-    store_difference(d.kx, n.y, d.ky, n.x, chunk.pull[2], i);
+    store_difference(d.ky, n.z, d.kz, n.y, chunk.flux[0], i);
+    store_difference(d.kz, n.x, d.kx, n.z, chunk.flux[1], i);
+    store_difference(d.kx, n.y, d.ky, n.x, chunk.flux[2], i);
 }
 
-/// The tensor of the initial metric: the identity but for n nᵀ.
+/// Computes the tensor of the initial metric, I - n nᵀ.
 TRACKED_MCF_INLINE void store_initial_tensor(const Vector& n, const Lanes& weight,
                                              SampleChunk& chunk, int i) {
     store(weight * (n.y * n.y + n.z * n.z), chunk.tensor[0] + i);
@@ -196,46 +198,64 @@ TRACKED_MCF_INLINE void store_initial_tensor(const Vector& n, const Lanes& weigh
     store(-weight * (n.z * n.x), chunk.tensor[5] + i);
 }
 
-/// It times J_a: -n × (n × J_a).
-TRACKED_MCF_INLINE void store_initial_pull(const Vector& n, const Vector& k, const Lanes& weight,
+/// Computes the initial metric's flux (I - n nᵀ) J_a = -n × (n × J_a).
+TRACKED_MCF_INLINE void store_initial_flux(const Vector& n, const Vector& k, const Lanes& weight,
                                            Row (&rows)[3], int i) {
-    const Vector pull = cross(k, n);
-    store(weight * pull.x, rows[0] + i);
-    store(weight * pull.y, rows[1] + i);
-    store(weight * pull.z, rows[2] + i);
+    const Vector flux = cross(k, n);
+    store(weight * flux.x, rows[0] + i);
+    store(weight * flux.y, rows[1] + i);
+    store(weight * flux.z, rows[2] + i);
 }
 
-/// All that the integrals need of the samples.
-TRACKED_MCF_INLINE void evaluate_samples(const Embedding& x, bool initial_metric,
-                                         SampleChunk& chunk) {
+/// Computes the functions of all three axes.
+TRACKED_MCF_INLINE void evaluate_functions(SampleChunk& chunk) {
     for (int i = 0; i < chunk.count; i += kLanes) {
-        const LaneIndices a = load(chunk.samples.places[0] + i);
-        const LaneIndices b = load(chunk.samples.places[1] + i);
+        const LaneIndices a = load(chunk.samples.packed_local[0] + i);
+        const LaneIndices b = load(chunk.samples.packed_local[1] + i);
         store_functions(high_bits(a), 0, chunk, i);
         store_functions(high_bits(b), 1, chunk, i);
-        store_functions((a & kPlaceMask) << kPlaceShift | (b & kPlaceMask), 2, chunk, i);
+        store_functions((a & kPackedMask) << kPackedShift | (b & kPackedMask), 2, chunk, i);
     }
+}
+
+/// Returns the initial normals of kLanes samples, from sample i on.
+TRACKED_MCF_INLINE Vector normals(const SampleChunk& chunk, int i) {
+    return {load(chunk.normal[0] + i), load(chunk.normal[1] + i), load(chunk.normal[2] + i)};
+}
+
+/// Returns their weights, 0 for the padding.
+TRACKED_MCF_INLINE Lanes weights(const SampleChunk& chunk, int i) {
+    return kLaneIndex < chunk.count - i ? load(chunk.samples.weight + i) : Lanes{};
+}
+
+/// Returns the vectors from which their metric follows.
+TRACKED_MCF_INLINE Differential differentials(const Embedding& x, const SampleChunk& chunk, int i) {
+    const Vector at = {load(chunk.linear[1] + i), load(chunk.linear[3] + i),
+                       load(chunk.linear[5] + i)};
+    return differential(x, at, normals(chunk, i));
+}
+
+/// Computes all rows of a chunk that the moments need.
+TRACKED_MCF_INLINE void evaluate_samples(const Embedding& x, bool initial_metric,
+                                         SampleChunk& chunk) {
+    evaluate_functions(chunk);
     for (int i = 0; i < chunk.count; i += kLanes) {
-        const Vector at = {load(chunk.linear[1] + i), load(chunk.linear[3] + i),
-                           load(chunk.linear[5] + i)};
-        const Vector n = {load(chunk.normal[0] + i), load(chunk.normal[1] + i),
-                          load(chunk.normal[2] + i)};
-        const Lanes weight =
-            kLaneIndex < chunk.count - i ? load(chunk.samples.weight + i) : Lanes{};
-        const Differential d = differential(x, at, n);
+        const Vector n = normals(chunk, i);
+        const Lanes weight = weights(chunk, i);
+        const Differential d = differentials(x, chunk, i);
         const Lanes area = square_root(dot(d.normal, d.normal));
         if (initial_metric) {
             store(weight * area, chunk.area + i);
             store_initial_tensor(n, weight, chunk, i);
-            store_initial_pull(n, d.kx, weight, chunk.pull[0], i);
-            store_initial_pull(n, d.ky, weight, chunk.pull[1], i);
-            store_initial_pull(n, d.kz, weight, chunk.pull[2], i);
+            store_initial_flux(n, d.kx, weight, chunk.flux[0], i);
+            store_initial_flux(n, d.ky, weight, chunk.flux[1], i);
+            store_initial_flux(n, d.kz, weight, chunk.flux[2], i);
         } else {
             const LaneIndices sound = area > kCollapsedAreaRatio;
             store(sound ? weight * area : Lanes{}, chunk.area + i);
             const Lanes scale = sound ? weight / area : Lanes{};
             store_tensor(d, scale, chunk, i);
-            store_pull(d, scale, chunk, i);
+            store_flux(d, scale, chunk, i);
         }
     }
 }

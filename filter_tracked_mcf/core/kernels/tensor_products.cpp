@@ -1,6 +1,6 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "filter_tracked_mcf/core/kernels/tensor_products.h"
 
-#include "filter_tracked_mcf/core/kernels/kernel_table.h"
 #include "filter_tracked_mcf/core/kernels/lanes.h"
 
 namespace tracked_mcf::TRACKED_MCF_KERNELS {
@@ -14,10 +14,10 @@ void add_tensor_products(const TensorBlock* tensors, const TensorProducts& produ
                 tensor[t] = load(tensors[block].entry[t] + lane);
             }
             for (int entry = 0; entry < kMatrixEntries; ++entry) {
-                float* const place = matrices[block].entry[entry] + lane;
-                Lanes sum = load(place);
+                float* const sums = matrices[block].entry[entry] + lane;
+                Lanes sum = load(sums);
                 for (int t = 0; t < kTensorEntries; ++t) sum += products.of[t][entry] * tensor[t];
-                store(sum, place);
+                store(sum, sums);
             }
         }
     }

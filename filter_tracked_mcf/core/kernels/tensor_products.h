@@ -1,25 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include <cstdint>
 
-#include "filter_tracked_mcf/core/element_matrix.h"
+#include "filter_tracked_mcf/core/kernels/element_matrix.h"
 
 namespace tracked_mcf {
 
-/// Entries of a symmetric 3×3 tensor: xx, yy, zz, xy, yz, zx.
+/// Number of entries of a symmetric 3×3 tensor: xx, yy, zz, xy, yz, zx.
 inline constexpr int kTensorEntries = 6;
 
-/// A tensor for each element of a MatrixBlock, side by side likewise.
+/// The tensors of a block of elements, stored like a MatrixBlock.
 struct TensorBlock {
     alignas(64) float entry[kTensorEntries][kBlockElements];
 };
 
-/// What each entry of an element's tensor, if it is 1, contributes to each of its matrix.
+/// A linear map from tensors to matrices: of[t][entry] is the matrix entry for a tensor whose entry
+/// t is 1 and whose other entries are 0.
 struct TensorProducts {
     float of[kTensorEntries][kMatrixEntries];
 };
 
-/// Adds to the matrices of the blocks from `begin` to `end` what their tensors contribute.
+/// Adds the matrices of the tensors to `matrices`, for the blocks in [begin, end).
 using AddTensorProducts = void(const TensorBlock* tensors, const TensorProducts& products,
                                std::int64_t begin, std::int64_t end, MatrixBlock* matrices);
 

@@ -1,16 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What the sources that serve every release need of MeshLab's interface, as MeshLab 2020.09 has it.
+// MeshLab 2020.09's spelling of what the shared sources need.
 
 #include <common/interfaces.h>
 
 namespace tracked_mcf {
 
+/// The parameter type of a length.
+using RichLength = RichAbsPerc;
+
 inline void update_box_and_normals(MeshModel& layer) {
     layer.UpdateBoxAndNormals();
 }
 
-/// Whether a parameter's value is the index of a choice.
+/// Returns whether a parameter's value is the index of a choice.
 inline bool holds_choice(const Value& value) {
     return value.isEnum();
 }

@@ -1,26 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "filter_tracked_mcf/parameters/parameter_table.h"
 #include "meshlab_api.h"
 
 namespace tracked_mcf {
 
-/// The filter as MeshLab 2020.09 sees it: translates between its types and parameter_table() and
-/// run_filter(), and no more.
+/// The filter for MeshLab 2020.09. It only translates between MeshLab's types and ours.
 class TrackedMcfPlugin : public QObject, public MeshFilterInterface {
     Q_OBJECT
     MESHLAB_PLUGIN_IID_EXPORTER(MESH_FILTER_INTERFACE_IID)
     Q_INTERFACES(MeshFilterInterface)
 
 public:
-    TrackedMcfPlugin();
+    TrackedMcfPlugin() {
+        typeList << 0;
+        actionList << new QAction(kFilterName, this);
+    }
 
-    QString pluginName() const override;
-    QString filterName(FilterIDType filter) const override;
-    QString filterInfo(FilterIDType filter) const override;
-    FilterClass getClass(QAction* action) override;
-    FILTER_ARITY filterArity(QAction* action) const override;
-    int getPreConditions(QAction* action) const override;
-    int postCondition(QAction* action) const override;
+    QString pluginName() const override { return "FilterTrackedMcf"; }
+    QString filterName(FilterIDType) const override { return kFilterName; }
+    QString filterInfo(FilterIDType) const override { return kFilterHelp; }
+    FilterClass getClass(QAction*) override { return Smoothing; }
+    FILTER_ARITY filterArity(QAction*) const override { return SINGLE_MESH; }
+    int getPreConditions(QAction*) const override { return MeshModel::MM_FACENUMBER; }
+
+    // The mask leaves out vertex and face numbers: with either, the dialog has no preview.
+    int postCondition(QAction*) const override {
+        return MeshModel::MM_VERTCOORD | MeshModel::MM_VERTNORMAL | MeshModel::MM_FACENORMAL |
+               MeshModel::MM_VERTQUALITY;
+    }
+
+    // Hosts call this one of the two overloads. meshlabserver calls it without a layer.
     void initParameterSet(QAction* action, MeshDocument& document,
                           RichParameterList& parameters) override;
     bool applyFilter(QAction* action, MeshDocument& document, const RichParameterList& parameters,

@@ -1,18 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What the sources that serve every release need of MeshLab's interface, as MeshLab 2022.02 and
-// later, and PyMeshLab, have it.
+// The spelling of MeshLab 2022.02 and later, and of PyMeshLab, of what the shared sources need.
 
 #include <common/ml_document/mesh_document.h>
 #include <common/plugins/interfaces/filter_plugin.h>
 
+#include <type_traits>
+
+class RichAbsPerc;
+class RichPercentage;
+
 namespace tracked_mcf {
+
+template <class Type, class = void>
+struct IsDefined : std::false_type {};
+template <class Type>
+struct IsDefined<Type, std::void_t<decltype(sizeof(Type))>> : std::true_type {};
+
+/// The parameter type of a length: RichAbsPerc in 2022.02, renamed afterwards.
+using RichLength =
+    std::conditional_t<IsDefined<RichPercentage>::value, RichPercentage, RichAbsPerc>;
 
 inline void update_box_and_normals(MeshModel& layer) {
     layer.updateBoxAndNormals();
 }
 
-/// Whether a parameter's value is the index of a choice.
+/// Returns whether a parameter's value is the index of a choice.
 inline bool holds_choice(const Value& value) {
     return value.isInt();
 }

@@ -1,6 +1,9 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "filter_tracked_mcf/tool/documents/ply_document.h"
 
+#include <algorithm>
 #include <array>
+#include <optional>
 #include <ostream>
 
 #include "filter_tracked_mcf/tool/file_error.h"
@@ -11,21 +14,47 @@ namespace {
 
 constexpr std::array<std::string_view, 3> kCoordinates = {"x", "y", "z"};
 constexpr std::array<std::string_view, 3> kNormal = {"nx", "ny", "nz"};
+constexpr std::array<std::string_view, 4> kChannels = {"red", "green", "blue", "alpha"};
+constexpr std::string_view kQuality = "quality";
+constexpr std::string_view kTexture = "comment TextureFile ";
 
-/// Which of the three names this is, or -1.
-int axis_of(std::string_view name, const std::array<std::string_view, 3>& names) {
-    for (int axis = 0; axis < 3; ++axis) {
-        if (name == names[static_cast<std::size_t>(axis)]) return axis;
-    }
-    return -1;
+/// Returns the index of a name among `names`, or -1.
+template <std::size_t count>
+int index_in(const std::array<std::string_view, count>& names, std::string_view name) {
+    const auto found = std::find(names.begin(), names.end(), name);
+    return found == names.end() ? -1 : static_cast<int>(found - names.begin());
 }
 
-bool holds_vector(const PlyElement& element, const std::array<std::string_view, 3>& names) {
-    for (const std::string_view name : names) {
+/// Returns the channel of a colour that a property is, or -1.
+int channel_of(const PlyProperty& property) {
+    if (property.type != PlyType::UInt8 || property.is_list()) return -1;
+    std::string_view name = property.name;
+    constexpr std::string_view prefix = "diffuse_";
+    if (name.substr(0, prefix.size()) == prefix) name.remove_prefix(prefix.size());
+    return index_in(kChannels, name);
+}
+
+bool has_normals(const PlyElement& element) {
+    return std::all_of(kNormal.begin(), kNormal.end(), [&](std::string_view name) {
         const PlyProperty* const property = element.find(name);
-        if (!property || property->is_list()) return false;
+        return property && !property->is_list();
+    });
+}
+
+bool names_texture(const std::string& comment) {
+    return comment.compare(0, kTexture.size(), kTexture) == 0;
+}
+
+/// Appends to `extras` the names of the properties for which `is_known` is false, such as
+/// "quality, flags of vertices".
+template <class IsKnown>
+void append_properties(const PlyElement& element, const char* of, IsKnown is_known,
+                       std::vector<std::string>& extras) {
+    std::string names;
+    for (const PlyProperty& property : element.properties) {
+        if (!is_known(property)) names += (names.empty() ? "" : ", ") + property.name;
     }
-    return true;
+    if (!names.empty()) extras.push_back(names + of);
 }
 
 const PlyElement& element_with_rows(const PlyTable& table, const char* name, const char* plural) {
@@ -37,15 +66,12 @@ const PlyElement& element_with_rows(const PlyTable& table, const char* name, con
 }
 
 Points read_positions(const PlyElement& vertices) {
-    if (!holds_vector(vertices, kCoordinates)) {
-        throw UnreadableFile("its vertices lack x, y or z");
-    }
     Points positions(vertices.count);
-    vertices.for_each_field(
-        [&](std::size_t row, const PlyProperty& property, std::string_view bytes) {
-            const int axis = axis_of(property.name, kCoordinates);
-            if (axis >= 0) positions[row][axis] = number_at(bytes.data(), property.type);
-        });
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto numbers = vertices.numbers(kCoordinates[static_cast<std::size_t>(axis)]);
+        if (numbers.empty()) throw UnreadableFile("its vertices lack x, y or z");
+        for (std::size_t i = 0; i < numbers.size(); ++i) positions[i][axis] = numbers[i];
+    }
     return positions;
 }
 
@@ -58,9 +84,14 @@ std::int32_t checked_index(double index, std::size_t vertex_count, std::size_t f
                          std::to_string(vertex_count) + " (counted from 0)");
 }
 
+/// Returns the property of the faces that lists their vertices, or null.
+const PlyProperty* find_indices(const PlyElement& faces) {
+    const PlyProperty* const indices = faces.find("vertex_indices");
+    return indices ? indices : faces.find("vertex_index");
+}
+
 Polygons read_polygons(const PlyElement& faces, std::size_t vertex_count) {
-    const PlyProperty* indices = faces.find("vertex_indices");
-    if (!indices) indices = faces.find("vertex_index");
+    const PlyProperty* const indices = find_indices(faces);
     if (!indices || !indices->is_list()) throw UnreadableFile("its faces lack vertex_indices");
     Polygons polygons;
     faces.for_each_field([&](std::size_t row, const PlyProperty& property, std::string_view bytes) {
@@ -76,84 +107,25 @@ Polygons read_polygons(const PlyElement& faces, std::size_t vertex_count) {
     return polygons;
 }
 
-/// What has been computed in doubles is written as doubles, even where it was read as floats: far
-/// from the origin these could not hold a smooth surface.
+/// Returns double for what has been computed in doubles, even if it was read as floats: far from
+/// the origin, floats cannot hold a smooth surface.
 PlyType written_type(const PlyElement& element, const PlyProperty& property) {
     const bool is_vertex = element.name == "vertex", is_face = element.name == "face";
-    const bool computed = (is_vertex && axis_of(property.name, kCoordinates) >= 0) ||
-                          ((is_vertex || is_face) && axis_of(property.name, kNormal) >= 0);
+    const bool computed = (is_vertex && index_in(kCoordinates, property.name) >= 0) ||
+                          ((is_vertex || is_face) && index_in(kNormal, property.name) >= 0);
     return computed && !property.is_list() ? PlyType::Double : property.type;
 }
 
-/// Replaces coordinates by `positions`, unless null, and normals by `normals` where not zero.
-void write_rows(std::ostream& out, const PlyElement& element, const Points* positions,
-                const Points& normals) {
-    const auto write_field = [&](std::size_t row, const PlyProperty& property,
-                                 std::string_view bytes) {
-        if (property.is_list() || written_type(element, property) != PlyType::Double) {
-            out << bytes;
-            return;
-        }
-        double number = number_at(bytes.data(), property.type);
-        const int coordinate = positions ? axis_of(property.name, kCoordinates) : -1;
-        const int normal = normals.empty() ? -1 : axis_of(property.name, kNormal);
-        if (coordinate >= 0) number = (*positions)[row][coordinate];
-        if (normal >= 0 && !normals[row].isZero(0)) number = normals[row][normal];
-        out.write(reinterpret_cast<const char*>(&number), sizeof number);
-    };
-    element.for_each_field(write_field);
-}
-
-constexpr std::string_view kTexture = "comment TextureFile ";
-
-bool names_texture(const std::string& comment) {
-    return comment.compare(0, kTexture.size(), kTexture) == 0;
-}
-
-}  // namespace
-
-PlyDocument::PlyDocument(PlyTable table)
-    : table_(std::move(table)),
-      positions_(read_positions(element_with_rows(table_, "vertex", "vertices"))),
-      polygons_(read_polygons(element_with_rows(table_, "face", "faces; a surface is needed"),
-                              positions_.size())) {}
-
-bool PlyDocument::has_normals() const {
-    return holds_vector(vertices(), kNormal) || holds_vector(faces(), kNormal);
-}
-
-std::vector<std::string> PlyDocument::textures() const {
-    std::vector<std::string> names;
-    for (const std::string& comment : table_.comments) {
-        if (names_texture(comment)) names.push_back(comment.substr(kTexture.size()));
-    }
-    return names;
-}
-
-void PlyDocument::write(std::ostream& out, const Points& positions,
-                        const FolderChange& change) const {
-    write_header(out, change);
-    for (const PlyElement& element : table_.elements) {
-        if (element.name == "vertex") {
-            write_rows(out, element, &positions, vertex_normals(positions));
-        } else if (element.name == "face") {
-            write_rows(out, element, nullptr, face_normals(positions));
-        } else {
-            out << element.rows;
-        }
-    }
-}
-
-void PlyDocument::write_header(std::ostream& out, const FolderChange& change) const {
+void write_header(std::ostream& out, const PlyTable& table, const FolderChange& change) {
     out << "ply\nformat binary_little_endian 1.0\n";
-    for (const std::string& comment : table_.comments) {
+    for (const std::string& comment : table.comments) {
         if (names_texture(comment)) {
             out << kTexture << change.relocate(comment.substr(kTexture.size())) << '\n';
         } else {
             out << comment << '\n';
         }
     }
-    for (const PlyElement& element : table_.elements) {
+    for (const PlyElement& element : table.elements) {
         out << "element " << element.name << ' ' << element.count << '\n';
         for (const PlyProperty& property : element.properties) {
             out << "property ";
@@ -164,22 +136,139 @@ void PlyDocument::write_header(std::ostream& out, const FolderChange& change) co
     out << "end_header\n";
 }
 
-Points PlyDocument::vertex_normals(const Points& positions) const {
-    if (!holds_vector(vertices(), kNormal)) return {};
-    return normals_where_corners_meet(positions, polygons_, polygons_.corners, positions.size());
-}
-
-Points PlyDocument::face_normals(const Points& positions) const {
-    if (!holds_vector(faces(), kNormal)) return {};
+Points face_normals(const Points& positions, const Polygons& polygons) {
     Points normals;
-    for (std::size_t i = 0; i < polygons_.size(); ++i) {
-        normals.push_back(area_vector(positions, polygons_, i).stableNormalized());
+    for (std::size_t i = 0; i < polygons.size(); ++i) {
+        normals.push_back(area_vector(positions, polygons, i).stableNormalized());
     }
     return normals;
 }
 
-std::unique_ptr<MeshDocument> parse_ply(std::string_view content) {
+/// Writes the rows of an element with coordinates from `positions`, unless null, and normals from
+/// `normals`, unless empty; a zero normal keeps the old one.
+void write_rows(std::ostream& out, const PlyElement& element, const Points* positions,
+                const Points& normals) {
+    const auto write_field = [&](std::size_t row, const PlyProperty& property,
+                                 std::string_view bytes) {
+        if (property.is_list() || written_type(element, property) != PlyType::Double) {
+            out << bytes;
+            return;
+        }
+        double number = number_at(bytes.data(), property.type);
+        const int coordinate = positions ? index_in(kCoordinates, property.name) : -1;
+        const int normal = normals.empty() ? -1 : index_in(kNormal, property.name);
+        if (coordinate >= 0) number = (*positions)[row][coordinate];
+        if (normal >= 0 && !normals[row].isZero(0)) number = normals[row][normal];
+        out.write(reinterpret_cast<const char*>(&number), sizeof number);
+    };
+    element.for_each_field(write_field);
+}
+
+}  // namespace
+
+PlyDocument::PlyDocument(PlyTable table) : table_(std::move(table)) {
+    positions_ = read_positions(element_with_rows(table_, "vertex", "vertices"));
+    polygons_ = read_polygons(element_with_rows(table_, "face", "faces; a surface is needed"),
+                              positions_.size());
+}
+
+std::vector<Color> PlyDocument::vertex_colors() const {
+    std::vector<Color> colors;
+    vertices().for_each_field(
+        [&](std::size_t row, const PlyProperty& property, std::string_view bytes) {
+            const int channel = channel_of(property);
+            if (channel < 0) return;
+            colors.resize(vertices().count, kWhite);
+            colors[row][static_cast<std::size_t>(channel)] =
+                static_cast<std::uint8_t>(number_at(bytes.data(), property.type));
+        });
+    return colors;
+}
+
+std::vector<std::string> PlyDocument::extras() const {
+    std::vector<std::string> extras;
+    const auto is_position_or_color = [](const PlyProperty& property) {
+        return index_in(kCoordinates, property.name) >= 0 || channel_of(property) >= 0;
+    };
+    append_properties(vertices(), " of vertices", is_position_or_color, extras);
+    const auto is_list_of_corners = [indices = find_indices(faces())](const PlyProperty& property) {
+        return &property == indices;
+    };
+    append_properties(faces(), " of faces", is_list_of_corners, extras);
+    for (const PlyElement& element : table_.elements) {
+        if (element.name != "vertex" && element.name != "face") extras.push_back(element.name);
+    }
+    const auto& comments = table_.comments;
+    if (std::any_of(comments.begin(), comments.end(), names_texture))
+        extras.emplace_back("textures");
+    return extras;
+}
+
+void PlyDocument::write(std::ostream& out, const Points& positions,
+                        const FolderChange& change) const {
+    std::optional<PlyTable> with_quality;
+    if (!quality().empty()) {
+        with_quality = table_;
+        for (PlyElement& element : with_quality->elements) {
+            if (element.name == "vertex") element.set_numbers(kQuality, quality());
+        }
+    }
+    const PlyTable& table = with_quality ? *with_quality : table_;
+    write_header(out, table, change);
+    for (const PlyElement& element : table.elements) {
+        Points normals;
+        if (element.name == "vertex") {
+            if (has_normals(element)) {
+                normals = corner_normals(positions, polygons_, polygons_.corners, positions.size());
+            }
+            write_rows(out, element, &positions, normals);
+        } else if (element.name == "face") {
+            if (has_normals(element)) normals = face_normals(positions, polygons_);
+            write_rows(out, element, nullptr, normals);
+        } else {
+            out << element.rows;
+        }
+    }
+}
+
+std::unique_ptr<FileDocument> parse_ply(std::string&& content) {
     return std::make_unique<PlyDocument>(parse_ply_table(content));
+}
+
+void convert_to_ply(std::ostream& out, const FileDocument& source, const Points& positions) {
+    const std::vector<Color> colors = source.vertex_colors();
+    const Polygons& polygons = source.polygons();
+    std::size_t most_corners = 0;
+    for (std::size_t i = 0; i < polygons.size(); ++i) {
+        most_corners = std::max(most_corners, polygons.corner_count(i));
+    }
+    // Most programs expect the length of the list in one byte.
+    const bool short_lists = most_corners < 256;
+    out << "ply\nformat binary_little_endian 1.0\nelement vertex " << positions.size() << '\n';
+    for (const std::string_view name : kCoordinates) out << "property double " << name << '\n';
+    for (const std::string_view name : kChannels) {
+        if (!colors.empty()) out << "property uchar " << name << '\n';
+    }
+    const std::vector<double>& quality = source.quality();
+    if (!quality.empty()) out << "property double " << kQuality << '\n';
+    out << "element face " << polygons.size() << "\nproperty list "
+        << (short_lists ? "uchar" : "int") << " int vertex_indices\nend_header\n";
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+        out.write(reinterpret_cast<const char*>(positions[i].data()), 3 * sizeof(double));
+        if (!colors.empty()) {
+            out.write(reinterpret_cast<const char*>(colors[i].data()), sizeof colors[i]);
+        }
+        if (!quality.empty()) {
+            out.write(reinterpret_cast<const char*>(&quality[i]), sizeof quality[i]);
+        }
+    }
+    for (std::size_t i = 0; i < polygons.size(); ++i) {
+        // In the little-endian order the first byte is the short length.
+        const auto count = static_cast<std::int32_t>(polygons.corner_count(i));
+        out.write(reinterpret_cast<const char*>(&count), short_lists ? 1 : sizeof count);
+        out.write(reinterpret_cast<const char*>(&polygons.corners[polygons.first[i]]),
+                  count * static_cast<std::streamsize>(sizeof(std::int32_t)));
+    }
 }
 
 }  // namespace tracked_mcf

@@ -1,81 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "filter_tracked_mcf/tool/documents/ply_table.h"
 
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <optional>
+#include <type_traits>
 #include <utility>
+#include <variant>
 
-#include "filter_tracked_mcf/tool/documents/number_text.h"
+#include "filter_tracked_mcf/tool/documents/text.h"
 #include "filter_tracked_mcf/tool/file_error.h"
 
 namespace tracked_mcf {
 
 namespace {
 
-struct TypeDescription {
-    PlyType type;
-    std::size_t size;
-    const char* name;
-    const char* other_name;
+/// A zero of any type that PLY has.
+using Zero = std::variant<std::int8_t, std::uint8_t, std::int16_t, std::uint16_t, std::int32_t,
+                          std::uint32_t, float, double>;
+
+/// A PlyType: its two names and its C++ type.
+struct Type {
+    const char *name, *other_name;
+    Zero zero;
 };
 
-constexpr std::array<TypeDescription, 9> kTypes = {{{PlyType::None, 0, "", ""},
-                                                    {PlyType::Int8, 1, "char", "int8"},
-                                                    {PlyType::UInt8, 1, "uchar", "uint8"},
-                                                    {PlyType::Int16, 2, "short", "int16"},
-                                                    {PlyType::UInt16, 2, "ushort", "uint16"},
-                                                    {PlyType::Int32, 4, "int", "int32"},
-                                                    {PlyType::UInt32, 4, "uint", "uint32"},
-                                                    {PlyType::Float, 4, "float", "float32"},
-                                                    {PlyType::Double, 8, "double", "float64"}}};
+constexpr std::array<Type, 9> kTypes = {{{"", "", double{}},
+                                         {"char", "int8", std::int8_t{}},
+                                         {"uchar", "uint8", std::uint8_t{}},
+                                         {"short", "int16", std::int16_t{}},
+                                         {"ushort", "uint16", std::uint16_t{}},
+                                         {"int", "int32", std::int32_t{}},
+                                         {"uint", "uint32", std::uint32_t{}},
+                                         {"float", "float32", float{}},
+                                         {"double", "float64", double{}}}};
 
-const TypeDescription& describe(PlyType type) {
-    return kTypes[static_cast<std::size_t>(type)];
+/// Calls visit with a zero of the C++ type of `type`, and returns what it returns.
+template <class Visit>
+auto with_type(PlyType type, Visit visit) {
+    return std::visit(visit, kTypes[static_cast<std::size_t>(type)].zero);
 }
 
-template <class Number>
-Number load(const char* bytes) {
-    Number number;
-    std::memcpy(&number, bytes, sizeof number);
-    return number;
-}
-
-template <class Number>
-void append(Number number, std::string& bytes) {
-    bytes.append(reinterpret_cast<const char*>(&number), sizeof number);
-}
-
-template <class Integer>
-void append_integer(std::string_view text, std::string& bytes) {
-    const std::int64_t number = parse_integer(text);
-    if (number < std::numeric_limits<Integer>::min() ||
-        number > std::numeric_limits<Integer>::max()) {
-        throw UnreadableFile(std::string(text) + " is too large for its property's type");
-    }
-    append(static_cast<Integer>(number), bytes);
-}
-
+/// Appends the number that `text` is, which must fit its type.
 void append_text(std::string_view text, PlyType type, std::string& bytes) {
-    switch (type) {
-        case PlyType::None:
-            return;
-        case PlyType::Int8:
-            return append_integer<std::int8_t>(text, bytes);
-        case PlyType::UInt8:
-            return append_integer<std::uint8_t>(text, bytes);
-        case PlyType::Int16:
-            return append_integer<std::int16_t>(text, bytes);
-        case PlyType::UInt16:
-            return append_integer<std::uint16_t>(text, bytes);
-        case PlyType::Int32:
-            return append_integer<std::int32_t>(text, bytes);
-        case PlyType::UInt32:
-            return append_integer<std::uint32_t>(text, bytes);
-        case PlyType::Float:
-            return append(static_cast<float>(parse_number(text)), bytes);
-        case PlyType::Double:
-            return append(parse_number(text), bytes);
-    }
+    with_type(type, [&](auto number) {
+        using Number = decltype(number);
+        if constexpr (std::is_integral_v<Number>) {
+            const std::int64_t wide = parse_integer(text);
+            number = static_cast<Number>(wide);
+            if (number != wide) {
+                throw UnreadableFile(std::string(text) + " is too large for its property's type");
+            }
+        } else {
+            number = static_cast<Number>(parse_number(text));
+        }
+        bytes.append(reinterpret_cast<const char*>(&number), sizeof number);
+    });
 }
 
 /// The part of the file that has not been read yet.
@@ -144,11 +125,9 @@ void read_rows(Content& content, Encoding encoding, PlyElement& element) {
     }
 }
 
-using Words = std::vector<std::string_view>;
-
 PlyType type_named(std::string_view name) {
-    for (const TypeDescription& type : kTypes) {
-        if (!name.empty() && (name == type.name || name == type.other_name)) return type.type;
+    for (std::size_t type = 1; type < kTypes.size(); ++type) {
+        if (name == kTypes[type].name || name == kTypes[type].other_name) return PlyType(type);
     }
     throw UnreadableFile("its header has the unknown type '" + std::string(name) + "'");
 }
@@ -190,9 +169,8 @@ std::pair<PlyTable, Encoding> parse_header(Content& content) {
     if (content.line().substr(0, 3) != "ply") {
         throw UnreadableFile("it is not a PLY file: it does not begin with 'ply'");
     }
-    std::pair<PlyTable, Encoding> header;
-    auto& [table, encoding] = header;
-    bool has_format = false;
+    PlyTable table;
+    std::optional<Encoding> encoding;
     for (;;) {
         std::string_view line = content.line();
         while (!line.empty() && line.back() == '\r') line.remove_suffix(1);
@@ -203,7 +181,6 @@ std::pair<PlyTable, Encoding> parse_header(Content& content) {
             table.comments.emplace_back(line);
         } else if (keyword == "format") {
             encoding = parse_format(words);
-            has_format = true;
         } else if (keyword == "element") {
             table.elements.push_back(parse_element(words, table));
         } else if (keyword == "property" && !table.elements.empty()) {
@@ -213,8 +190,8 @@ std::pair<PlyTable, Encoding> parse_header(Content& content) {
                                  std::string(line.substr(0, 40)) + "'");
         }
     }
-    if (!has_format) throw UnreadableFile("its header does not say in which format it is");
-    return header;
+    if (!encoding) throw UnreadableFile("its header does not say in which format it is");
+    return {std::move(table), *encoding};
 }
 
 template <class Range>
@@ -227,39 +204,48 @@ auto find_by_name(const Range& range, std::string_view name) {
 }  // namespace
 
 std::size_t size_of(PlyType type) {
-    return describe(type).size;
+    return with_type(type, [](auto number) { return sizeof number; });
 }
 
 const char* name_of(PlyType type) {
-    return describe(type).name;
+    return kTypes[static_cast<std::size_t>(type)].name;
 }
 
 double number_at(const char* bytes, PlyType type) {
-    switch (type) {
-        case PlyType::None:
-            break;
-        case PlyType::Int8:
-            return load<std::int8_t>(bytes);
-        case PlyType::UInt8:
-            return load<std::uint8_t>(bytes);
-        case PlyType::Int16:
-            return load<std::int16_t>(bytes);
-        case PlyType::UInt16:
-            return load<std::uint16_t>(bytes);
-        case PlyType::Int32:
-            return load<std::int32_t>(bytes);
-        case PlyType::UInt32:
-            return load<std::uint32_t>(bytes);
-        case PlyType::Float:
-            return load<float>(bytes);
-        case PlyType::Double:
-            return load<double>(bytes);
-    }
-    return 0;
+    return with_type(type, [bytes](auto number) {
+        std::memcpy(&number, bytes, sizeof number);
+        return static_cast<double>(number);
+    });
 }
 
 const PlyProperty* PlyElement::find(std::string_view property_name) const {
     return find_by_name(properties, property_name);
+}
+
+std::vector<double> PlyElement::numbers(std::string_view property_name) const {
+    const PlyProperty* const wanted = find(property_name);
+    std::vector<double> numbers;
+    if (!wanted || wanted->is_list()) return numbers;
+    numbers.reserve(count);
+    for_each_field([&](std::size_t, const PlyProperty& property, std::string_view bytes) {
+        if (&property == wanted) numbers.push_back(number_at(bytes.data(), property.type));
+    });
+    return numbers;
+}
+
+void PlyElement::set_numbers(std::string_view property_name, const std::vector<double>& numbers) {
+    const PlyProperty* const replaced = find(property_name);
+    std::string changed;
+    changed.reserve(rows.size() + sizeof(double) * count);
+    for_each_field([&](std::size_t row, const PlyProperty& property, std::string_view bytes) {
+        if (&property != replaced) changed += bytes;
+        if (&property != (replaced ? replaced : &properties.back())) return;
+        changed.append(reinterpret_cast<const char*>(&numbers[row]), sizeof(double));
+    });
+    rows = std::move(changed);
+    const PlyProperty number{std::string(property_name), PlyType::Double, PlyType::None};
+    if (!replaced) return properties.push_back(number);
+    properties[static_cast<std::size_t>(replaced - properties.data())] = number;
 }
 
 const PlyElement* PlyTable::find(std::string_view element_name) const {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include <cstddef>
@@ -13,7 +14,7 @@ enum class PlyType { None, Int8, UInt8, Int16, UInt16, Int32, UInt32, Float, Dou
 std::size_t size_of(PlyType type);
 const char* name_of(PlyType type);
 
-/// The number of type `type` that lies at `bytes`, in this machine's byte order.
+/// Returns the number of type `type` at `bytes`, in this machine's byte order.
 double number_at(const char* bytes, PlyType type);
 
 struct PlyProperty {
@@ -24,21 +25,28 @@ struct PlyProperty {
     bool is_list() const { return count_type != PlyType::None; }
 };
 
-/// The number of entries of a list that lies at `field`.
+/// Returns the number of entries of the list at `field`.
 inline std::size_t list_length(const PlyProperty& list, const char* field) {
     return static_cast<std::size_t>(number_at(field, list.count_type));
 }
 
-/// One kind of things in a PLY file, such as its vertices: `count` rows, packed one after the
-/// other.
+/// One kind of item in a PLY file, such as its vertices: `count` packed rows.
 struct PlyElement {
     std::string name;
     std::size_t count = 0;
     std::vector<PlyProperty> properties;
     std::string rows;
 
-    /// The property of that name, or null.
+    /// Returns the property of that name, or null.
     const PlyProperty* find(std::string_view property_name) const;
+
+    /// Returns one number per row: the property of that name. Empty if there is none or if it is a
+    /// list.
+    std::vector<double> numbers(std::string_view property_name) const;
+
+    /// Gives each row a Double of that name, in place of a property that has the name, or else
+    /// after all others.
+    void set_numbers(std::string_view property_name, const std::vector<double>& numbers);
 
     /// Calls visit(row, property, bytes) for every field: a number, or a list with its length.
     template <class Visit>
@@ -57,17 +65,17 @@ struct PlyElement {
     }
 };
 
-/// A PLY file as it is, whatever its properties mean; in memory as binary in the byte order of this
-/// machine, whatever its encoding was.
+/// A PLY file, whatever its properties mean. In memory it is binary in this machine's byte order,
+/// whatever its encoding was.
 struct PlyTable {
     std::vector<std::string> comments;  ///< lines that begin with "comment" or "obj_info"
     std::vector<PlyElement> elements;
 
-    /// The element of that name, or null.
+    /// Returns the element of that name, or null.
     const PlyElement* find(std::string_view element_name) const;
 };
 
-/// Throws UnreadableFile unless everything that the header announces is there.
+/// Parses a file. Throws UnreadableFile unless everything that the header announces is there.
 PlyTable parse_ply_table(std::string_view text);
 
 }  // namespace tracked_mcf

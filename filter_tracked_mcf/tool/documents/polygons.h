@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include <Eigen/Core>
@@ -5,11 +6,13 @@
 #include <cstdint>
 #include <vector>
 
+#include "filter_tracked_mcf/core/triangle_mesh.h"
+
 namespace tracked_mcf {
 
 using Points = std::vector<Eigen::Vector3d>;
 
-/// The faces of a file, of any number of corners: polygon i owns the corners first[i] to
+/// The faces of a file, with any number of corners each: polygon i has the corners first[i] to
 /// first[i + 1] - 1.
 struct Polygons {
     std::vector<std::int32_t> corners;  ///< vertex indices
@@ -18,17 +21,26 @@ struct Polygons {
     std::size_t size() const { return first.size() - 1; }
     std::size_t corner_count(std::size_t i) const { return first[i + 1] - first[i]; }
 
-    /// Makes a polygon of the corners added since the last one.
+    /// Ends a polygon: it has the corners added since the last call.
     void close() { first.push_back(corners.size()); }
 };
 
-/// The sum of the normals of a polygon's fan triangles, each as long as twice its area.
+/// Returns the triangles of all polygons in order; each polygon is a fan about its first corner.
+std::vector<Triangle> fans(const Polygons& polygons);
+
+/// Rotates the corners of each quadrangle so that fans() splits it as MeshLab's OFF reader does:
+/// along the diagonal that gives the better shaped triangles, unless that folds the surface or
+/// another quadrangle already uses this diagonal.
+void choose_diagonals(const Points& positions, Polygons& polygons);
+
+/// Returns the sum of the normals of a polygon's fan triangles, each twice as long as its area.
 Eigen::Vector3d area_vector(const Points& positions, const Polygons& polygons, std::size_t i);
 
-/// Unit normals of `count` places where corners meet: `place` says for every corner where it
-/// belongs, or -1. With the vertices as places these are area-weighted vertex normals; places that
-/// several faces of one vertex do not share keep a crease sharp. Zero where no face has an area.
-Points normals_where_corners_meet(const Points& positions, const Polygons& polygons,
-                                  const std::vector<std::int32_t>& place, std::size_t count);
+/// Returns `count` unit normals. Corner c contributes the area vector of its polygon to normal
+/// normal_of_corner[c], or to none if that is -1. One normal per vertex gives area-weighted vertex
+/// normals; a vertex with several normals keeps its crease sharp. A normal to which no area
+/// contributes is zero.
+Points corner_normals(const Points& positions, const Polygons& polygons,
+                      const std::vector<std::int32_t>& normal_of_corner, std::size_t count);
 
 }  // namespace tracked_mcf

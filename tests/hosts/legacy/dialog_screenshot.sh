@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
-# Works the filter's dialog in stock MeshLab 2020.09 as a person would and takes pictures on the way;
-# fails if the preview does not show the result, take it back, and agree with what Apply does:
-# xvfb-run -a -s "-screen 0 1360x1280x24" dialog_screenshot.sh PREFIX MESH OUT_DIR
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Operates the filter's dialog in MeshLab 2020.09 as a user would, and takes pictures. Fails unless the
+# preview shows the result, is undone again, and agrees with Apply:
+# xvfb-run -a -s "-screen 0 1920x1080x24" dialog_screenshot.sh PREFIX MESH OUT_DIR
 #
-# A dialog grows by itself to two thirds of the screen's height, hence a high screen: all help fits.
+# A dialog grows to two thirds of the screen's height: 720 pixels on this screen.
 set -euo pipefail
 
 source "$(dirname "$0")/../window.sh"
@@ -14,18 +15,18 @@ start_filter
 picture dialog
 surface before
 
-# The focus starts at Apply; Tab goes on to Default and Preview, and backwards to Close and Help.
+# The focus starts at Apply. Tab leads to Default and Preview, Shift+Tab to Close and Help.
 xdotool key shift+Tab shift+Tab space
 picture dialog_with_help
-# Were it as high as MeshLab lets it grow, nearly two thirds of this screen, help would be cut off.
-wait_for "the dialog fits a screen of 1280 by 960 with all of its help" smaller_than 1280 830
+# At its largest height, two thirds of this screen, the dialog would cut help off.
+wait_for "the dialog is not as high as it may be, so all help is readable" smaller_than 1280 720
 xdotool key space sleep 0.5 key Tab Tab Tab Tab space
 wait_for "the preview shows the result" unlike before
 wait_for "the filter logs what it did" grep -q "mean-curvature flow" "$out/log.txt"
 picture preview
 surface previewed
 xdotool key space
-wait_for "the preview is taken back" same_as before
+wait_for "the preview is undone" same_as before
 xdotool key shift+Tab shift+Tab space
 wait_for "Apply agrees with the preview" same_as previewed
 picture applied

@@ -1,11 +1,13 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Prints a MeshLab script that runs the filter: flow_script.sh [--select CONDITION] [NAME=VALUE]...
-# with the filter's defaults for parameters that are not named; a choice's value is its index. With
-# --select, MeshLab's "Conditional Face Selection" selects faces before, such as 'fnz > 0'.
+# Other parameters have the filter's defaults. The value of a choice is its index: order=1 is order 2.
+# With --select, MeshLab's "Conditional Face Selection" first selects the faces of a condition such as
+# 'fnz > 0'.
 set -euo pipefail
 
-declare -A is=([depth]=0 [step_size]=1e-05 [absolute]=false [iterations]=10 [flow]=0 [boundary]=0
-    [selected]=false [rescale]=0 [separate_sheets]=true [solver]=0)
+declare -A is=([detail_size]=0 [iterations]=3 [order]=0 [preserve]=0 [boundary]=0 [selected]=false
+    [quality]=0 [step_size]=0 [absolute]=false [depth]=0 [flow]=0 [separate_sheets]=true [solver]=0)
 condition=
 if [ "${1:-}" = --select ]; then
     condition=$(sed 's/&/\&amp;/g; s/</\&lt;/g; s/>/\&gt;/g' <<< "$2")
@@ -28,17 +30,23 @@ XML
 XML
 cat << XML
  <filter name="Mean Curvature Flow">
-  <Param type="RichInt" name="depth" value="${is[depth]}"/>
-  <Param type="RichFloat" name="step_size" value="${is[step_size]}"/>
-  <Param type="RichBool" name="absolute" value="${is[absolute]}"/>
+  <Param type="RichAbsPerc" name="detail_size" value="${is[detail_size]}" min="0" max="1"/>
   <Param type="RichInt" name="iterations" value="${is[iterations]}"/>
-  <Param type="RichEnum" name="flow" value="${is[flow]}" enum_cardinality="2"
-         enum_val0="Mean curvature" enum_val1="Conformalized"/>
+  <Param type="RichEnum" name="order" value="${is[order]}" enum_cardinality="4"
+         enum_val0="Flow (order 1)" enum_val1="Kept (order 2)" enum_val2="Kept better (order 3)"
+         enum_val3="Kept best (order 4)"/>
+  <Param type="RichEnum" name="preserve" value="${is[preserve]}" enum_cardinality="3"
+         enum_val0="None" enum_val1="Area" enum_val2="Volume"/>
   <Param type="RichEnum" name="boundary" value="${is[boundary]}" enum_cardinality="3"
          enum_val0="Locked" enum_val1="Locked cells (paper)" enum_val2="Free"/>
   <Param type="RichBool" name="selected" value="${is[selected]}"/>
-  <Param type="RichEnum" name="rescale" value="${is[rescale]}" enum_cardinality="3"
-         enum_val0="None" enum_val1="Keep area" enum_val2="Keep volume"/>
+  <Param type="RichEnum" name="quality" value="${is[quality]}" enum_cardinality="3"
+         enum_val0="Kept" enum_val1="Displacement" enum_val2="Mean curvature"/>
+  <Param type="RichFloat" name="step_size" value="${is[step_size]}"/>
+  <Param type="RichBool" name="absolute" value="${is[absolute]}"/>
+  <Param type="RichInt" name="depth" value="${is[depth]}"/>
+  <Param type="RichEnum" name="flow" value="${is[flow]}" enum_cardinality="2"
+         enum_val0="Mean curvature" enum_val1="Conformalized"/>
   <Param type="RichBool" name="separate_sheets" value="${is[separate_sheets]}"/>
   <Param type="RichEnum" name="solver" value="${is[solver]}" enum_cardinality="2"
          enum_val0="Converged" enum_val1="One W-cycle (paper)"/>

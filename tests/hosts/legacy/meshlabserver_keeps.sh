@@ -1,7 +1,9 @@
 #!/usr/bin/env bash
-# Gives an open mesh colours, qualities and texture coordinates, and smooths it with its boundary
-# locked, then only its faces that look up, in stock meshlabserver and with the command-line tool:
-# what is held must keep its bits, everything but positions must stay, and both must agree:
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Gives an open mesh colours, qualities and texture coordinates. Smooths it with a locked boundary, then
+# also preserves its volume, then smooths only its upward faces, in meshlabserver and with the
+# command-line tool. Constrained vertices must keep their bits, all data except positions must stay, and
+# the two results must agree:
 # meshlabserver_keeps.sh PREFIX TOOL MESH WORK_DIR
 set -euo pipefail
 
@@ -10,7 +12,7 @@ prefix=$1 tool=$2 mesh=$3 work=$4
 rm -rf "$work"
 mkdir -p "$work"
 
-meshlab() { # IN SCRIPT OUT WHAT: names without .ply and .mlx; what to save besides positions
+meshlab() { # IN SCRIPT OUT WHAT: names without .ply and .mlx; the attributes to save
     local in=$work/$1.ply
     [ "$1" != mesh ] || in=$mesh
     # shellcheck disable=SC2086 # WHAT is several words
@@ -26,7 +28,7 @@ check() { # BEFORE PLUGIN TOOL
     "$here/../check_kept.py" "$work/$1.ply" "$work/$3.ply"
     "$here/../compare_positions.py" "$work/$2.ply" "$work/$3.ply" "$work/$1.ply" 0.5
 }
-function_filter() { # NAME PARAMETER=VALUE...: one of MeshLab's filters that take functions
+function_filter() { # NAME PARAMETER=VALUE...: a filter of MeshLab that takes functions
     local type parameter
     echo " <filter name=\"$1\">"
     for parameter in "${@:2}"; do
@@ -36,7 +38,7 @@ function_filter() { # NAME PARAMETER=VALUE...: one of MeshLab's filters that tak
     done
     echo " </filter>"
 }
-dress_script() { # gives every vertex and face values of its own
+dress_script() { # gives each vertex and face its own values
     local plain=(normalize=false map=false onselected=false)
     echo "<!DOCTYPE FilterScript><FilterScript>"
     function_filter "Per Vertex Color Function" x="200*abs(sin(vi))" y="200*abs(cos(vi))" \
@@ -61,7 +63,17 @@ meshlab in locked plugin-locked "$looks"
 "$tool" "$work/in.ply" "$work/tool-locked.ply" "${options[@]}"
 check in plugin-locked tool-locked
 
-echo "== Faces that look up"
+echo "== Boundary locked, volume preserved"
+if "$tool" "$work/in.ply" "$work/tool-volume.ply" "${options[@]}" --preserve volume \
+    2> "$work/errors.txt"; then
+    "$here/flow_script.sh" "${settings[@]}" preserve=2 > "$work/volume.mlx"
+    meshlab in volume plugin-volume "$looks"
+    check in plugin-volume tool-volume
+else
+    grep "not oriented consistently" "$work/errors.txt"
+fi
+
+echo "== Upward faces"
 "$here/flow_script.sh" --select "fnz > 0" "${settings[@]}" > "$work/up.mlx"
 sed '/<filter name="Mean/,/<\/filter>/d' "$work/up.mlx" > "$work/select.mlx"
 meshlab in select in-up "$looks_and_flags"
@@ -69,7 +81,7 @@ meshlab in up plugin-up "$looks_and_flags"
 "$tool" "$work/in-up.ply" "$work/tool-up.ply" "${options[@]}" --selected flags
 check in-up plugin-up tool-up
 
-echo "== The same, from a file that holds the selection"
+echo "== The same, with the selection in the file"
 "$here/flow_script.sh" "${settings[@]}" selected=true > "$work/selected.mlx"
 meshlab in-up selected plugin-file "$looks_and_flags"
 cmp "$work/plugin-file.ply" "$work/plugin-up.ply"

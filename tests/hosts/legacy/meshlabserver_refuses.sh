@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Gives stock meshlabserver meshes and values that the filter must refuse: each time a message in
-# the log, a failure as exit code, and no output: meshlabserver_refuses.sh PREFIX WORK_DIR
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Passes invalid meshes and values to meshlabserver. For each, expects a message in the log, a failure as
+# exit code and no output file: meshlabserver_refuses.sh PREFIX WORK_DIR
 set -euo pipefail
 
 here=$(dirname "$(realpath "$0")")
@@ -12,6 +13,7 @@ off() { # NAME VERTICES FACES LINES...
 }
 square=("0 0 0" "1 0 0" "0 1 0" "1 1 0")
 off good 4 2 "${square[@]}" "3 0 1 2" "3 1 3 2"
+off twisted 4 2 "${square[@]}" "3 0 1 2" "3 1 2 3"
 off empty 0 0
 off no_faces 4 0 "${square[@]}"
 off nan 4 2 "${square[@]:0:3}" "1 nan 0" "3 0 1 2" "3 1 3 2"
@@ -37,20 +39,24 @@ refuses "mesh is empty" empty
 refuses "no faces" no_faces
 refuses "not a finite number" nan
 refuses "not a finite number" infinite
-refuses "faces are degenerate" degenerate
+refuses "are degenerate" degenerate
 refuses "depth is -1" good depth=-1
 refuses "depth is 13" good depth=13
 refuses "iterations is 0" good iterations=0
-refuses "step_size is 0" good step_size=0
+refuses "detail_size is -" good detail_size=-1
+refuses "detail_size is nan" good detail_size=nan
+refuses "detail_size is inf" good detail_size=inf
 refuses "step_size is -" good step_size=-1e-5
 refuses "step_size is nan" good step_size=nan
 refuses "step_size is nan" good step_size=nan absolute=true
 refuses "step_size is inf" good step_size=inf absolute=true
-for choice in flow=2 boundary=3 rescale=3 solver=2 flow=-1 boundary=-1 rescale=-1 solver=-1; do
+for choice in {order=4,flow=2,boundary=3,preserve=3,solver=2} \
+    {order,flow,boundary,preserve,solver}=-1; do
     refuses "${choice/=/ is }" good $choice
 done
 refuses "No face is selected; select" good selected=true
 refuses "No face is selected; select" good --select "x0 > 5"
-refuses "surface is open" good boundary=2 rescale=2
-refuses "rescale would move what is held" good rescale=1
+refuses "surface is open" good flow=1 boundary=2 preserve=2
+refuses "Preserving the area would move vertices that must stay" good preserve=1
+refuses "not oriented consistently" twisted preserve=2
 exit "$((failures > 0))"

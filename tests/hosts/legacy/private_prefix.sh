@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
-# Lays out a MeshLab of one's own that has the plugin, without touching the one that is installed:
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Makes a private MeshLab with the plugin, and does not change the installed MeshLab:
 # private_prefix.sh PREFIX MESHLAB_PLUGIN_DIR PLUGIN
 #
-# MeshLab looks for plugins relative to the place of its program alone, so the programs are copied
-# and everything else is linked.
+# MeshLab looks for plugins relative to its program. So the script copies the programs and links
+# everything else.
 set -euo pipefail
 
 prefix=$1 plugin_dir=$2 plugin=$(realpath "$3")

@@ -1,15 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include <QPluginLoader>
 
 #include "tests/hosts/host.h"
 
-// What host.cpp needs of MeshLab 2020.09.
+// The functions that host.cpp calls, for MeshLab 2020.09.
 namespace tracked_mcf::host {
 
 using FilterInterface = MeshFilterInterface;
 
-/// A plugin, loaded as this release does. Throws std::runtime_error if that fails.
+/// A plugin, loaded as in this release. Throws std::runtime_error if that fails.
 class PluginFile {
 public:
     explicit PluginFile(const std::string& file);
@@ -20,7 +21,7 @@ private:
     FilterInterface* filters_;
 };
 
-/// Of these this release knows nothing.
+/// This release has neither.
 inline std::string python_name(const FilterInterface&, const QAction*) {
     return "";
 }
@@ -30,7 +31,7 @@ inline std::string built_for(const FilterInterface&) {
 
 RichParameterList parameters_of(FilterInterface& filters, QAction* action, MeshDocument& document);
 
-/// Applies a filter; says how that ended, but for the log.
+/// Applies a filter and sets the outcome, except for its log.
 void run(FilterInterface& filters, QAction* action, MeshDocument& document,
          const RichParameterList& parameters, vcg::CallBackPos* callback, Outcome& outcome);
 

@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
-# Runs the filter in stock meshlabserver, as apply_filter does without a display:
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Runs the filter in meshlabserver, with the arguments of apply_filter after PREFIX:
 # smooth.sh PREFIX IN OUT [NAME=VALUE]...
 #
-# Prints the host's log; a failure has the filter's message in it.
+# Prints the host's log. After a failure, the log has the filter's message.
 set -euo pipefail
 
 here=$(dirname "$(realpath "$0")")

@@ -1,19 +1,21 @@
 #!/usr/bin/env bash
-# Works the filter's dialog in stock MeshLab 2022.02 or 2025.07 as a person would and takes pictures on
-# the way; fails if the preview does not show the result, take it back, and agree with what Apply does:
-# xvfb-run -a -s "-screen 0 1360x1280x24" dialog_screenshot.sh RELEASE PLUGIN MESH OUT_DIR [FILTER]
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Operates the filter's dialog in MeshLab 2022.02 or 2025.07 as a user would, and takes pictures. Fails
+# unless the preview shows the result, is undone again, and agrees with Apply:
+# xvfb-run -a -s "-screen 0 1920x1080x24" dialog_screenshot.sh RELEASE PLUGIN MESH OUT_DIR [FILTER]
 #
-# PLUGIN is put where MeshLab looks for a user's own; with none (''), FILTER is a smoother of MeshLab's.
-# The order in which Tab goes differs between the releases and after every click, so the mouse it is.
+# PLUGIN is copied to the folder of a user's plugins. If PLUGIN is '', FILTER is one of MeshLab's own
+# smoothers. The order of Tab differs between releases and changes after clicks, so the script uses the
+# mouse.
 set -euo pipefail
 
 source "$(dirname "$0")/../window.sh"
 release=$1 plugin=$2 mesh=$3 out=$(realpath -m "$4") filter=${5:-Mean Curvature Flow}
-case $release in # How far above the dialog's lower edge the box is.
+case $release in # Distance of the box from the dialog's lower edge.
     2022.02) preview_height=79 ;;
     *) preview_height=169 ;;
 esac
-click() { # X HEIGHT: from the dialog's left, or, if negative, right, and from its lower edge
+click() { # X HEIGHT: X from the left edge, or from the right if negative; HEIGHT from the lower edge
     eval "$(xdotool getwindowgeometry --shell "$dialog")"
     xdotool mousemove --window "$dialog" $(($1 < 0 ? WIDTH + $1 : $1)) $((HEIGHT - $2)) click 1
 }
@@ -30,10 +32,10 @@ start_filter
 picture dialog
 surface before
 
-wait_for "the dialog fits a screen of 1280 by 960" smaller_than 1280 960
+wait_for "the dialog fits a screen of 1280 by 960" smaller_than 1280 830
 click_help
-# It scrolls what does not fit, unless enlarged.
-xdotool windowsize --sync "$dialog" 600 930
+# The dialog scrolls, unless it is enlarged.
+xdotool windowsize --sync "$dialog" 600 720
 picture dialog_with_help
 click_help
 sleep 0.5
@@ -43,7 +45,7 @@ wait_for "MeshLab logs that the filter succeeded" grep -q "Applied filter:\? $fi
 picture preview
 surface previewed
 click_preview
-wait_for "the preview is taken back" same_as before
+wait_for "the preview is undone" same_as before
 click_apply
 wait_for "Apply agrees with the preview" same_as previewed
 picture applied

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Checks that a plugin names libmeshlab-common as needed: links_by_name.sh PLUGIN
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Checks that a plugin lists libmeshlab-common as a needed library: links_by_name.sh PLUGIN
 #
-# Without, PyMeshLab does not find the type information of the classes that it derives from.
+# Otherwise PyMeshLab does not find the type information of the plugin's base classes.
 set -euo pipefail
 readelf -d "$1" | grep 'NEEDED.*\[libmeshlab-common.so\]'

@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include <common/plugins/plugin_manager.h>
 
 #include "tests/hosts/host.h"
 
-// What host.cpp needs of MeshLab 2022.02 and later, and PyMeshLab.
+// The functions that host.cpp calls, for MeshLab 2022.02 and later and for PyMeshLab.
 namespace tracked_mcf::host {
 
 using FilterInterface = FilterPlugin;
@@ -24,7 +25,8 @@ std::string python_name(const FilterInterface& filters, const QAction* action);
 std::string built_for(const FilterInterface& filters);
 RichParameterList parameters_of(FilterInterface& filters, QAction* action, MeshDocument& document);
 
-/// Applies a filter; says how that ended, but for the log. Lets through what hosts would not catch.
+/// Applies a filter and sets the outcome, except for its log. Does not catch exceptions that hosts
+/// do not catch.
 void run(FilterInterface& filters, QAction* action, MeshDocument& document,
          const RichParameterList& parameters, vcg::CallBackPos* callback, Outcome& outcome);
 

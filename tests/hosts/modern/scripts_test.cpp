@@ -1,4 +1,5 @@
-// What MeshLab 2022.02 and later, and PyMeshLab with its scripts, get to know of the filter.
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The names and results of the filter in MeshLab 2022.02 and later, and in PyMeshLab scripts.
 
 #include <gtest/gtest.h>
 
@@ -16,7 +17,7 @@ const host::Filter& filter() {
     return filter;
 }
 
-TEST(Hosts, SeeWhichOfThemThePluginIsFor) {
+TEST(Hosts, GetTheReleaseAndPrecisionOfThePlugin) {
     EXPECT_EQ(filter().declaration().built_for, TRACKED_MCF_BUILT_FOR);
 }
 
@@ -24,7 +25,7 @@ TEST(Scripts, KnowTheFilterByItsName) {
     EXPECT_EQ(filter().declaration().python_name, "apply_coord_mean_curvature_flow");
 }
 
-TEST(Scripts, GetNumbersOfTypesThatReachThem) {
+TEST(Scripts, GetResultsOfTypesThatPythonKnows) {
     MeshDocument document;
     MeshModel& layer = host::add_layer(document, "layer");
     make_layer(layer);
@@ -35,18 +36,27 @@ TEST(Scripts, GetNumbersOfTypesThatReachThem) {
     const auto outputs = filter().apply(document, parameters).outputs;
 
     const auto type_of = [&](const char* name) { return outputs.at(name).type(); };
-    EXPECT_EQ(outputs.size(), 6u);
-    for (const char* name : {"depth", "steps", "unknowns"}) {
+    EXPECT_EQ(outputs.size(), 14u);
+    for (const char* name : {"depth", "steps", "unknowns", "stopped_early", "converged"}) {
         EXPECT_EQ(type_of(name), QVariant::Int) << name;
     }
-    for (const char* name : {"final_residual", "area_before", "area_after"}) {
+    for (const char* name :
+         {"detail_size", "step_size", "cell_size", "error_estimate", "largest_displacement",
+          "rms_displacement", "area_before", "area_after", "volume_change"}) {
         EXPECT_EQ(type_of(name), QVariant::Double) << name;
     }
     EXPECT_EQ(outputs.at("depth").toInt(), 5);
     EXPECT_EQ(outputs.at("steps").toInt(), 3);
     EXPECT_GT(outputs.at("unknowns").toInt(), 500);
-    EXPECT_GT(outputs.at("final_residual").toDouble(), 0);
-    EXPECT_LE(outputs.at("final_residual").toDouble(), 1e-3);
+    EXPECT_EQ(outputs.at("stopped_early").toInt(), 0);
+    EXPECT_EQ(outputs.at("converged").toInt(), 1);
+    EXPECT_NEAR(outputs.at("detail_size").toDouble(),
+                parameters.getParameterByName("detail_size").value().getFloat(), 1e-6);
+    EXPECT_GE(outputs.at("largest_displacement").toDouble(),
+              outputs.at("rms_displacement").toDouble());
+    EXPECT_NE(outputs.at("volume_change").toDouble(), 0);
+    EXPECT_GT(outputs.at("error_estimate").toDouble(), 0);
+    EXPECT_LE(outputs.at("error_estimate").toDouble(), 1e-3);
     EXPECT_NEAR(outputs.at("area_after").toDouble(),
                 vcg::tri::Stat<CMeshO>::ComputeMeshArea(layer.cm),
                 1e-4 * outputs.at("area_before").toDouble());

@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
-# Builds as much of MeshLab in double precision as a host of PyMeshLab's plugins needs, from the
-# sources of MeshLab 2025.07: double_meshlab.sh SOURCE_DIR BUILD_DIR
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Builds the parts of MeshLab 2025.07 that load PyMeshLab's plugins, in double precision:
+# double_meshlab.sh SOURCE_DIR BUILD_DIR
 #
-#   BUILD_DIR/lib/libmeshlab-common.so           what plugins link, of version 2025.07d
+#   BUILD_DIR/lib/libmeshlab-common.so           the library that plugins link, version 2025.07d
 #   BUILD_DIR/lib/plugins/libio_base.so          reads and writes PLY, OBJ, OFF and STL
 #   BUILD_DIR/lib/plugins/libfilter_unsharp.so   MeshLab's own smoothers, to compare with
 #
-# PyMeshLab's MeshLab computes with doubles, Debian's with floats, and neither loads the other's
-# plugins.
+# PyMeshLab's MeshLab uses doubles and Debian's uses floats. Neither loads the other's plugins.
 set -euo pipefail
 
 source_dir=${1:?usage: double_meshlab.sh SOURCE_DIR BUILD_DIR}
@@ -22,14 +22,14 @@ release=$(cat "$source_dir/ML_VERSION")
     exit 1
 }
 
-# A unity build takes a third of the time. Batches of eleven keep the two sources apart that include
-# GLExtensionsManager.h, which has no include guard.
+# A unity build takes a third of the time. GLExtensionsManager.h has no include guard; batches of eleven
+# separate the two sources that include it.
 unity=(-DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=11)
-# The source package leaves out libraries that MeshLab would download: optional ones are not looked
-# for in a mini build.
+# The source package lacks libraries that MeshLab would download. A mini build does not look for
+# optional libraries.
 parts=(-DMESHLAB_BUILD_MINI=ON -DMESHLAB_BUILD_ONLY_LIBRARIES=ON
     "-DMESHLAB_PLUGINS=meshlabplugins/io_base;meshlabplugins/filter_unsharp")
-# MeshLab's CMake wants the folders for installing too, though nothing is installed.
+# MeshLab's CMake requires the installation folders, although nothing is installed.
 folders=(-DMESHLAB_USE_DEFAULT_BUILD_AND_INSTALL_DIRS=OFF
     -DMESHLAB_LIB_OUTPUT_DIR="$build/lib" -DMESHLAB_PLUGIN_OUTPUT_DIR="$build/lib/plugins"
     -DMESHLAB_LIB_INSTALL_DIR=lib -DMESHLAB_PLUGIN_INSTALL_DIR=lib/plugins)

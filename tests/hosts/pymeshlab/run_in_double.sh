@@ -1,7 +1,9 @@
 #!/usr/bin/env bash
-# Builds a MeshLab of doubles and runs the host tests in it: run_in_double.sh BUILD_DIR [CMAKE_OPTION]...
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Builds MeshLab in double precision and runs the host tests in it:
+# run_in_double.sh BUILD_DIR [CMAKE_OPTION]...
 #
-# PyMeshLab itself, which no Debian package offers, is tested along if this Python has it.
+# The tests include PyMeshLab if this Python has it. No Debian package has PyMeshLab.
 set -euo pipefail
 
 here=$(dirname "$(realpath "$0")")

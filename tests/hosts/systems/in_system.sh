@@ -1,16 +1,17 @@
 #!/usr/bin/env bash
-# Runs a command in a Debian that lay_system.sh laid, as root there:
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Runs a command as root in a Debian that lay_system.sh has installed:
 # in_system.sh [-r FOLDER]... SYSTEM COMMAND...
 #
-# Inside are this project's sources and the folders of -r, to be read only, and the current directory,
-# all at the paths that they have outside. Of the environment OMP_NUM_THREADS and proxies get inside.
-# What is mounted, and whatever is still running, goes when the command ends.
+# The command sees the project's sources and the folders of -r, both read-only, and the current
+# directory, all at their usual paths. It gets OMP_NUM_THREADS and the proxies from the environment.
+# Mounts and remaining processes end with the command.
 set -euo pipefail
 
-if [ "${1:-}" != --unshared ]; then # Once more, where mounts and processes are its own.
+if [ "${1:-}" != --unshared ]; then # Restart with own mounts and processes.
     unshare --mount --pid --fork --kill-child "$0" --unshared "$@" <&0 &
     unshared=$!
-    trap 'kill -KILL $unshared 2> /dev/null || true' EXIT # It ignores weaker signals.
+    trap 'kill -KILL $unshared 2> /dev/null || true' EXIT # It ignores other signals.
     wait $unshared
     exit
 fi
@@ -40,5 +41,5 @@ environment=(HOME=/root USER=root LANG=C.UTF-8 PATH=/usr/local/sbin:/usr/local/b
 for name in TERM OMP_NUM_THREADS http_proxy https_proxy no_proxy; do
     [ -z "${!name:-}" ] || environment+=("$name=${!name}")
 done
-# Not exec: this shell, process 1 here, buries the orphans.
+# Not exec: this shell is process 1 here and must reap orphans.
 env -i "${environment[@]}" chroot "$system" env -C "$here" "$@"

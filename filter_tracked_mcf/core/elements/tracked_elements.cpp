@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "filter_tracked_mcf/core/elements/tracked_elements.h"
+
+#include <atomic>
+#include <limits>
+#include <utility>
+
+#include "filter_tracked_mcf/core/cells/bspline.h"
+#include "filter_tracked_mcf/core/cells/clip.h"
+#include "filter_tracked_mcf/core/cells/cubature.h"
+#include "filter_tracked_mcf/core/elements/curve_samples.h"
+#include "filter_tracked_mcf/core/errors.h"
+#include "filter_tracked_mcf/core/mesh/measures.h"
+#include "filter_tracked_mcf/core/mesh/weld.h"
+#include "filter_tracked_mcf/core/octree/sheet_links.h"
+#include "filter_tracked_mcf/core/octree/sheets.h"
+#include "filter_tracked_mcf/core/parallel/parallel.h"
+#include "filter_tracked_mcf/core/parallel/setup_phases.h"
+
+namespace tracked_mcf {
+
+namespace {
+
+/// The smallest element that contains each vertex. Being the smallest, it does not depend on the
+/// order in which threads claim the vertex.
+using Claims = std::vector<std::atomic<std::int32_t>>;
+
+constexpr std::int32_t kUnclaimed = std::numeric_limits<std::int32_t>::max();
+
+void claim(std::atomic<std::int32_t>& vertex, std::int32_t element) {
+    std::int32_t current = vertex.load(std::memory_order_relaxed);
+    while (element < current && !vertex.compare_exchange_weak(current, element)) {
+    }
+}
+
+/// Fills in the fragments, samples and vertices of TrackedElements whose levels are built.
+class ElementBuilder {
+public:
+    ElementBuilder(TrackedElements& elements, const Domain& domain, const GridMesh& mesh,
+                   const RawVector<FragmentEntry>& entries, const std::vector<CubatureNode>& rule)
+        : elements_(elements),
+          domain_(domain),
+          mesh_(mesh),
+          entries_(entries),
+          rule_(rule),
+          claims_(mesh.positions.size()) {
+        parallel_for_rows(static_cast<std::int64_t>(claims_.size()), [&](std::int32_t vertex) {
+            claims_[vertex].store(kUnclaimed, std::memory_order_relaxed);
+        });
+    }
+
+    void build() {
+        allocate();
+        parallel_for_blocks(elements_.finest().element_count(),
+                            [&](std::int64_t begin, std::int64_t end) {
+                                Pacer pacer;
+                                for (std::int64_t element = begin; element < end; ++element) {
+                                    fill_element(static_cast<std::int32_t>(element), pacer);
+                                }
+                            });
+        locate_vertices();
+    }
+
+private:
+    /// Allocates the samples. The number of an element's split triangles tells how many it has.
+    void allocate() {
+        const std::int32_t element_count = elements_.finest().element_count();
+        const auto entry_count = static_cast<std::int64_t>(entries_.size());
+        const auto samples_per_triangle = static_cast<std::int64_t>(rule_.size());
+        const auto sample_count = [&](std::int64_t element) {
+            std::int64_t split_triangles = 0;
+            for (std::int64_t i = elements_.fragment_begin[element];
+                 i < elements_.fragment_begin[element + 1]; ++i) {
+                split_triangles += static_cast<std::int64_t>(entries_[i].split_triangles);
+            }
+            return samples_per_triangle * split_triangles;
+        };
+        parallel_prefix_sum(element_count, sample_count, elements_.sample_begin);
+        const std::int64_t samples = elements_.sample_begin.back();
+        elements_.split_triangle_count = samples / samples_per_triangle;
+        elements_.fragment_count = parallel_count(
+            entry_count, [&](std::int64_t i) { return entries_[i].split_triangles > 0; });
+        elements_.fragments.resize(entries_.size());
+        elements_.samples.resize(samples);
+        elements_.meets_constrained_edge.assign(elements_.finest().cells.size(), 0);
+    }
+
+    void fill_element(std::int32_t element, Pacer& pacer) {
+        const Cell cell = cell_at(elements_.finest().cells[element]);
+        std::int64_t next_sample = elements_.sample_begin[element];
+        for (std::int64_t i = elements_.fragment_begin[element];
+             i < elements_.fragment_begin[element + 1]; ++i) {
+            claim_vertices(entries_[i], element);
+            if ((entries_[i].edges & domain_.constrained_edges()[entries_[i].triangle]) != 0)
+                elements_.meets_constrained_edge[element] = 1;
+            pacer.did(kItemsPerFragment);
+            if (entries_[i].split_triangles == 0) {
+                elements_.fragments[i] = {};
+                continue;
+            }
+            const auto corners = mesh_.corners(entries_[i].triangle);
+            const Polygon polygon = clip_to_cell(corners, cell);
+            const std::int64_t first_sample = next_sample;
+            for_each_node(polygon, corners, rule_, [&](const WeightedPoint& node) {
+                elements_.samples.set(next_sample++, node.point - cell.cast<double>(), node.weight);
+            });
+            const Eigen::Vector3f normal =
+                twice_vector_area(corners[0], corners[1], corners[2]).normalized().cast<float>();
+            elements_.fragments[i] = {{normal[0], normal[1], normal[2]},
+                                      static_cast<std::int32_t>(next_sample - first_sample)};
+        }
+    }
+
+    void claim_vertices(const FragmentEntry& entry, std::int32_t element) {
+        for (int i = 0; i < 3; ++i) {
+            if (has_bit(entry.corners, i))
+                claim(claims_[domain_.topology().triangles[entry.triangle][i]], element);
+        }
+    }
+
+    void locate_vertices() {
+        elements_.vertices.resize(mesh_.positions.size());
+        parallel_for_rows(
+            static_cast<std::int64_t>(mesh_.positions.size()), [&](std::int32_t vertex) {
+                // Coincident vertices take the location of the first, so that soups stay together.
+                const std::int32_t first = domain_.topology().welded[vertex];
+                const std::int32_t element = claims_[first].load(std::memory_order_relaxed);
+                if (element == kUnclaimed) return;
+                const Cell cell = cell_at(elements_.finest().cells[element]);
+                const Eigen::Vector3d position =
+                    elements_.grid.to_grid(mesh_.original.positions[first]);
+                elements_.vertices[vertex] = {element, position - cell.cast<double>()};
+            });
+    }
+
+    TrackedElements& elements_;
+    const Domain& domain_;
+    const GridMesh& mesh_;
+    const RawVector<FragmentEntry>& entries_;
+    const std::vector<CubatureNode>& rule_;
+    Claims claims_;
+};
+
+/// Groups the fragments into elements, sorts them by element, and builds the levels.
+void build_octree(TrackedElements& elements, const GridMesh& mesh, const MeshTopology& topology,
+                  RawVector<FragmentEntry>& entries, bool by_sheet) {
+    const int depth = elements.grid.depth;
+    FinestElements finest =
+        by_sheet ? separate_sheets(topology, entries) : one_element_per_cell(entries);
+    if (by_sheet) {
+        RawVector<Link> links = find_links(mesh, topology, entries, finest);
+        elements.levels = build_levels(std::move(finest.cells), std::move(links), depth);
+    } else {
+        elements.levels = build_levels(std::move(finest.cells), depth);
+    }
+    elements.fragment_begin = std::move(finest.fragment_begin);
+}
+
+void count_vertices(TrackedElements& elements, const std::vector<std::uint8_t>& referenced) {
+    const auto count = static_cast<std::int64_t>(referenced.size());
+    elements.referenced_vertex_count =
+        parallel_count(count, [&](std::int64_t vertex) { return referenced[vertex] != 0; });
+    elements.constrained_vertex_count = parallel_count(count, [&](std::int64_t vertex) {
+        return referenced[vertex] != 0 && elements.vertex_constrained[vertex] != 0;
+    });
+}
+
+}  // namespace
+
+TrackedElements build_tracked_elements(const Domain& domain, ClippedSurface surface,
+                                       Cubature cubature, bool separate_sheets) {
+    const std::size_t triangle_count = domain.surface().triangles.size();
+    if (surface.degenerate_count == static_cast<std::int64_t>(triangle_count)) {
+        throw InvalidMesh(
+            "All faces to be smoothed are degenerate: none has an area, or none that shows beside "
+            "the size of the mesh.");
+    }
+    TrackedElements elements;
+    elements.grid = surface.grid;
+    elements.degenerate_triangle_count = surface.degenerate_count;
+    elements.vertex_constrained = domain.constrained_vertices();
+    count_vertices(elements, referenced_vertices(domain.surface()));
+
+    enter_setup_phase(kBuildOctree);
+    build_octree(elements, surface.mesh, domain.topology(), surface.fragments, separate_sheets);
+    enter_setup_phase(kSampleSurface);
+    ElementBuilder(elements, domain, surface.mesh, surface.fragments, cubature_rule(cubature))
+        .build();
+    elements.curve_samples = sample_constrained_edges(elements, surface.mesh, surface.fragments,
+                                                      domain.constrained_edges());
+    return elements;
+}
+
+Coefficients identity_coefficients(const TrackedElements& elements) {
+    const Level& finest = elements.finest();
+    Coefficients coefficients(finest.unknown_count(), 3);
+    for (std::int32_t element = 0; element < finest.element_count(); ++element) {
+        const Cell cell = cell_at(finest.cells[element]);
+        for (int corner = 0; corner < 8; ++corner) {
+            coefficients.row(finest.unknowns[element][corner]) =
+                corner_of(cell, corner).cast<double>().transpose();
+        }
+    }
+    return coefficients;
+}
+
+Eigen::Vector3d evaluate_vertex(const TrackedElements& elements, const Coefficients& coefficients,
+                                const VertexLocation& vertex) {
+    const CornerValues values = bspline_values(vertex.local);
+    const auto& unknowns = elements.finest().unknowns[vertex.element];
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (int corner = 0; corner < 8; ++corner) {
+        sum += values[corner] * coefficients.row(unknowns[corner]).transpose();
+    }
+    return sum;
+}
+
+}  // namespace tracked_mcf

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "filter_tracked_mcf/core/cells/fragments.h"
+#include "filter_tracked_mcf/core/cells/grid.h"
+#include "filter_tracked_mcf/core/elements/samples.h"
+#include "filter_tracked_mcf/core/flow_parameters.h"
+#include "filter_tracked_mcf/core/mesh/domain.h"
+#include "filter_tracked_mcf/core/octree/octree.h"
+#include "filter_tracked_mcf/core/parallel/raw_vector.h"
+#include "filter_tracked_mcf/core/triangle_mesh.h"
+
+namespace tracked_mcf {
+
+/// A quadrature point on the part of a constrained edge in one element.
+struct CurveSample {
+    std::int32_t element;
+    Eigen::Vector3f local;     ///< local coordinates in its cell
+    Eigen::Vector3f conormal;  ///< unit vector in the triangle's plane, normal to the edge, outward
+    float weight;              ///< length of the initial edge that it stands for, grid units
+};
+
+/// The location of a vertex: a finest element and local coordinates in its cell.
+struct VertexLocation {
+    static constexpr std::int32_t kNoElement = -1;  ///< of vertices that no triangle uses
+    std::int32_t element = kNoElement;
+    Eigen::Vector3d local = Eigen::Vector3d::Zero();
+};
+
+/// Coefficients of a map from the surface to space, one row per unknown of the finest level.
+using Coefficients = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
+
+/// Everything that is computed once from the initial surface and then tracked (section 4.1): the
+/// octree, the test functions pulled back to the mesh, and the samples. It does not change during
+/// the flow. All lengths are in grid units.
+struct TrackedElements {
+    Grid grid;
+    std::vector<Level> levels;  ///< coarsest first
+
+    RawVector<Fragment> fragments;             ///< sorted by finest element
+    Samples samples;                           ///< sorted by fragment
+    std::vector<std::int64_t> fragment_begin;  ///< per finest element, and the end
+    std::vector<std::int64_t> sample_begin;    ///< per finest element, and the end
+
+    RawVector<VertexLocation> vertices;                ///< equal for coincident vertices
+    std::vector<std::uint8_t> vertex_constrained;      ///< per vertex: it keeps its bits
+    std::vector<std::uint8_t> meets_constrained_edge;  ///< per finest element
+    std::vector<CurveSample> curve_samples;            ///< sorted by finest element
+
+    std::int64_t split_triangle_count = 0;
+    std::int64_t fragment_count = 0;  ///< without fragments of degenerate triangles
+    std::int64_t referenced_vertex_count = 0;
+    std::int64_t constrained_vertex_count = 0;  ///< referenced ones
+    std::int64_t degenerate_triangle_count = 0;
+
+    const Level& finest() const { return levels.back(); }
+};
+
+/// Builds the octree over the domain's clipped surface, and computes its samples and the locations
+/// of its vertices; see FlowParameters for the options. Throws InvalidMesh if all triangles are
+/// degenerate.
+TrackedElements build_tracked_elements(const Domain& domain, ClippedSurface surface,
+                                       Cubature cubature, bool separate_sheets);
+
+/// Returns the coefficients of the identity, Σ (i, j, k) B_ijk(p) = p (section 5.3): the
+/// coefficient of each unknown is its corner.
+Coefficients identity_coefficients(const TrackedElements& elements);
+
+/// Returns the map with these coefficients at a vertex that has an element: the paper's
+/// EvaluateVertex (section 4.3).
+Eigen::Vector3d evaluate_vertex(const TrackedElements& elements, const Coefficients& coefficients,
+                                const VertexLocation& vertex);
+
+}  // namespace tracked_mcf

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "filter_tracked_mcf/core/cells/grid.h"
+#include "filter_tracked_mcf/core/elements/supports.h"
+#include "filter_tracked_mcf/core/elements/tracked_elements.h"
+#include "filter_tracked_mcf/core/flow_parameters.h"
+#include "filter_tracked_mcf/core/flow_report.h"
+#include "filter_tracked_mcf/core/mesh/domain.h"
+#include "filter_tracked_mcf/core/solver/step_solver.h"
+#include "filter_tracked_mcf/core/system/curve_constraint.h"
+#include "filter_tracked_mcf/core/system/pinches.h"
+#include "filter_tracked_mcf/core/system/stabilization.h"
+#include "filter_tracked_mcf/core/triangle_mesh.h"
+
+namespace tracked_mcf {
+
+/// A surface whose area is at most this fraction of its initial area has vanished.
+inline constexpr double kVanishedArea = 1e-3;
+
+/// A scaling about a point, in mesh units.
+struct Scaling {
+    Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+    double factor = 1;
+};
+
+/// A mean-curvature flow: set up once from the initial surface, then advanced step by step.
+///
+/// The tracked elements never change. A step changes only the displacement, the coefficients of
+/// X_t minus the identity.
+///
+/// Hosts call evolve(), which validates the input, reports progress and writes the result back.
+/// Flow is for callers that look at every step.
+class Flow {
+public:
+    /// Sets up a flow on `grid`, which must enclose the domain's surface. Without a grid, the flow
+    /// chooses the one that encloses this surface, at the depth that the parameters ask for.
+    ///
+    /// The mesh and the parameters must have passed validate(). The domain is not needed
+    /// afterwards. Throws InvalidMesh if all triangles are degenerate, and NotEnoughMemory if the
+    /// flow is expected not to fit into the free memory.
+    Flow(const Domain& domain, const FlowParameters& parameters,
+         const std::optional<Grid>& grid = {});
+
+    /// Sets up a flow of a mesh.
+    Flow(const TriangleMesh& mesh, const FlowParameters& parameters,
+         const std::optional<Grid>& grid = {});
+
+    Flow(const Flow&) = delete;
+    Flow& operator=(const Flow&) = delete;
+
+    /// Makes one step of equation 2: solves (D + δS) d = -δ S x(t) for the displacement
+    /// d = x(t+δ) - x(t), with the stabilisation and the constraints that the parameters ask for,
+    /// and adds d to the embedding. A step of order m solves m times, see FlowParameters::order.
+    ///
+    /// Returns false, without a step, if nothing is left to do; report().stop then says why. If the
+    /// previous step has left almost no area, that step is undone.
+    ///
+    /// Throws NumericalFailure if the solution is not finite, leaving the embedding as it was.
+    /// Throws what poll_progress() throws; the flow cannot be continued then.
+    bool step();
+
+    /// Undoes the last step and ends the flow, with `reason` as report().stop. Call it at most once
+    /// after a step.
+    void undo_step(Stop reason);
+
+    /// Scales the embedding of each connected component (components.h).
+    ///
+    /// The next step, if its order is 1, predicts the same scalings again and solves only for the
+    /// remainder. Otherwise the stabilisation, which penalises a change of thickness of the space
+    /// around the surface, and the functions that hardly meet the surface would distort the
+    /// embedding a little at each scaling.
+    void scale(const std::vector<Scaling>& components);
+
+    /// Returns the displacement z by which the last step answers a pressure of 1: the solution of
+    /// its system for the right-hand side ∫ B_I n, with the normal n before the step. In grid
+    /// units. Valid until the next step.
+    const Coefficients& pressure_response();
+
+    /// Adds z times a factor, given for each connected component, to the displacement.
+    void inflate(const std::vector<double>& factors);
+
+    /// Moves vertices from their initial positions to where the flow has brought them. `positions`
+    /// are those of the mesh that the flow was made from. Vertices that do not move keep their
+    /// bits.
+    void move_vertices(std::vector<Eigen::Vector3d>& positions) const;
+
+    /// Returns the velocity d/δ of the last step at each of `vertex_count` vertices, in 1 / mesh
+    /// units: that of a step of order 1, before anything is preserved. Zero at vertices that do not
+    /// move, and unless the parameters' quality asks for the mean curvature.
+    std::vector<Eigen::Vector3d> velocities(std::size_t vertex_count) const;
+
+    const FlowReport& report() const { return report_; }
+    const TrackedElements& elements() const { return elements_; }
+    /// Returns the connected component of each finest element.
+    const std::vector<std::int32_t>& component_of() const { return component_of_; }
+    /// Coefficients of X_t minus the identity, in grid units.
+    const Coefficients& displacement() const { return displacement_; }
+    /// Returns δ in squared sides of a finest cell; at most 1e5.
+    double step_size_in_cells() const { return step_size_in_cells_; }
+
+private:
+    /// The clipped surface, and the memory that the whole flow is expected to need.
+    struct Start;
+    static Start start(const Domain& domain, const FlowParameters& parameters,
+                       const std::optional<Grid>& grid);
+    Flow(const Domain& domain, const FlowParameters& parameters, Start start);
+
+    // The parts of a step, in order. n is the conormal and λ the multiplier of the curve
+    // constraint, C its matrix and u its displacement; N is the matrix of the stabilisation.
+    void assemble();                 // A = D + δS, b = -δ S x(t)
+    void add_curve_constraint();     // A += δη C, b += δ (n + λ) - δη C u
+    void stabilize();                // A += κ (δ + 0.1) N
+    void constrain_unknowns();       // constrained unknowns: zero rows and columns of A
+    void solve(StepReport& report);  // A d = b, and again for a greater order
+    void add();                      // x(t+δ) = x(t) + d
+
+    void solve(Solution& solution, StepReport& report);
+    bool ends_here(const StepReport& report);
+    bool constrains_curve() const { return parameters_.boundary != BoundaryCondition::LockedCells; }
+    const Supports& supports();
+    void fill_report(const Domain& domain);
+
+    /// Adds the displacement that the coefficients give each vertex that may move, in mesh units.
+    void add_at_vertices(const Coefficients& coefficients,
+                         std::vector<Eigen::Vector3d>& vectors) const;
+
+    FlowParameters parameters_;
+    FlowReport report_;
+    TrackedElements elements_;
+    std::vector<std::int32_t> component_of_;
+    double step_size_in_cells_;
+    std::unique_ptr<StepSolver> solver_;
+    Stabilization stabilization_;
+    std::optional<Supports> supports_;                       ///< measured when first needed
+    std::optional<VanishedComponents> vanished_components_;  ///< only in a conformalized flow
+    CurveConstraint curve_constraint_;
+    Coefficients displacement_;
+    Coefficients previous_;    ///< the displacement before the last step
+    Coefficients last_step_;   ///< d of order 1; empty unless the quality needs it
+    Coefficients prediction_;  ///< of the next step's d, after scale(); else empty
+
+    // Refilled at every step.
+    ElementSystems systems_;
+    std::vector<Solution> solutions_;  ///< one for each solve of a step; the last one is d
+    Solution pressure_response_;
+};
+
+}  // namespace tracked_mcf

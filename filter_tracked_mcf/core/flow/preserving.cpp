@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "filter_tracked_mcf/core/flow/preserving.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "filter_tracked_mcf/core/elements/components.h"
+#include "filter_tracked_mcf/core/errors.h"
+#include "filter_tracked_mcf/core/mesh/measures.h"
+#include "filter_tracked_mcf/core/mesh/mesh_topology.h"
+#include "filter_tracked_mcf/core/parallel/parallel.h"
+
+namespace tracked_mcf {
+
+namespace {
+
+/// A surface is flat if its volume is below this fraction of its area to the power 3/2. The
+/// fraction of a sphere is 0.09.
+constexpr double kFlat = 1e-9;
+
+/// The largest allowed ratio of a component's present size to its initial one.
+constexpr double kLargestGrowth = 4;
+
+/// The volume that a component has swept, relative to its area times its size. Newton's method
+/// takes it to the goal in a few steps, or to the rounding errors of a mesh far from the origin,
+/// unless the flow's step has changed the shape beyond recovery.
+constexpr double kSweptGoal = 1e-13, kSweptAtMost = 1e-7;
+constexpr int kMostNewtonSteps = 10;
+
+/// A component cannot move if a pressure moves it less than this fraction of what it moves a plane.
+constexpr double kImmovable = 1e-9;
+
+void check_no_constraints(const Domain& domain, const char* what) {
+    if (!domain.has_constraints()) return;
+    throw InvalidParameter(
+        std::string(what) +
+        " would move vertices that must stay: those of a boundary that is not free, and those of "
+        "unselected faces. Preserve the volume of a mean-curvature flow instead, or free the "
+        "boundary and select all faces.");
+}
+
+void check_oriented(const Domain& domain) {
+    if (is_oriented_consistently(domain.topology())) return;
+    throw InvalidMesh(
+        "The volume cannot be preserved because the faces are not oriented consistently: some "
+        "neighbours disagree about which side is inside. Re-orient all faces coherently first, or "
+        "preserve the area.");
+}
+
+void check_encloses_volume(const Domain& domain) {
+    if (domain.boundary_edge_count() > 0) {
+        throw InvalidMesh(
+            "A conformalized flow cannot preserve the volume because the surface is "
+            "open: " +
+            std::to_string(domain.boundary_edge_count()) +
+            " edges have only one face. Close the holes first, or preserve the "
+            "area.");
+    }
+    if (!bounds_volume(domain.topology()) ||
+        std::abs(enclosed_volume(domain.mesh())) <=
+            kFlat * std::pow(surface_area(domain.mesh()), 1.5)) {
+        throw InvalidMesh(
+            "The volume cannot be preserved because the surface encloses none; preserve the area "
+            "instead.");
+    }
+}
+
+bool scales(Preserve kind, FlowKind flow) {
+    return kind == Preserve::Area || flow == FlowKind::Conformalized;
+}
+
+}  // namespace
+
+void check_preservable(const Domain& domain, const FlowParameters& parameters) {
+    if (parameters.preserve == Preserve::None) return;
+    if (parameters.preserve == Preserve::Area) {
+        check_no_constraints(domain, "Preserving the area");
+        return;
+    }
+    check_oriented(domain);
+    if (!scales(parameters.preserve, parameters.flow)) return;
+    check_no_constraints(domain, "Preserving the volume of a conformalized flow");
+    check_encloses_volume(domain);
+}
+
+Preserver::Preserver(const Domain& domain, const FlowParameters& parameters, const Flow& flow)
+    : mesh_(domain.mesh()),
+      triangles_(domain.surface().triangles),
+      kind_(parameters.preserve),
+      flow_(parameters.flow) {
+    component_of_.reserve(triangles_.size());
+    for (const Triangle& triangle : triangles_) {
+        component_of_.push_back(flow.component_of()[flow.elements().vertices[triangle[0]].element]);
+    }
+    initial_ = measure(mesh_.positions);
+}
+
+std::vector<Preserver::Measures> Preserver::measure(
+    const std::vector<Eigen::Vector3d>& positions) const {
+    std::vector<Measures> components(
+        initial_.empty() ? 1 + *std::max_element(component_of_.begin(), component_of_.end())
+                         : initial_.size());
+    // Relative to a vertex, so that a surface far from the origin loses no digits.
+    const Eigen::Vector3d& near = mesh_.positions[triangles_.front()[0]];
+    for (Measures& component : components) component.centroid.setZero();
+    for (std::size_t i = 0; i < triangles_.size(); ++i) {
+        Measures& component = components[component_of_[i]];
+        const auto corners = corners_of(positions, triangles_[i]);
+        const Eigen::Vector3d normal = twice_vector_area(corners[0], corners[1], corners[2]) / 2;
+        component.area += normal.norm();
+        component.volume += (corners[0] - near).dot(normal) / 3;
+        component.swept += swept_volume(corners_of(mesh_.positions, triangles_[i]), corners);
+        for (const Eigen::Vector3d& corner : corners) {
+            component.centroid += normal.norm() / 3 * (corner - near);
+            component.box.extend(corner);
+        }
+    }
+    for (Measures& component : components) {
+        component.centroid = near + component.centroid / component.area;
+    }
+    return components;
+}
+
+std::vector<Eigen::Vector3d> Preserver::moved(const Flow& flow) const {
+    std::vector<Eigen::Vector3d> positions = mesh_.positions;
+    flow.move_vertices(positions);
+    return positions;
+}
+
+bool Preserver::restore(Flow& flow) {
+    std::vector<Eigen::Vector3d> positions = moved(flow);
+    const std::vector<Measures> present = measure(positions);
+    double area = 0, initial_area = 0;
+    for (std::size_t i = 0; i < present.size(); ++i) {
+        area += present[i].area;
+        initial_area += initial_[i].area;
+    }
+    if (!(area > kVanishedArea * initial_area)) {
+        flow.undo_step(Stop::Vanished);
+        return false;
+    }
+    if (scales(kind_, flow_)) {
+        flow.scale(scalings(present));
+    } else if (!restore_volumes(flow, std::move(positions))) {
+        flow.undo_step(Stop::NotPreserved);
+        return false;
+    }
+    if (blows_up(measure(moved(flow)), flow.report())) {
+        flow.undo_step(Stop::Pinched);
+        return false;
+    }
+    return true;
+}
+
+std::vector<Scaling> Preserver::scalings(const std::vector<Measures>& present) const {
+    std::vector<Scaling> scalings(present.size());
+    for (std::size_t i = 0; i < present.size(); ++i) {
+        const bool by_volume = kind_ == Preserve::Volume;
+        const double ratio =
+            by_volume ? initial_[i].volume / present[i].volume : initial_[i].area / present[i].area;
+        // The ratio is negative if a component has turned inside out.
+        const bool vanished = present[i].area <= kVanishedArea * initial_[i].area;
+        if (vanished || !(ratio > 0) || !std::isfinite(ratio)) continue;
+        scalings[i] = {present[i].centroid, by_volume ? std::cbrt(ratio) : std::sqrt(ratio)};
+    }
+    return scalings;
+}
+
+std::vector<Eigen::Vector3d> Preserver::velocities(const Flow& flow,
+                                                   const Coefficients& response) const {
+    const TrackedElements& elements = flow.elements();
+    std::vector<Eigen::Vector3d> velocities(mesh_.positions.size(), Eigen::Vector3d::Zero());
+    parallel_for_rows(static_cast<std::int64_t>(velocities.size()), [&](std::int32_t vertex) {
+        const VertexLocation& location = elements.vertices[vertex];
+        if (location.element == VertexLocation::kNoElement) return;
+        if (elements.vertex_constrained[vertex] != 0) return;
+        velocities[vertex] =
+            elements.grid.cell_size * evaluate_vertex(elements, response, location);
+    });
+    return velocities;
+}
+
+bool Preserver::restore_volumes(Flow& flow, std::vector<Eigen::Vector3d> positions) const {
+    const auto velocity = velocities(flow, flow.pressure_response());
+    std::vector<double> pressures(initial_.size(), 0);
+    double worst = 0;  // swept volume, relative
+    for (int step = 0; step <= kMostNewtonSteps; ++step) {
+        std::vector<double> swept(initial_.size(), 0), rate(initial_.size(), 0);
+        for (std::size_t i = 0; i < triangles_.size(); ++i) {
+            const Triangle& t = triangles_[i];
+            const auto initial = corners_of(mesh_.positions, t);
+            const auto present = corners_of(positions, t);
+            swept[component_of_[i]] += swept_volume(initial, present);
+            rate[component_of_[i]] += swept_volume_rate(initial, present, corners_of(velocity, t));
+        }
+        worst = 0;
+        std::vector<double> change(initial_.size(), 0);
+        for (std::size_t i = 0; i < initial_.size(); ++i) {
+            const double area = initial_[i].area;
+            if (std::abs(rate[i]) <= kImmovable * flow.report().cell_size * area) continue;
+            const double size = initial_[i].box.sizes().maxCoeff();
+            worst = std::max(worst, std::abs(swept[i]) / (area * size));
+            change[i] = -swept[i] / rate[i];
+        }
+        if (worst <= kSweptGoal || step == kMostNewtonSteps) break;
+        for (std::size_t i = 0; i < initial_.size(); ++i) pressures[i] += change[i];
+        for (std::size_t i = 0; i < positions.size(); ++i) {
+            const std::int32_t element = flow.elements().vertices[i].element;
+            if (element == VertexLocation::kNoElement) continue;
+            positions[i] += change[flow.component_of()[element]] * velocity[i];
+        }
+    }
+    if (!(worst <= kSweptAtMost)) return false;
+    flow.inflate(pressures);
+    return true;
+}
+
+/// Mean-curvature flow never makes a surface longer, and preserving keeps its solid parts within
+/// bounds. Threads that have pinched do not shrink with them, and so grow without bound.
+bool Preserver::blows_up(const std::vector<Measures>& present, const FlowReport& report) const {
+    if (flow_ == FlowKind::Conformalized) return false;
+    if (kind_ == Preserve::Area && report.steps.back().collapsed_samples == 0) return false;
+    for (std::size_t i = 0; i < present.size(); ++i) {
+        const double size = present[i].box.sizes().maxCoeff();
+        if (!(size <= kLargestGrowth * initial_[i].box.sizes().maxCoeff())) return true;
+    }
+    return false;
+}
+
+}  // namespace tracked_mcf

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "filter_tracked_mcf/core/flow/flow.h"
+#include "filter_tracked_mcf/core/flow_parameters.h"
+#include "filter_tracked_mcf/core/mesh/domain.h"
+#include "filter_tracked_mcf/core/triangle_mesh.h"
+
+namespace tracked_mcf {
+
+/// Throws InvalidParameter or InvalidMesh if the flow cannot preserve what the parameters ask for;
+/// see FlowParameters::preserve.
+void check_preservable(const Domain& domain, const FlowParameters& parameters);
+
+/// Restores the area or the volume of each connected component after each step of a flow.
+class Preserver {
+public:
+    /// Measures the domain's surface. The domain's mesh must outlive the preserver and keep its
+    /// positions, and `flow` must have been made from this domain.
+    Preserver(const Domain& domain, const FlowParameters& parameters, const Flow& flow);
+
+    /// Restores what is preserved after a step. Returns false, with that step undone, if the step
+    /// has left almost nothing, or only thin threads, or has changed the volume so much that no
+    /// pressure restores it. A component that has vanished, or that cannot move, stays as it is.
+    bool restore(Flow& flow);
+
+private:
+    /// Measures of a component, mesh units.
+    struct Measures {
+        double area = 0;
+        double volume = 0;         ///< enclosed, if the surface is closed
+        double swept = 0;          ///< between the initial and the present surface
+        Eigen::Vector3d centroid;  ///< of the surface; undefined without area
+        Eigen::AlignedBox3d box;
+    };
+
+    std::vector<Measures> measure(const std::vector<Eigen::Vector3d>& positions) const;
+    /// Moves the vertices to where the flow has brought them.
+    std::vector<Eigen::Vector3d> moved(const Flow& flow) const;
+    std::vector<Scaling> scalings(const std::vector<Measures>& present) const;
+    /// Adds to the displacement, for each component, the multiple of the pressure response that
+    /// takes the swept volume back to zero. `positions` are those after the step. Returns false,
+    /// without a change, if there is no such multiple.
+    bool restore_volumes(Flow& flow, std::vector<Eigen::Vector3d> positions) const;
+    /// Returns the velocities of the vertices under a pressure of 1.
+    std::vector<Eigen::Vector3d> velocities(const Flow& flow, const Coefficients& response) const;
+    bool blows_up(const std::vector<Measures>& present, const FlowReport& report) const;
+
+    const TriangleMesh& mesh_;
+    std::vector<Triangle> triangles_;         ///< those that flow
+    std::vector<std::int32_t> component_of_;  ///< per triangle
+    Preserve kind_;
+    FlowKind flow_;
+    std::vector<Measures> initial_;
+};
+
+}  // namespace tracked_mcf

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "filter_tracked_mcf/core/memory/memory_estimate.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "filter_tracked_mcf/core/cells/cubature.h"
+#include "filter_tracked_mcf/core/mesh/measures.h"
+#include "filter_tracked_mcf/core/mesh/mesh_topology.h"
+#include "filter_tracked_mcf/core/parallel/marks.h"
+#include "filter_tracked_mcf/core/parallel/parallel.h"
+
+namespace tracked_mcf {
+
+namespace {
+
+/// Bytes of a flow and of each of its items.
+struct BytesPer {
+    double flow;  ///< threads, program code
+    double vertex, fragment, sample;
+    double unknown, element;  ///< of all levels
+};
+
+// tests/unit/memory/calibrate.cpp measures the peaks of many flows and fits these numbers to them.
+// Run it again after a change of the data that a flow keeps.
+constexpr BytesPer kClipping = {0.9e6, 40, 56, 0, 0, 0};
+constexpr BytesPer kConverged = {1.5e6, 70, 51, 12, 12, 710};
+constexpr BytesPer kOneWCycle = {1.5e6, 70, 51, 12, 170, 600};
+/// Added if the area is preserved: positions and triangles, the prediction, and the corners of
+/// cells.
+constexpr BytesPer kArea = {0, 100, 0, 0, 0, 65};
+/// Added if the volume is preserved: positions, velocities and triangles, and the response.
+constexpr BytesPer kVolume = {0, 150, 0, 0, 30, 0};
+/// Added for orders above 1: the stiffness.
+constexpr BytesPer kStiffness = {0, 0, 0, 0, 0, 108};
+/// Added for each order above 1: a solution and its guess.
+constexpr BytesPer kSolution = {0, 0, 0, 0, 30, 0};
+
+double bytes_of(const BytesPer& bytes, const SurfaceSize& size, const ExpectedCounts& counts) {
+    return bytes.flow + bytes.vertex * size.vertices + bytes.fragment * counts.fragments +
+           bytes.sample * counts.samples + bytes.unknown * counts.all_unknowns +
+           bytes.element * counts.all_elements;
+}
+
+double box_sides(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
+    return (a.cwiseMax(b).cwiseMax(c) - a.cwiseMin(b).cwiseMin(c)).sum();
+}
+
+std::int64_t count_edges(const MeshTopology& topology) {
+    Marks used(topology.edge_count);
+    parallel_for_items(topology.edges, [&](const auto& edges) {
+        for (const std::int32_t edge : edges) {
+            if (edge != MeshTopology::kNoEdge) used.set(edge);
+        }
+    });
+    return used.count();
+}
+
+/// Sets the rim and the characteristic.
+void set_topology(const MeshTopology& topology, SurfaceSize& size) {
+    const auto triangles = static_cast<std::int64_t>(topology.triangles.size());
+    const auto has_area = [&](std::int64_t i) {
+        const auto& edges = topology.edges[i];
+        return std::count(edges.begin(), edges.end(), MeshTopology::kNoEdge) == 0;
+    };
+    const auto faces = static_cast<double>(parallel_count(triangles, has_area));
+    const auto edges = static_cast<double>(count_edges(topology));
+    const auto vertices = static_cast<double>(count_vertices(topology));
+    size.characteristic = std::max(0.0, vertices - edges + faces);
+    // An interior edge has two sides and a boundary edge has one. The rim takes the boundary edges
+    // to be as long as the others.
+    const double rim_edges = std::max(0.0, 2 * edges - 3 * faces);
+    const double mean_extents = 2 * size.extents / (3 * size.triangles);
+    size.rim = rim_edges * mean_extents;
+}
+
+struct LevelCounts {
+    double elements, unknowns;
+};
+
+/// Returns the expected counts of a level with cells of side `cell`.
+///
+/// The expected number of pieces of a surface in the cells is its characteristic, plus half the
+/// number of its rim's crossings with grid planes, plus the number of its crossings with grid
+/// lines. The supports of the unknowns are the cells of eight shifted grids with sides twice as
+/// long.
+LevelCounts level_counts(const SurfaceSize& size, double cell, int depth, double fragments,
+                         bool separate_sheets) {
+    const double rim = size.rim / cell;
+    const double shadows = size.shadows / (cell * cell);
+    LevelCounts counts{size.characteristic + rim / 2 + shadows,
+                       8 * size.characteristic + 2 * rim + 2 * shadows};
+    counts.elements = std::clamp(counts.elements, 1.0, fragments);
+    if (!separate_sheets) {
+        counts.elements = std::min(counts.elements, std::ldexp(1.0, 3 * depth));
+        counts.unknowns = std::min(counts.unknowns, std::pow(std::ldexp(1.0, depth) + 1, 3));
+    }
+    counts.unknowns = std::clamp(counts.unknowns, 8.0, 8 * counts.elements);
+    return counts;
+}
+
+}  // namespace
+
+SurfaceSize size_of(const Domain& domain) {
+    const TriangleMesh& surface = domain.surface();
+    const auto triangles = static_cast<std::int64_t>(surface.triangles.size());
+    const Eigen::Vector2d extents_and_shadows =
+        parallel_sum(triangles, Eigen::Vector2d(0, 0), [&](std::int64_t begin, std::int64_t end) {
+            Eigen::Vector2d sum(0, 0);
+            for (std::int64_t i = begin; i < end; ++i) {
+                const Triangle& t = surface.triangles[i];
+                sum[0] += box_sides(surface.positions[t[0]], surface.positions[t[1]],
+                                    surface.positions[t[2]]);
+                sum[1] += 0.5 * twice_vector_area(surface, t).lpNorm<1>();
+            }
+            return sum;
+        });
+    SurfaceSize size;
+    size.vertices = static_cast<double>(surface.positions.size());
+    size.triangles = static_cast<double>(triangles);
+    size.extents = extents_and_shadows[0];
+    size.shadows = extents_and_shadows[1];
+    set_topology(domain.topology(), size);
+    return size;
+}
+
+ExpectedCounts expected_counts(const SurfaceSize& size, const Grid& grid,
+                               const FlowParameters& parameters) {
+    ExpectedCounts counts;
+    for (int depth = 0; depth <= grid.depth; ++depth) {
+        const double cell = std::ldexp(grid.cell_size, grid.depth - depth);
+        const double extents = size.extents / cell;
+        const double shadows = size.shadows / (cell * cell);
+        // A triangle meets one cell, and another for each grid plane and each grid line that
+        // crosses it. The polygons have a corner for each corner of the triangle, two for each
+        // crossing of an edge and a plane, and four for each crossing of the triangle and a line. A
+        // polygon has two split triangles less than corners.
+        counts.fragments = size.triangles + extents + shadows;
+        counts.samples = (size.triangles + 2 * extents + 2 * shadows) *
+                         static_cast<double>(cubature_rule(parameters.cubature).size());
+        const LevelCounts level =
+            level_counts(size, cell, depth, counts.fragments, parameters.separate_sheets);
+        counts.elements = level.elements;
+        counts.unknowns = level.unknowns;
+        counts.all_elements += level.elements;
+        counts.all_unknowns += level.unknowns;
+    }
+    return counts;
+}
+
+double estimate_clip_bytes(const SurfaceSize& size, const Grid& grid,
+                           const FlowParameters& parameters) {
+    return bytes_of(kClipping, size, expected_counts(size, grid, parameters));
+}
+
+double estimate_flow_bytes(const SurfaceSize& size, const Grid& grid,
+                           const FlowParameters& parameters) {
+    const ExpectedCounts counts = expected_counts(size, grid, parameters);
+    const BytesPer& solver = parameters.solver == Solver::Converged ? kConverged : kOneWCycle;
+    double bytes = bytes_of(solver, size, counts);
+    if (parameters.preserve == Preserve::Area) bytes += bytes_of(kArea, size, counts);
+    if (parameters.preserve == Preserve::Volume) bytes += bytes_of(kVolume, size, counts);
+    if (parameters.order > 1) bytes += bytes_of(kStiffness, size, counts);
+    return bytes + (parameters.order - 1) * bytes_of(kSolution, size, counts);
+}
+
+}  // namespace tracked_mcf

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "filter_tracked_mcf/core/memory/process_memory.h"
+
+#include <algorithm>
+#include <fstream>
+#include <limits>
+#include <optional>
+
+#if __has_include(<sys/resource.h>)
+#include <sys/resource.h>
+#include <unistd.h>
+#endif
+
+namespace tracked_mcf {
+
+namespace {
+
+constexpr std::int64_t kUnlimited = std::numeric_limits<std::int64_t>::max();
+
+/// Returns the number that follows the word `name` in a file, or the file's first number if `name`
+/// is empty. Returns nothing if a word such as "max" stands in its place.
+std::optional<std::int64_t> number_in(const std::string& file, const std::string& name = "") {
+    std::ifstream stream(file);
+    std::string word;
+    while (word != name) {
+        if (!(stream >> word)) return {};
+    }
+    std::int64_t number = 0;
+    if (stream >> number) return number;
+    return {};
+}
+
+std::int64_t free_in_machine(const std::string& root) {
+    const std::string file = root + "/proc/meminfo";
+    const auto available = number_in(file, "MemAvailable:");
+    if (!available) return kUnlimited;
+    // A flow that swaps is slow, but it is allowed.
+    return std::int64_t{1024} * (*available + number_in(file, "SwapFree:").value_or(0));
+}
+
+/// The names of the files of a version of control groups.
+struct GroupFiles {
+    const char* mount;
+    const char* limit;
+    const char* use;
+    const char* inactive_files;  ///< in memory.stat: the part of the use that can be reclaimed
+};
+
+constexpr GroupFiles kVersion1 = {"/sys/fs/cgroup/memory", "memory.limit_in_bytes",
+                                  "memory.usage_in_bytes", "total_inactive_file"};
+constexpr GroupFiles kVersion2 = {"/sys/fs/cgroup", "memory.max", "memory.current",
+                                  "inactive_file"};
+
+std::int64_t free_in_folder(const std::string& folder, const GroupFiles& files) {
+    const auto limit = number_in(folder + "/" + files.limit);
+    const auto use = number_in(folder + "/" + files.use);
+    if (!limit || !use) return kUnlimited;
+    const auto reclaimable = number_in(folder + "/memory.stat", files.inactive_files);
+    return *limit - std::max<std::int64_t>(0, *use - reclaimable.value_or(0));
+}
+
+/// Returns the least of a control group and its parents. Inside a container, the path may be one
+/// outside of it that does not exist here; then the mount itself is the container's own group.
+std::int64_t free_in_group(const std::string& root, std::string path, const GroupFiles& files) {
+    const std::string mount = root + files.mount;
+    std::int64_t least = free_in_folder(mount, files);
+    while (!path.empty()) {
+        least = std::min(least, free_in_folder(mount + path, files));
+        const std::size_t parent_end = path.find_last_of('/');
+        path.resize(parent_end == std::string::npos ? 0 : parent_end);
+    }
+    return least;
+}
+
+std::int64_t free_in_groups(const std::string& root) {
+    std::int64_t least = kUnlimited;
+    std::ifstream groups(root + "/proc/self/cgroup");
+    // A line is NUMBER:CONTROLLERS:PATH, without controllers in version 2.
+    std::string number, controllers, path;
+    while (std::getline(groups, number, ':') && std::getline(groups, controllers, ':') &&
+           std::getline(groups, path)) {
+        if (controllers.empty()) least = std::min(least, free_in_group(root, path, kVersion2));
+        if (("," + controllers + ",").find(",memory,") != std::string::npos) {
+            least = std::min(least, free_in_group(root, path, kVersion1));
+        }
+    }
+    return least;
+}
+
+#if __has_include(<sys/resource.h>)
+/// Returns what a limit of this process leaves if `pages` count towards the limit.
+template <class Resource>
+std::int64_t free_under(Resource resource, std::int64_t pages) {
+    rlimit limit{};
+    if (getrlimit(resource, &limit) != 0 || limit.rlim_cur >= rlim_t{kUnlimited}) return kUnlimited;
+    return static_cast<std::int64_t>(limit.rlim_cur) - pages * sysconf(_SC_PAGESIZE);
+}
+
+std::int64_t free_in_process() {
+    std::ifstream statm("/proc/self/statm");
+    std::int64_t size = 0, resident = 0, shared = 0, text = 0, library = 0, data = 0;
+    if (!(statm >> size >> resident >> shared >> text >> library >> data)) return kUnlimited;
+    return std::min(free_under(RLIMIT_AS, size), free_under(RLIMIT_DATA, data));
+}
+#else
+std::int64_t free_in_process() {
+    return kUnlimited;
+}
+#endif
+
+std::int64_t known_or_zero(std::int64_t bytes) {
+    return bytes == kUnlimited ? 0 : std::max<std::int64_t>(1, bytes);
+}
+
+}  // namespace
+
+std::int64_t available_memory_by_files(const std::string& root) {
+    return known_or_zero(std::min(free_in_machine(root), free_in_groups(root)));
+}
+
+std::int64_t available_memory_bytes() {
+    const std::int64_t by_files = available_memory_by_files("");
+    return known_or_zero(std::min(by_files == 0 ? kUnlimited : by_files, free_in_process()));
+}
+
+std::int64_t peak_memory_bytes() {
+#if __has_include(<sys/resource.h>)
+    rusage usage{};
+    if (getrusage(RUSAGE_SELF, &usage) != 0) return 0;
+    return std::int64_t{1024} * usage.ru_maxrss;  // Linux counts in kilobytes
+#else
+    return 0;
+#endif
+}
+
+}  // namespace tracked_mcf

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace tracked_mcf {
+
+/// Returns how many bytes this process can still allocate: the least of the machine's free memory
+/// with its swap space, the limits of the control groups, and the process's own limits. At least 1,
+/// or 0 if the system does not report it.
+std::int64_t available_memory_bytes();
+
+/// Returns the same from the system's files alone, whose paths follow `root`: a test's folder or
+/// "".
+std::int64_t available_memory_by_files(const std::string& root);
+
+/// Returns the largest resident memory of this process so far, in bytes, or 0 if the system does
+/// not report it.
+std::int64_t peak_memory_bytes();
+
+}  // namespace tracked_mcf

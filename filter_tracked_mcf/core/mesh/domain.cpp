@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "filter_tracked_mcf/core/mesh/domain.h"
+
+#include <algorithm>
+#include <bitset>
+#include <numeric>
+#include <string>
+#include <utility>
+
+#include "filter_tracked_mcf/core/errors.h"
+#include "filter_tracked_mcf/core/mesh/measures.h"
+#include "filter_tracked_mcf/core/parallel/disjoint_sets.h"
+#include "filter_tracked_mcf/core/parallel/marks.h"
+#include "filter_tracked_mcf/core/parallel/parallel.h"
+
+namespace tracked_mcf {
+
+namespace {
+
+/// A triangle is a sliver if its area is at most this times its longest edge squared.
+constexpr double kSliver = 5e-9;
+
+bool any_set(const std::vector<std::uint8_t>& flags) {
+    return std::any_of(flags.begin(), flags.end(), [](auto flag) { return flag != 0; });
+}
+
+void check_selection(const TriangleMesh& mesh, const Selection& selection) {
+    if (selection.empty()) return;
+    if (selection.size() != mesh.triangles.size()) {
+        throw InvalidParameter("The selection is of " + std::to_string(selection.size()) +
+                               " triangles, but the mesh has " +
+                               std::to_string(mesh.triangles.size()) + ".");
+    }
+    if (!any_set(selection)) {
+        throw InvalidMesh(
+            "No face is selected; select the faces to smooth, or smooth the whole mesh.");
+    }
+}
+
+/// Returns the items of the selected triangles.
+template <class Items>
+Items selected_of(const Items& items, const Selection& selection) {
+    Items selected;
+    for (std::size_t i = 0; i < items.size(); ++i) {
+        if (selection[i] != 0) selected.push_back(items[i]);
+    }
+    return selected;
+}
+
+/// Returns, per edge of the mesh, whether an unselected triangle has it.
+std::vector<std::uint8_t> edges_of_unselected(const MeshTopology& topology,
+                                              const Selection& selection) {
+    std::vector<std::uint8_t> marked(static_cast<std::size_t>(topology.edge_count), 0);
+    for_each_edge(topology, [&](std::size_t triangle, int /*side*/, std::int32_t edge) {
+        if (selection[triangle] == 0) marked[edge] = 1;
+    });
+    return marked;
+}
+
+std::int64_t count_flags(const std::vector<std::uint8_t>& sides) {
+    return std::accumulate(sides.begin(), sides.end(), std::int64_t{0}, [](auto sum, auto flags) {
+        return sum + static_cast<std::int64_t>(std::bitset<3>(flags).count());
+    });
+}
+
+std::vector<std::uint8_t> find_slivers(const TriangleMesh& mesh) {
+    std::vector<std::uint8_t> slivers(mesh.triangles.size());
+    parallel_for_rows(static_cast<std::int64_t>(slivers.size()), [&](std::int32_t triangle) {
+        const auto& [a, b, c] = mesh.triangles[triangle];
+        slivers[triangle] =
+            is_thin({mesh.positions[a], mesh.positions[b], mesh.positions[c]}, kSliver) ? 1 : 0;
+    });
+    return slivers;
+}
+
+}  // namespace
+
+/// Constrains every side of the surface's triangles for which is_constrained(edge).
+template <class IsConstrained>
+void Domain::constrain_edges(const IsConstrained& is_constrained) {
+    for_each_edge(topology_, [&](std::size_t triangle, int side, std::int32_t edge) {
+        if (is_constrained(edge))
+            constrained_edges_[triangle] |= static_cast<std::uint8_t>(1 << side);
+    });
+}
+
+Domain::Domain(const TriangleMesh& mesh, const Selection& selection, BoundaryCondition boundary)
+    : mesh_(mesh) {
+    check_selection(mesh, selection);
+    topology_ = topology_of(mesh);
+    constrained_edges_ = boundary_edges(topology_);
+    std::vector<std::uint8_t> has_unselected_triangle;  // per edge
+    if (!selection.empty()) {
+        has_unselected_triangle = edges_of_unselected(topology_, selection);
+        restrict_to(selection);
+    }
+    boundary_edge_count_ = count_flags(constrained_edges_);
+    if (boundary == BoundaryCondition::Free)
+        constrained_edges_.assign(constrained_edges_.size(), 0);
+
+    if (!selection.empty())
+        constrain_edges([&](std::int32_t edge) { return has_unselected_triangle[edge] != 0; });
+    const std::vector<std::uint8_t> slivers = find_slivers(surface());
+    const bool any_slivers = any_set(slivers);
+    if (any_slivers) constrain_across_slivers(slivers);
+    constrain_vertices(selection);
+    if (any_slivers) leave_slivers_out(slivers);
+}
+
+void Domain::restrict_to(const Selection& selection) {
+    selected_ = TriangleMesh{mesh_.positions, selected_of(mesh_.triangles, selection)};
+    topology_.triangles = selected_of(topology_.triangles, selection);
+    topology_.edges = selected_of(topology_.edges, selection);
+    constrained_edges_ = selected_of(constrained_edges_, selection);
+}
+
+/// A sliver's edges lie on each other: if one of them is constrained, all of them are. Chains of
+/// slivers pass constraints on.
+void Domain::constrain_across_slivers(const std::vector<std::uint8_t>& slivers) {
+    DisjointSets joined(topology_.edge_count);
+    for (std::size_t triangle = 0; triangle < slivers.size(); ++triangle) {
+        if (slivers[triangle] == 0) continue;
+        std::int32_t previous = MeshTopology::kNoEdge;
+        for (const std::int32_t edge : topology_.edges[triangle]) {
+            if (edge == MeshTopology::kNoEdge) continue;
+            if (previous != MeshTopology::kNoEdge) joined.unite(previous, edge);
+            previous = edge;
+        }
+    }
+    const std::vector<std::int32_t> set_of = std::move(joined).representatives();
+    std::vector<std::uint8_t> constrained(set_of.size(), 0);
+    for_each_edge(topology_, [&](std::size_t triangle, int side, std::int32_t edge) {
+        if (has_bit(constrained_edges_[triangle], side)) constrained[set_of[edge]] = 1;
+    });
+    constrain_edges([&](std::int32_t edge) { return constrained[set_of[edge]] != 0; });
+}
+
+void Domain::constrain_vertices(const Selection& selection) {
+    const std::vector<std::int32_t>& welded = topology_.welded;
+    const auto count = static_cast<std::int64_t>(welded.size());
+    Marks constrained(count);
+    parallel_for_rows(static_cast<std::int64_t>(constrained_edges_.size()),
+                      [&](std::int32_t triangle) {
+                          for (int side = 0; side < 3; ++side) {
+                              if (!has_bit(constrained_edges_[triangle], side)) continue;
+                              constrained.set(topology_.triangles[triangle][side]);
+                              constrained.set(topology_.triangles[triangle][(side + 1) % 3]);
+                          }
+                      });
+    parallel_for_rows(static_cast<std::int64_t>(selection.size()), [&](std::int32_t triangle) {
+        if (selection[triangle] != 0) return;
+        for (const std::int32_t vertex : mesh_.triangles[triangle]) constrained.set(welded[vertex]);
+    });
+    constrained_vertices_.resize(welded.size());
+    parallel_for_rows(count, [&](std::int32_t vertex) {
+        constrained_vertices_[vertex] = constrained[welded[vertex]] ? 1 : 0;
+    });
+}
+
+/// A sliver has no reliable conormal, so its neighbours with area take over: where they constrain
+/// one of its edges, the sliver constrains none.
+void Domain::leave_slivers_out(const std::vector<std::uint8_t>& slivers) {
+    std::vector<std::uint8_t> by_neighbours(static_cast<std::size_t>(topology_.edge_count), 0);
+    for_each_edge(topology_, [&](std::size_t triangle, int side, std::int32_t edge) {
+        if (has_bit(constrained_edges_[triangle], side) && slivers[triangle] == 0)
+            by_neighbours[edge] = 1;
+    });
+    for_each_edge(topology_, [&](std::size_t triangle, int /*side*/, std::int32_t edge) {
+        if (slivers[triangle] != 0 && by_neighbours[edge] != 0) constrained_edges_[triangle] = 0;
+    });
+}
+
+bool Domain::has_constraints() const {
+    return any_set(constrained_vertices_);
+}
+
+}  // namespace tracked_mcf

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "filter_tracked_mcf/core/parallel/raw_vector.h"
+#include "filter_tracked_mcf/core/triangle_mesh.h"
+
+namespace tracked_mcf {
+
+/// The connectivity of a mesh. Coincident vertices count as one vertex, so a triangle soup has the
+/// connectivity of the mesh it was made from.
+///
+/// Side i of a triangle goes from its corner i to its corner (i + 1) % 3. Flags of a triangle's
+/// sides are bits of one number: bit i belongs to side i.
+struct MeshTopology {
+    static constexpr std::int32_t kNoEdge = -1;
+
+    std::vector<std::int32_t> welded;  ///< per vertex, see weld_coincident_vertices
+    RawVector<Triangle> triangles;     ///< per triangle: its welded vertices
+    /// Per triangle: the edge along each side, or kNoEdge if the side joins a vertex to itself. Any
+    /// number of triangles may share an edge.
+    RawVector<std::array<std::int32_t, 3>> edges;
+    /// Edges are numbered in the order of their smaller vertex, then of their larger one.
+    std::int32_t edge_count = 0;
+};
+
+/// Calls visit(triangle, side, edge) for all sides that are edges, triangle by triangle.
+template <class Visit>
+void for_each_edge(const MeshTopology& topology, const Visit& visit) {
+    for (std::size_t triangle = 0; triangle < topology.edges.size(); ++triangle) {
+        for (int side = 0; side < 3; ++side) {
+            const std::int32_t edge = topology.edges[triangle][side];
+            if (edge != MeshTopology::kNoEdge) visit(triangle, side, edge);
+        }
+    }
+}
+
+/// Returns whether bit `i` of a triangle's flags is set.
+constexpr bool has_bit(std::uint64_t flags, int i) {
+    return (flags >> static_cast<unsigned>(i) & 1U) != 0;
+}
+
+/// Returns the connectivity of a mesh that validate() accepts. Throws InvalidMesh if the mesh has
+/// more than 2147483647 edges.
+MeshTopology topology_of(const TriangleMesh& mesh);
+
+/// Returns the number of different vertices that the triangles use.
+std::int64_t count_vertices(const MeshTopology& topology);
+
+/// Returns, per triangle, flags of the sides on the boundary. A side is on the boundary if no other
+/// triangle has its edge. Copies of a triangle count as one triangle. Triangles with two equal
+/// vertices do not count: they have no boundary sides and close no boundary.
+std::vector<std::uint8_t> boundary_edges(const MeshTopology& topology);
+
+/// Returns whether the triangles of every edge pass along it as often in one direction as in the
+/// other, but for one triangle at most. The surface has two sides if they do.
+bool is_oriented_consistently(const MeshTopology& topology);
+
+/// Returns whether the triangles of every edge pass along it exactly as often in one direction as
+/// in the other. The volume inside the surface is well defined if they do.
+bool bounds_volume(const MeshTopology& topology);
+
+}  // namespace tracked_mcf

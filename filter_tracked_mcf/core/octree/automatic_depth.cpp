@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "filter_tracked_mcf/core/octree/automatic_depth.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "filter_tracked_mcf/core/flow_parameters.h"
+#include "filter_tracked_mcf/core/mesh/measures.h"
+#include "filter_tracked_mcf/core/octree/octree.h"
+#include "filter_tracked_mcf/core/parallel/parallel.h"
+#include "filter_tracked_mcf/core/parallel/setup_phases.h"
+#include "filter_tracked_mcf/core/parallel/sorting.h"
+
+namespace tracked_mcf {
+
+namespace {
+
+/// A surface of area A, in squared sides of a cell, has about 3 A unknowns.
+constexpr double kUnknownsPerArea = 3;
+
+/// Returns the depth at which a surface of this area is expected to have as many unknowns as
+/// vertices. The area says little about a surface much thinner than its box, so at least the area
+/// of a flat square is assumed.
+int expected_depth(const TriangleMesh& mesh, const Grid& cube, std::int64_t vertices) {
+    const double area = std::max(1.0, surface_area(mesh) / (cube.cell_size * cube.cell_size));
+    const double depth = 0.5 * std::log2(static_cast<double>(vertices) / (kUnknownsPerArea * area));
+    return static_cast<int>(std::lround(depth));
+}
+
+/// Returns the ancestors of sorted cells `levels` levels up, increasing, each once.
+std::vector<MortonCode> ancestors(const std::vector<MortonCode>& cells, int levels) {
+    const auto ancestor = [&](MortonCode cell) { return cell >> (3U * unsigned(levels)); };
+    return parallel_collect_if<MortonCode>(static_cast<std::int64_t>(cells.size()),
+                                           runs_by(cells, ancestor),
+                                           [&](std::int64_t i) { return ancestor(cells[i]); });
+}
+
+/// Returns the number of different corners of cells.
+std::int64_t count_corners(const std::vector<MortonCode>& cells) {
+    RawVector<MortonCode> corners(8 * cells.size());
+    parallel_for_rows(static_cast<std::int64_t>(cells.size()), [&](std::int32_t i) {
+        const Cell cell = cell_at(cells[i]);
+        for (int corner = 0; corner < 8; ++corner) {
+            corners[8 * std::int64_t{i} + corner] = morton_code(corner_of(cell, corner));
+        }
+    });
+    const auto code = [](MortonCode corner) { return corner; };
+    sort_by(corners, code);
+    return parallel_count(static_cast<std::int64_t>(corners.size()), runs_by(corners, code));
+}
+
+/// Clips a mesh and counts its unknowns at several depths.
+class UnknownCounter {
+public:
+    UnknownCounter(const TriangleMesh& mesh, const Grid& cube, int depth,
+                   const std::function<void(int)>& before_clipping)
+        : mesh_(mesh), cube_(cube), before_clipping_(before_clipping) {
+        clip(depth);
+    }
+
+    /// Clips again only for a depth greater than that of the last clipping: the cells of a coarser
+    /// grid are ancestors of those of a finer one.
+    std::int64_t unknowns_at(int depth) {
+        if (depth > clipped_->grid.depth) clip(depth);
+        return count_corners(ancestors(cells_, clipped_->grid.depth - depth));
+    }
+
+    ClippedSurface take(int depth) && {
+        if (depth != clipped_->grid.depth) clip(depth);
+        return std::move(*clipped_);
+    }
+
+private:
+    void clip(int depth) {
+        before_clipping_(depth);
+        clipped_.reset();  // two clipped surfaces at once would set the peak of memory use
+        clipped_.emplace(clip_to_grid(mesh_, with_depth(cube_, depth)));
+        cells_ = occupied_cells(clipped_->fragments);
+    }
+
+    const TriangleMesh& mesh_;
+    const Grid& cube_;
+    const std::function<void(int)>& before_clipping_;
+    std::optional<ClippedSurface> clipped_;
+    std::vector<MortonCode> cells_;
+};
+
+/// Returns the depth whose number of unknowns is nearest to `vertices`, starting the search at
+/// `first_depth`.
+int choose_depth(UnknownCounter& counter, int first_depth, std::int64_t vertices) {
+    constexpr std::int64_t not_counted = -1;
+    std::int64_t finer = not_counted;
+    int depth = first_depth;
+    std::int64_t unknowns = counter.unknowns_at(depth);
+    while (unknowns >= vertices && depth > 1) {
+        finer = unknowns;
+        unknowns = counter.unknowns_at(--depth);
+    }
+    while (unknowns < vertices && depth < kMaximumDepth) {
+        if (finer == not_counted) {
+            // The next depth has at least twice as many unknowns, so it would be farther off.
+            if (3 * unknowns >= 2 * vertices) return depth;
+            finer = counter.unknowns_at(depth + 1);
+        }
+        if (finer >= vertices) {
+            return vertices - unknowns <= finer - vertices ? depth : depth + 1;
+        }
+        ++depth;
+        unknowns = finer;
+        finer = not_counted;
+    }
+    return depth;
+}
+
+}  // namespace
+
+ClippedSurface clip_at_automatic_depth(const TriangleMesh& mesh, const Grid& cube,
+                                       std::int64_t vertices,
+                                       const std::function<void(int)>& before_clipping) {
+    if (!has_area(mesh, cube)) return clip_to_grid(mesh, with_depth(cube, 1));
+    // The search starts one depth below the expected one, but the mesh is clipped at the expected
+    // one, since that is most often the result.
+    const int expected = expected_depth(mesh, cube, vertices);
+    UnknownCounter counter(mesh, cube, std::clamp(expected, 1, kMaximumDepth), before_clipping);
+    const int depth = choose_depth(counter, std::clamp(expected - 1, 1, kMaximumDepth), vertices);
+    enter_setup_phase(kClipTriangles);
+    return std::move(counter).take(depth);
+}
+
+}  // namespace tracked_mcf

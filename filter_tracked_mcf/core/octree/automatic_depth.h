@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+#include "filter_tracked_mcf/core/cells/fragments.h"
+#include "filter_tracked_mcf/core/cells/grid.h"
+#include "filter_tracked_mcf/core/triangle_mesh.h"
+
+namespace tracked_mcf {
+
+/// Clips the mesh to `cube` (a grid of depth 0) at the depth, 1 to kMaximumDepth, whose number of
+/// unknowns without separate sheets is nearest to `vertices`. The depth is 1 if all triangles are
+/// degenerate.
+///
+/// The unknowns are counted at the depths that can decide, assuming that each depth has at least
+/// twice as many as the one before. `before_clipping` is called with each depth about to be clipped
+/// at, and may throw. Throws what clip_to_grid throws.
+ClippedSurface clip_at_automatic_depth(const TriangleMesh& mesh, const Grid& cube,
+                                       std::int64_t vertices,
+                                       const std::function<void(int)>& before_clipping);
+
+}  // namespace tracked_mcf

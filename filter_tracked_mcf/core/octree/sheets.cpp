@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "filter_tracked_mcf/core/octree/sheets.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "filter_tracked_mcf/core/parallel/disjoint_sets.h"
+#include "filter_tracked_mcf/core/parallel/parallel.h"
+
+namespace tracked_mcf {
+
+namespace {
+
+/// Returns elements that begin at the fragments i with begins(i).
+template <class Begins>
+FinestElements group_fragments(const RawVector<FragmentEntry>& fragments, const Begins& begins) {
+    const auto count = static_cast<std::int64_t>(fragments.size());
+    FinestElements elements;
+    elements.fragment_begin =
+        parallel_collect_if<std::int64_t>(count, begins, [](std::int64_t i) { return i; });
+    elements.cells.resize(elements.fragment_begin.size());
+    parallel_for_rows(static_cast<std::int64_t>(elements.cells.size()), [&](std::int32_t element) {
+        elements.cells[element] = fragments[elements.fragment_begin[element]].cell;
+    });
+    elements.fragment_begin.push_back(count);
+    return elements;
+}
+
+/// Finds the sheets of one cell at a time.
+class SheetFinder {
+public:
+    SheetFinder(const MeshTopology& topology, RawVector<FragmentEntry>& fragments)
+        : topology_(topology),
+          fragments_(fragments),
+          last_with_vertex_(topology.welded.size(), kNone),
+          last_with_edge_(static_cast<std::size_t>(topology.edge_count), kNone) {}
+
+    /// Sorts the fragments [begin, end) of a cell by sheet and flags the first fragment of each
+    /// sheet in `begins_sheet`.
+    void separate(std::int64_t begin, std::int64_t end, std::vector<std::uint8_t>& begins_sheet) {
+        begins_sheet[begin] = 1;
+        if (are_one_sheet(static_cast<std::int32_t>(begin), static_cast<std::int32_t>(end))) return;
+        labelled_.clear();
+        for (std::int64_t i = begin; i < end; ++i) {
+            const std::int32_t sheet = sheets_.find(static_cast<std::int32_t>(i - begin));
+            labelled_.emplace_back(sheet, fragments_[i]);
+        }
+        std::stable_sort(labelled_.begin(), labelled_.end(),
+                         [](const auto& a, const auto& b) { return a.first < b.first; });
+        for (std::int64_t i = begin; i < end; ++i) {
+            const auto& [sheet, fragment] = labelled_[i - begin];
+            fragments_[i] = fragment;
+            if (i > begin) begins_sheet[i] = sheet != labelled_[i - begin - 1].first ? 1 : 0;
+        }
+    }
+
+private:
+    static constexpr std::int32_t kNone = -1;
+
+    /// Joins the fragments [begin, end) of a cell in sheets_. Returns true, and stops, as soon as
+    /// they are one sheet.
+    bool are_one_sheet(std::int32_t begin, std::int32_t end) {
+        sheets_.reset(end - begin);
+        std::int32_t sheet_count = end - begin;
+        for (std::int32_t i = begin; i < end; ++i) {
+            if (sheet_count == 1) return true;
+            const FragmentEntry& fragment = fragments_[i];
+            const Triangle& vertices = topology_.triangles[fragment.triangle];
+            const auto& edges = topology_.edges[fragment.triangle];
+            for (int k = 0; k < 3; ++k) {
+                if (has_bit(fragment.corners, k)) {
+                    sheet_count -= join(last_with_vertex_[vertices[k]], i, begin, end);
+                }
+                if (has_bit(fragment.edges, k) && edges[k] != MeshTopology::kNoEdge) {
+                    sheet_count -= join(last_with_edge_[edges[k]], i, begin, end);
+                }
+            }
+        }
+        return sheet_count == 1;
+    }
+
+    /// Joins a fragment to `last`, the last fragment with the same vertex or edge, if that lies in
+    /// the same cell. Sets `last` to the fragment. Returns by how much the number of sheets fell.
+    int join(std::int32_t& last, std::int32_t fragment, std::int32_t cell_begin,
+             std::int32_t cell_end) {
+        const std::int32_t other = std::exchange(last, fragment);
+        if (other < cell_begin || other >= cell_end) return 0;
+        return sheets_.unite(other - cell_begin, fragment - cell_begin) ? 1 : 0;
+    }
+
+    const MeshTopology& topology_;
+    RawVector<FragmentEntry>& fragments_;
+    DisjointSets sheets_{0};  ///< of the cell's fragments, numbered from 0
+    std::vector<std::int32_t> last_with_vertex_;
+    std::vector<std::int32_t> last_with_edge_;
+    std::vector<std::pair<std::int32_t, FragmentEntry>> labelled_;
+};
+
+}  // namespace
+
+FinestElements one_element_per_cell(const RawVector<FragmentEntry>& fragments) {
+    return group_fragments(fragments,
+                           runs_by(fragments, [](const FragmentEntry& fragment) -> MortonCode {
+                               return fragment.cell;
+                           }));
+}
+
+FinestElements separate_sheets(const MeshTopology& topology, RawVector<FragmentEntry>& fragments) {
+    const FinestElements cells = one_element_per_cell(fragments);
+    std::vector<std::uint8_t> begins_sheet(fragments.size(), 0);
+    parallel_for_blocks_with(
+        static_cast<std::int64_t>(cells.cells.size()),
+        [&] { return SheetFinder(topology, fragments); },
+        [&](SheetFinder& finder, std::int64_t begin, std::int64_t end) {
+            Pacer pacer;
+            for (std::int64_t cell = begin; cell < end; ++cell) {
+                const std::int64_t first = cells.fragment_begin[cell];
+                const std::int64_t last = cells.fragment_begin[cell + 1];
+                finder.separate(first, last, begins_sheet);
+                pacer.did(last - first);
+            }
+        });
+    return group_fragments(fragments, [&](std::int64_t i) { return begins_sheet[i] != 0; });
+}
+
+}  // namespace tracked_mcf

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "filter_tracked_mcf/core/parallel/parallel.h"
+#include "filter_tracked_mcf/core/parallel/raw_vector.h"
+
+namespace tracked_mcf {
+
+/// A union-find structure over the numbers below a count. The smallest member represents a set, so
+/// the result does not depend on the order of the unions.
+class DisjointSets {
+public:
+    explicit DisjointSets(std::int32_t count) { reset(count); }
+
+    /// Starts again with `count` sets of one member each.
+    void reset(std::int32_t count) {
+        parents_.resize(static_cast<std::size_t>(count));
+        std::iota(parents_.begin(), parents_.end(), 0);
+    }
+
+    /// Returns the smallest member of the set of `member`.
+    std::int32_t find(std::int32_t member) {
+        while (parents_[member] != member) {
+            parents_[member] = parents_[parents_[member]];
+            member = parents_[member];
+        }
+        return member;
+    }
+
+    /// Unites the sets of a and b. Returns false if they were one set before.
+    bool unite(std::int32_t a, std::int32_t b) {
+        a = find(a);
+        b = find(b);
+        if (a < b) {
+            parents_[b] = a;
+        } else {
+            parents_[a] = b;
+        }
+        return a != b;
+    }
+
+    /// Returns find(member) of every member.
+    std::vector<std::int32_t> representatives() && {
+        // A parent is not larger than its child, so this loop has settled it already.
+        for (std::int32_t& parent : parents_) parent = parents_[parent];
+        return std::move(parents_);
+    }
+
+private:
+    std::vector<std::int32_t> parents_;  ///< invariant: parents_[i] <= i
+};
+
+/// A union-find structure that any number of threads may unite in at once. The smallest member
+/// represents a set, so the result does not depend on the order of the unions.
+class ConcurrentSets {
+public:
+    explicit ConcurrentSets(std::int32_t count) : parents_(static_cast<std::size_t>(count)) {
+        parallel_for_rows(count, [&](std::int32_t i) { parents_[i].store(i, kOrder); });
+    }
+
+    void unite(std::int32_t a, std::int32_t b) {
+        for (;;) {
+            a = find(a);
+            b = find(b);
+            if (a == b) return;
+            if (a > b) std::swap(a, b);
+            // Fails if another thread has linked the representative b to a parent meanwhile.
+            std::int32_t expected = b;
+            if (parents_[b].compare_exchange_weak(expected, a, kOrder)) return;
+        }
+    }
+
+    /// Returns the smallest member of the set of `member`. While other threads unite, the result
+    /// may be out of date.
+    std::int32_t find(std::int32_t member) {
+        std::int32_t parent = parents_[member].load(kOrder);
+        while (parent != member) {
+            const std::int32_t grandparent = parents_[parent].load(kOrder);
+            // An ancestor stays an ancestor, so other threads cannot make this store wrong.
+            if (grandparent != parent) parents_[member].store(grandparent, kOrder);
+            member = grandparent;
+            parent = parents_[member].load(kOrder);
+        }
+        return member;
+    }
+
+private:
+    /// Only the parents' values matter: no other data is published through them.
+    static constexpr std::memory_order kOrder = std::memory_order_relaxed;
+
+    RawVector<std::atomic<std::int32_t>> parents_;  ///< invariant: parents_[i] <= i
+};
+
+}  // namespace tracked_mcf

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "filter_tracked_mcf/core/parallel/parallel.h"
+
+#include <omp.h>
+
+namespace tracked_mcf {
+
+ThreadCountScope::ThreadCountScope(int threads) : previous_(omp_get_max_threads()) {
+    if (threads > 0) omp_set_num_threads(threads);
+}
+
+ThreadCountScope::~ThreadCountScope() {
+    omp_set_num_threads(previous_);
+}
+
+std::size_t thread_count() {
+    return static_cast<std::size_t>(omp_get_max_threads());
+}
+
+std::size_t thread_number() {
+    return static_cast<std::size_t>(omp_get_thread_num());
+}
+
+}  // namespace tracked_mcf

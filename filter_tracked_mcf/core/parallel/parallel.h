@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <numeric>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "filter_tracked_mcf/core/parallel/progress_meter.h"
+#include "filter_tracked_mcf/core/parallel/raw_vector.h"
+
+/// Parallel loops over the items of a mesh. All of them poll progress (progress_meter.h) at every
+/// block, and give the same bits for any number of threads.
+namespace tracked_mcf {
+
+/// Sets the number of OpenMP threads for loops that the calling thread starts during the scope's
+/// life; 0 leaves OpenMP's own choice. The destructor restores the number, since hosts use OpenMP
+/// too.
+class ThreadCountScope {
+public:
+    explicit ThreadCountScope(int threads);
+    ~ThreadCountScope();
+    ThreadCountScope(const ThreadCountScope&) = delete;
+    ThreadCountScope& operator=(const ThreadCountScope&) = delete;
+
+private:
+    int previous_;
+};
+
+/// Returns the largest number of threads of a loop that the caller starts.
+std::size_t thread_count();
+/// Returns the caller's index, from 0, among the threads of the current loop.
+std::size_t thread_number();
+
+/// Calls body(i) for every i in [0, count), in any order, and in parallel if `count` is at least
+/// `worth_threads`. After the first exception the loop skips the remaining bodies and rethrows it
+/// at the end, because an exception must not leave an OpenMP region. Every thread polls progress
+/// before each body, but only the calling thread can have a meter.
+template <class Body>
+void parallel_for(std::int64_t count, const Body& body, std::int64_t worth_threads = 2) {
+    std::exception_ptr failure;
+    std::atomic<bool> failed{false};
+#pragma omp parallel for schedule(dynamic, 1) if (count >= worth_threads)
+    for (std::int64_t i = 0; i < count; ++i) {
+        if (failed.load(std::memory_order_relaxed)) continue;
+        try {
+            poll_progress();
+            body(i);
+        } catch (...) {
+            if (!failed.exchange(true)) failure = std::current_exception();
+        }
+    }
+    if (failure) std::rethrow_exception(failure);
+}
+
+/// Items of a block. The size does not depend on the number of threads, so sums and lists that are
+/// joined in the order of the blocks have the same bits for any number of threads.
+inline constexpr std::int64_t kBlockSize = 1024;
+
+inline std::int64_t block_count(std::int64_t count) {
+    return (count + kBlockSize - 1) / kBlockSize;
+}
+
+/// Calls body(begin, end) for consecutive blocks that cover [0, count), in parallel.
+template <class Body>
+void parallel_for_blocks(std::int64_t count, const Body& body) {
+    parallel_for(block_count(count), [&](std::int64_t block) {
+        body(block * kBlockSize, std::min(count, (block + 1) * kBlockSize));
+    });
+}
+
+/// Blocks of light work that outweigh waking and joining threads.
+inline constexpr std::int64_t kBlocksWorthThreads = 16;
+
+/// Calls body(row) for every row in [0, count), in parallel if there are many. For light bodies.
+template <class Body>
+void parallel_for_rows(std::int64_t count, const Body& body) {
+    parallel_for(
+        block_count(count),
+        [&](std::int64_t block) {
+            const auto end = static_cast<std::int32_t>(std::min(count, (block + 1) * kBlockSize));
+            for (auto row = static_cast<std::int32_t>(block * kBlockSize); row < end; ++row) {
+                body(row);
+            }
+        },
+        kBlocksWorthThreads);
+}
+
+/// Calls body(item) for every item of a vector, in parallel if there are many. For light bodies.
+template <class Items, class Body>
+void parallel_for_items(const Items& items, const Body& body) {
+    parallel_for_rows(static_cast<std::int64_t>(items.size()),
+                      [&](std::int32_t i) { body(items[i]); });
+}
+
+/// Calls body(workspace, begin, end) for consecutive blocks that cover [0, count), in parallel.
+/// make() returns a workspace, one for each thread that gets a block. Results must not depend on
+/// the blocks that used a workspace before.
+template <class Make, class Body>
+void parallel_for_blocks_with(std::int64_t count, const Make& make, const Body& body) {
+    std::vector<std::optional<decltype(make())>> workspaces(thread_count());
+    parallel_for_blocks(count, [&](std::int64_t begin, std::int64_t end) {
+        auto& workspace = workspaces[thread_number()];
+        if (!workspace) workspace.emplace(make());
+        body(*workspace, begin, end);
+    });
+}
+
+/// Returns `zero` plus body(begin, end) of the blocks that cover [0, count), added in their order.
+template <class Value, class Body>
+Value parallel_sum(std::int64_t count, const Value& zero, const Body& body) {
+    std::vector<Value> sums(static_cast<std::size_t>(block_count(count)));
+    parallel_for_blocks(count, [&](std::int64_t begin, std::int64_t end) {
+        sums[begin / kBlockSize] = body(begin, end);
+    });
+    return std::accumulate(sums.begin(), sums.end(), zero);
+}
+
+/// Returns the sum of size(i) over each of the blocks that cover [0, count).
+template <class Number, class Size>
+std::vector<Number> block_sums(std::int64_t count, const Size& size) {
+    std::vector<Number> sums(static_cast<std::size_t>(block_count(count)), 0);
+    parallel_for_blocks(count, [&](std::int64_t begin, std::int64_t end) {
+        Number sum = 0;
+        for (std::int64_t i = begin; i < end; ++i) sum += static_cast<Number>(size(i));
+        sums[begin / kBlockSize] = sum;
+    });
+    return sums;
+}
+
+/// Returns how many i in [0, count) satisfy counted(i).
+template <class Counted>
+std::int64_t parallel_count(std::int64_t count, const Counted& counted) {
+    const auto sums = block_sums<std::int64_t>(count, counted);
+    return std::accumulate(sums.begin(), sums.end(), std::int64_t{0});
+}
+
+/// Calls body(begin, end, sum) for consecutive blocks that cover [0, count), in parallel; `sum` is
+/// the exclusive prefix sum of size(i) at `begin`. Returns the sum over all i.
+template <class Number, class Size, class Body>
+Number parallel_scan(std::int64_t count, const Size& size, const Body& body) {
+    std::vector<Number> sums = block_sums<Number>(count, size);
+    Number total = 0;
+    for (Number& sum : sums) total += std::exchange(sum, total);
+    parallel_for_blocks(count, [&](std::int64_t begin, std::int64_t end) {
+        body(begin, end, sums[begin / kBlockSize]);
+    });
+    return total;
+}
+
+/// Sets offsets[i], for i in [0, count], to the exclusive prefix sum: the sum of size(j) over j <
+/// i.
+template <class Number, class Allocator, class Size>
+void parallel_prefix_sum(std::int64_t count, const Size& size,
+                         std::vector<Number, Allocator>& offsets) {
+    offsets.resize(static_cast<std::size_t>(count) + 1);
+    offsets[count] =
+        parallel_scan<Number>(count, size, [&](std::int64_t begin, std::int64_t end, Number sum) {
+            for (std::int64_t i = begin; i < end; ++i) {
+                offsets[i] = sum;
+                sum += static_cast<Number>(size(i));
+            }
+        });
+}
+
+/// Returns the function that tells whether item i is the first of a run: the first item of all, or
+/// one whose key differs from that of the item before. The loops over runs below call it `begins`.
+/// `items` must outlive the function.
+template <class Items, class Key>
+auto runs_by(const Items& items, Key key) {
+    return [&items, key](std::int64_t i) { return i == 0 || key(items[i]) != key(items[i - 1]); };
+}
+
+/// Returns the first i in [begin, end) that satisfies begins(i), or `end`.
+template <class Begins>
+std::int64_t next_run(std::int64_t begin, std::int64_t end, const Begins& begins) {
+    while (begin < end && !begins(begin)) ++begin;
+    return begin;
+}
+
+/// Returns, for each block of [0, count) and for the end, the first item from there on that begins
+/// a run. Between two of these offsets are whole runs, about a block of items.
+template <class Begins>
+std::vector<std::int64_t> run_offsets(std::int64_t count, const Begins& begins) {
+    std::vector<std::int64_t> offsets(static_cast<std::size_t>(block_count(count)) + 1, count);
+    parallel_for_blocks(count, [&](std::int64_t begin, std::int64_t end) {
+        offsets[begin / kBlockSize] = next_run(begin, end, begins);
+    });
+    for (std::int64_t block = block_count(count) - 1; block >= 0; --block) {
+        const bool has_begin = offsets[block] < (block + 1) * kBlockSize;
+        if (!has_begin) offsets[block] = offsets[block + 1];
+    }
+    return offsets;
+}
+
+/// Calls body(begin, end) for ranges of whole runs that cover [0, count), in parallel; begins(i)
+/// says whether a run begins at item i. A body may change the items of its range: all ranges are
+/// known before the first body runs.
+template <class Begins, class Body>
+void parallel_for_runs(std::int64_t count, const Begins& begins, const Body& body) {
+    const std::vector<std::int64_t> offsets = run_offsets(count, begins);
+    parallel_for(block_count(count), [&](std::int64_t block) {
+        if (offsets[block] < offsets[block + 1]) body(offsets[block], offsets[block + 1]);
+    });
+}
+
+/// Calls body(first, last) for every run in [begin, end), in order.
+template <class Begins, class Body>
+void for_each_run(std::int64_t begin, std::int64_t end, const Begins& begins, const Body& body) {
+    for (std::int64_t first = begin, last = begin; first < end; first = last) {
+        last = next_run(first + 1, end, begins);
+        body(first, last);
+    }
+}
+
+/// Calls body(begin, end, out) for consecutive blocks that cover [0, count), in parallel; body
+/// appends to `out`, which starts empty. Returns all appended items in the order of the blocks.
+template <class Item, class Items = std::vector<Item>, class Body>
+Items parallel_collect(std::int64_t count, const Body& body) {
+    std::vector<std::vector<Item>> parts(static_cast<std::size_t>(block_count(count)));
+    // Each part is copied to exactly its size: together the parts may take most of the memory.
+    parallel_for_blocks_with(
+        count, [] { return std::vector<Item>(); },
+        [&](std::vector<Item>& part, std::int64_t begin, std::int64_t end) {
+            part.clear();
+            body(begin, end, part);
+            parts[begin / kBlockSize].assign(part.begin(), part.end());
+        });
+    const auto part_count = static_cast<std::int64_t>(parts.size());
+    std::vector<std::size_t> offsets;
+    parallel_prefix_sum(
+        part_count, [&](std::int64_t part) { return parts[part].size(); }, offsets);
+    Items all(offsets.back());
+    parallel_for(part_count, [&](std::int64_t part) {
+        std::copy(parts[part].begin(), parts[part].end(), all.begin() + offsets[part]);
+        std::vector<Item>().swap(parts[part]);
+    });
+    return all;
+}
+
+/// Returns value(i) for every i in [0, count) with chosen(i), in increasing order of i.
+template <class Item, class Items = std::vector<Item>, class Chosen, class Value>
+Items parallel_collect_if(std::int64_t count, const Chosen& chosen, const Value& value) {
+    return parallel_collect<Item, Items>(
+        count, [&](std::int64_t begin, std::int64_t end, std::vector<Item>& out) {
+            for (std::int64_t i = begin; i < end; ++i) {
+                if (chosen(i)) out.push_back(value(i));
+            }
+        });
+}
+
+/// Calls parallel_collect for ranges of whole runs, see parallel_for_runs.
+template <class Item, class Items, class Begins, class Body>
+Items parallel_collect_runs(std::int64_t count, const Begins& begins, const Body& body) {
+    const std::vector<std::int64_t> offsets = run_offsets(count, begins);
+    return parallel_collect<Item, Items>(
+        count, [&](std::int64_t begin, std::int64_t /*end*/, std::vector<Item>& out) {
+            const std::int64_t block = begin / kBlockSize;
+            if (offsets[block] < offsets[block + 1]) body(offsets[block], offsets[block + 1], out);
+        });
+}
+
+}  // namespace tracked_mcf

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <vector>
+
+#include "filter_tracked_mcf/core/elements/tracked_elements.h"
+#include "filter_tracked_mcf/core/solver/coarse_solver.h"
+#include "filter_tracked_mcf/core/solver/element_blocks.h"
+#include "filter_tracked_mcf/core/solver/element_partition.h"
+#include "filter_tracked_mcf/core/solver/element_smoother.h"
+#include "filter_tracked_mcf/core/solver/element_transfer.h"
+#include "filter_tracked_mcf/core/solver/field.h"
+#include "filter_tracked_mcf/core/system/element_matrices.h"
+
+namespace tracked_mcf {
+
+/// Amount of work of a V-cycle.
+enum class Effort {
+    Usual,    ///< enough for most surfaces
+    Thorough  ///< for pinched surfaces: twice the smoothing on all levels, for the actual spectrum
+};
+
+/// The V-cycle that preconditions conjugate gradients. On each level, the ElementSmoother makes a
+/// few corrections before the coarse correction and as many after it. They are a Chebyshev
+/// iteration for the upper part of the spectrum of S A, so a V-cycle from zero is a symmetric
+/// operator.
+///
+/// The coarse correction reduces errors that the smoother hardly reduces: those for which the
+/// stiffness exceeds the mass. The ratio of stiffness to mass falls to a quarter from one level to
+/// the next coarser one. The cycle ends at the level where they are similar, with some more
+/// smoother steps.
+///
+/// No level's matrix A is assembled: all products use element matrices. Those of a coarser level
+/// are sums over the children of each element (element_transfer.h).
+class ElementMultigrid {
+public:
+    /// `constrained` are the flags of the constrained unknowns of each level, coarsest first.
+    /// `elements` must outlive this.
+    ElementMultigrid(const TrackedElements& elements,
+                     std::vector<std::vector<std::uint8_t>> constrained);
+    ElementMultigrid(const ElementMultigrid&) = delete;
+    ElementMultigrid& operator=(const ElementMultigrid&) = delete;
+
+    /// Takes the finest level's element matrices, sets the rows and columns of constrained unknowns
+    /// to zero in them, and computes the matrices of the coarser levels of the cycle. The matrices
+    /// must stay valid until the next refresh. `stiffness_to_mass` is their ratio on the finest
+    /// level, δ / h².
+    void refresh(MatrixBlocks& finest, double stiffness_to_mass, Effort effort = Effort::Usual);
+
+    /// Widens the spectrum of thorough V-cycles by half from the next refresh on. If the power
+    /// method has missed the largest eigenvalue, V-cycles are not positive without this.
+    void widen() { margin_ *= 1.5; }
+
+    /// Returns the flags of the finest level's constrained unknowns. The caller may constrain more
+    /// before a refresh.
+    std::vector<std::uint8_t>& constrained() { return constrained_.back(); }
+
+    /// Returns for each unknown of the finest level whether it is free (not 0).
+    const std::vector<std::uint8_t>& free_unknowns() const {
+        return levels_.back().smoother.free_unknowns();
+    }
+
+    /// Computes x by one V-cycle from zero for A x = right_side on the finest level.
+    void cycle(const Field& right_side, Field& x);
+
+    /// Computes product = A x on the finest level and returns x · A x.
+    double multiply(const Field& x, Field& product) const;
+
+    /// Computes residual = right_side - A x on the finest level in double.
+    void residual(const Field& right_side, const Coefficients& x, Field& residual) const;
+
+    /// Sums the finest level's right-hand side from those of its elements. Sets it to zero for
+    /// unknowns that are not free.
+    void assemble(const std::vector<ElementVector>& right_sides, Field& right_side) const;
+
+private:
+    struct LevelData {
+        explicit LevelData(const Level& level);
+        LevelData(const LevelData&) = delete;
+        LevelData& operator=(const LevelData&) = delete;
+
+        /// Makes the step x += step * S residual.
+        void smooth(float step, const Field& right_side, Field& x);
+        /// Computes residual = right_side - A x.
+        void make_residual(const Field& right_side, const Field& x);
+
+        const Level& level;
+        ElementBlocks blocks;
+        ElementPartition partition;
+        ElementSmoother smoother;
+        ElementTransfer transfer;  ///< from the next coarser level; unused at level 0
+        const MatrixBlocks* matrices = nullptr;
+        MatrixBlocks own_matrices;  ///< unused at the finest level
+        std::vector<float> steps;   ///< of the smoother, on one side of the coarse correction
+        Field residual;
+        Field coarse_right_side, coarse_x;  ///< of the next coarser level; unused at level 0
+    };
+
+    void cycle(std::size_t level, const Field& right_side, Field& x);
+    const LevelData& finest() const { return levels_.back(); }
+
+    std::vector<std::vector<std::uint8_t>> constrained_;
+    std::size_t coarsest_ = 0;  ///< level at which the cycle ends
+    double margin_ = 1.2;       ///< factor from the power method's estimate to an upper bound
+    std::deque<LevelData> levels_;
+    CoarseSolver coarse_solver_;
+    std::vector<Couplings> couplings_;  ///< workspace of refresh()
+};
+
+}  // namespace tracked_mcf

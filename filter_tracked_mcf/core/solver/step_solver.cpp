@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "filter_tracked_mcf/core/solver/step_solver.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "filter_tracked_mcf/core/parallel/progress_meter.h"
+#include "filter_tracked_mcf/core/parallel/setup_phases.h"
+#include "filter_tracked_mcf/core/solver/conjugate_gradients.h"
+#include "filter_tracked_mcf/core/solver/element_multigrid.h"
+#include "filter_tracked_mcf/core/solver/paper/multigrid.h"
+#include "filter_tracked_mcf/core/system/constrained_cells.h"
+
+namespace tracked_mcf {
+
+namespace {
+
+using ConstrainedByLevel = std::vector<std::vector<std::uint8_t>>;
+
+/// Adds a solve's numbers to those of a step.
+void add_solve(int iterations, double residual_before, double residual_after, StepReport& report) {
+    report.solver_iterations += iterations;
+    report.residual_before = std::hypot(report.residual_before, residual_before);
+    report.residual_after = std::hypot(report.residual_after, residual_after);
+}
+
+/// Implements Solver::Converged.
+class ConvergedSolver : public StepSolver {
+public:
+    ConvergedSolver(const TrackedElements& elements, ConstrainedByLevel constrained,
+                    double tolerance)
+        : multigrid_(elements, std::move(constrained)), tolerance_(tolerance) {}
+
+    std::vector<std::uint8_t>& constrained() override { return multigrid_.constrained(); }
+
+    void take(MatrixBlocks& matrices, double area, double step_size_in_cells) override {
+        if (first_area_ == 0) first_area_ = area;
+        // When a surface shrinks, its mass shrinks and its stiffness does not.
+        stiffness_to_mass_ =
+            area > 0 ? step_size_in_cells * first_area_ / area : step_size_in_cells;
+        matrices_ = &matrices;
+        multigrid_.refresh(*matrices_, stiffness_to_mass_, effort_);
+    }
+
+    bool has_free_unknowns() const override {
+        const std::vector<std::uint8_t>& free_unknowns = multigrid_.free_unknowns();
+        return std::any_of(free_unknowns.begin(), free_unknowns.end(),
+                           [](auto flag) { return flag != 0; });
+    }
+
+    void solve(const std::vector<ElementVector>& right_sides, Solution& solution,
+               StepReport& report) override {
+        multigrid_.assemble(right_sides, right_side_);
+        Convergence convergence;
+        int made = 0;
+        for (int tries = 1;; ++tries) {
+            const int left = kMaximumSolverIterations - made;
+            const bool last = tries == kMostTries;
+            const int most = last ? left : std::min(left, worth_trying());
+            convergence = conjugate_gradients_.solve(multigrid_, right_side_, tolerance_, most,
+                                                     solution.x, solution.earlier_guess);
+            made += convergence.iterations;
+            if (last || convergence.reached_tolerance || made == kMaximumSolverIterations) break;
+            // What has pinched stays pinched, so later steps keep this effort.
+            if (effort_ == Effort::Thorough) multigrid_.widen();
+            effort_ = Effort::Thorough;
+            multigrid_.refresh(*matrices_, stiffness_to_mass_, effort_);
+        }
+        add_solve(made, norm(right_side_), convergence.residual, report);
+        // Written so that a NaN is kept.
+        if (!(convergence.error_estimate <= report.error_estimate)) {
+            report.error_estimate = convergence.error_estimate;
+        }
+        report.reached_tolerance = report.reached_tolerance && convergence.reached_tolerance;
+    }
+
+private:
+    /// Returns the number of iterations after which a V-cycle with more effort is faster. At the
+    /// default tolerance, it is about twice what a surface without pinches needs.
+    int worth_trying() const { return effort_ == Effort::Usual ? 12 : 30; }
+
+    /// Number of attempts, each with a more thorough V-cycle than the one before.
+    static constexpr int kMostTries = 5;
+
+    ElementMultigrid multigrid_;
+    ConjugateGradients conjugate_gradients_;
+    double tolerance_;
+    double first_area_ = 0;         ///< area of the surface in the first step, grid units²
+    double stiffness_to_mass_ = 0;  ///< see ElementMultigrid::refresh
+    Effort effort_ = Effort::Usual;
+    MatrixBlocks* matrices_ = nullptr;
+    Field right_side_;
+};
+
+/// Implements Solver::OneWCycle.
+class CycleSolver : public StepSolver {
+public:
+    CycleSolver(const TrackedElements& elements, ConstrainedByLevel constrained, int cycles)
+        : multigrid_(elements, std::move(constrained)), cycles_(cycles) {}
+
+    std::vector<std::uint8_t>& constrained() override { return multigrid_.constrained(); }
+
+    void take(MatrixBlocks& matrices, double /*area*/, double /*step_size_in_cells*/) override {
+        multigrid_.refresh(matrices);
+    }
+
+    bool has_free_unknowns() const override {
+        const std::vector<float>& inverse_diagonal = multigrid_.finest().inverse_diagonal();
+        return std::any_of(inverse_diagonal.begin(), inverse_diagonal.end(),
+                           [](float inverse) { return inverse != 0; });
+    }
+
+    void solve(const std::vector<ElementVector>& right_sides, Solution& solution,
+               StepReport& report) override {
+        multigrid_.finest().assemble(right_sides, right_side_);
+        set_zero(x_, right_side_.cols());
+        const double residual_before = residual();
+        for (int i = 0; i < cycles_; ++i) {
+            multigrid_.cycle(right_side_, x_);
+            advance_progress((i + 1.0) / cycles_);
+        }
+        add_solve(cycles_, residual_before, residual(), report);
+        solution.x = x_.topRows<3>().transpose().cast<double>();
+    }
+
+private:
+    double residual() {
+        multigrid_.finest().residual(right_side_, x_, residual_);
+        return norm(residual_);
+    }
+
+    Multigrid multigrid_;
+    int cycles_;
+    Field right_side_, x_, residual_;
+};
+
+}  // namespace
+
+std::unique_ptr<StepSolver> make_step_solver(const TrackedElements& elements,
+                                             const FlowParameters& parameters) {
+    enter_setup_phase(kPrepareSolver);
+    ConstrainedByLevel constrained = constrained_unknowns(elements, parameters.boundary);
+    if (parameters.solver == Solver::OneWCycle) {
+        return std::make_unique<CycleSolver>(elements, std::move(constrained), parameters.cycles);
+    }
+    return std::make_unique<ConvergedSolver>(elements, std::move(constrained),
+                                             parameters.tolerance);
+}
+
+}  // namespace tracked_mcf

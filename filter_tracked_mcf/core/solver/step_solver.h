@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "filter_tracked_mcf/core/elements/tracked_elements.h"
+#include "filter_tracked_mcf/core/flow_parameters.h"
+#include "filter_tracked_mcf/core/flow_report.h"
+#include "filter_tracked_mcf/core/kernels/element_matrix.h"
+#include "filter_tracked_mcf/core/solver/field.h"
+#include "filter_tracked_mcf/core/system/matrix_blocks.h"
+
+namespace tracked_mcf {
+
+/// The solution of a system, and what the next solve for the same quantity starts from. Both
+/// members are empty before the first solve.
+struct Solution {
+    Coefficients x;  ///< one row per unknown
+    Field earlier_guess;
+};
+
+/// Solves the linear systems of a flow's steps by the method in FlowParameters::solver. Computes
+/// everything that does not change between steps only once.
+class StepSolver {
+public:
+    virtual ~StepSolver() = default;
+
+    /// Returns the flags of the finest level's constrained unknowns, which stay zero. The caller
+    /// may constrain more before take().
+    virtual std::vector<std::uint8_t>& constrained() = 0;
+
+    /// Takes the matrices of the next step, which must stay valid until the step after it. Sets the
+    /// rows and columns of constrained unknowns to zero in them. `area` is that of the embedded
+    /// surface, in grid units².
+    virtual void take(MatrixBlocks& matrices, double area, double step_size_in_cells) = 0;
+
+    /// Returns whether the system that was taken has any free unknown.
+    virtual bool has_free_unknowns() const = 0;
+
+    /// Solves the system that was taken for a right-hand side, given by its elements, and adds the
+    /// solver's numbers to the report. On entry, `solution` is that of the last step.
+    virtual void solve(const std::vector<ElementVector>& right_sides, Solution& solution,
+                       StepReport& report) = 0;
+};
+
+/// Returns a new solver; `elements` must outlive it.
+std::unique_ptr<StepSolver> make_step_solver(const TrackedElements& elements,
+                                             const FlowParameters& parameters);
+
+}  // namespace tracked_mcf

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "filter_tracked_mcf/core/elements/tracked_elements.h"
+#include "filter_tracked_mcf/core/flow_parameters.h"
+#include "filter_tracked_mcf/core/system/matrix_blocks.h"
+
+namespace tracked_mcf {
+
+/// Returns the boundary lock of section 5.3: one flag for each level (coarsest first) and unknown,
+/// set if the boundary is LockedCells and the support of its function meets a constrained edge.
+///
+/// Constrained unknowns of the displacement are zero on every level: on the finest so that the
+/// surface there stays, on the coarser ones so that corrections respect that. The support of a
+/// coarse function contains the supports of its fine functions, so a free coarse function contains
+/// no constrained fine one.
+std::vector<std::vector<std::uint8_t>> constrained_unknowns(const TrackedElements& elements,
+                                                            BoundaryCondition boundary);
+
+/// Sets the rows and columns of constrained unknowns to zero in a level's element matrices. Coarser
+/// levels then take only free unknowns into account.
+void eliminate_constrained(const Level& level, const std::vector<std::uint8_t>& constrained,
+                           MatrixBlocks& matrices);
+
+/// Returns whether an unknown with this diagonal entry of the assembled matrix is free. A function
+/// with a smaller entry is invisible on the surface, and its inverse would overflow. Written so
+/// that a NaN propagates.
+inline bool is_free(float diagonal) {
+    return !(diagonal <= 1e-30F);
+}
+
+}  // namespace tracked_mcf

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "filter_tracked_mcf/core/system/curve_constraint.h"
+
+#include "filter_tracked_mcf/core/cells/bspline.h"
+#include "filter_tracked_mcf/core/parallel/parallel.h"
+
+namespace tracked_mcf {
+
+namespace {
+
+Eigen::Vector3d displacement_at(const CurveSample& sample, const TrackedElements& elements,
+                                const Coefficients& displacement) {
+    return evaluate_vertex(elements, displacement, {sample.element, sample.local.cast<double>()});
+}
+
+/// Adds weight * B_I B_J at a point to an element's matrix, and force * B_I to its right-hand side.
+void add_at(const CornerValues& values, double weight, const Eigen::Vector3d& force,
+            std::int32_t element, ElementSystems& systems) {
+    for (int row = 0; row < 8; ++row) {
+        for (int column = row; column < 8; ++column) {
+            systems.matrices.at(element, row, column) +=
+                static_cast<float>(weight * values[row] * values[column]);
+        }
+        for (int axis = 0; axis < 3; ++axis) {
+            systems.right_sides[element].entry[axis][row] +=
+                static_cast<float>(force[axis] * values[row]);
+        }
+    }
+}
+
+}  // namespace
+
+CurveConstraint::CurveConstraint(const TrackedElements& elements, double penalty)
+    : elements_(elements), penalty_(penalty) {
+    const std::vector<CurveSample>& samples = elements.curve_samples;
+    for (std::size_t begin = 0, end = 0; begin < samples.size(); begin = end) {
+        while (end < samples.size() && samples[end].element == samples[begin].element) ++end;
+        pieces_.push_back({samples[begin].element, begin, end, Eigen::Vector3d::Zero()});
+    }
+}
+
+void CurveConstraint::add(const Coefficients& displacement, double step_size_in_cells,
+                          ElementSystems& systems) const {
+    parallel_for_items(pieces_, [&](const Piece& piece) {
+        for (std::size_t k = piece.begin; k < piece.end; ++k) {
+            const CurveSample& sample = elements_.curve_samples[k];
+            const Eigen::Vector3d force =
+                sample.conormal.cast<double>() + piece.multiplier -
+                penalty_ * displacement_at(sample, elements_, displacement);
+            add_at(bspline_values(sample.local.cast<double>()),
+                   sample.weight * step_size_in_cells * penalty_,
+                   sample.weight * step_size_in_cells * force, piece.element, systems);
+        }
+    });
+}
+
+void CurveConstraint::update_multipliers(const Coefficients& displacement) {
+    parallel_for_rows(static_cast<std::int64_t>(pieces_.size()), [&](std::int32_t i) {
+        Piece& piece = pieces_[i];
+        Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+        double length = 0;
+        for (std::size_t k = piece.begin; k < piece.end; ++k) {
+            const CurveSample& sample = elements_.curve_samples[k];
+            sum += sample.weight * displacement_at(sample, elements_, displacement);
+            length += sample.weight;
+        }
+        piece.multiplier -= penalty_ * sum / length;
+    });
+}
+
+}  // namespace tracked_mcf

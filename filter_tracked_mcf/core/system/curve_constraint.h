@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "filter_tracked_mcf/core/elements/tracked_elements.h"
+#include "filter_tracked_mcf/core/system/element_matrices.h"
+
+namespace tracked_mcf {
+
+/// Constrains the surface along the constrained edges by an augmented Lagrangian, and leaves the
+/// surface beside them free.
+///
+/// The constraint adds the force δ (n + λ - η u) along the edges to the displacement's system, in
+/// grid units. n is the conormal, which balances the initial surface's own pull on the edge. u is
+/// the displacement from the initial position, and η the penalty.
+///
+/// As the surface moves, its pull turns. The penalty alone would give way by up to 1/η of a cell,
+/// so each element has a multiplier λ, zero at the start, which after each step takes over the
+/// penalty's mean force in the element. λ is constant in an element and η is moderate because a
+/// constraint at every point of a curved boundary would lock its cells. The remaining displacement
+/// is of second order in the cell size.
+class CurveConstraint {
+public:
+    /// Groups the samples of the constrained edges by element. `elements` must outlive this;
+    /// `penalty` is η.
+    CurveConstraint(const TrackedElements& elements, double penalty);
+
+    /// Adds the constraint to the finest level's system, for the step size δ in squared sides of a
+    /// cell and the embedding with this displacement.
+    void add(const Coefficients& displacement, double step_size_in_cells,
+             ElementSystems& systems) const;
+
+    /// Updates the multipliers λ after a step, given the displacement that the step has led to.
+    void update_multipliers(const Coefficients& displacement);
+
+private:
+    /// The pieces of constrained edges in one element.
+    struct Piece {
+        std::int32_t element;
+        std::size_t begin, end;      ///< indices into TrackedElements::curve_samples
+        Eigen::Vector3d multiplier;  ///< λ
+    };
+
+    const TrackedElements& elements_;
+    double penalty_;
+    std::vector<Piece> pieces_;
+};
+
+}  // namespace tracked_mcf

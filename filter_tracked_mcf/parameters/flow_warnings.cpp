@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "filter_tracked_mcf/parameters/flow_warnings.h"
+
+#include <algorithm>
+#include <sstream>
+
+namespace tracked_mcf {
+
+namespace {
+
+/// Orders steps by their error estimate; a step that reached the tolerance is better than any
+/// other.
+bool is_better(const StepReport& a, const StepReport& b) {
+    if (a.reached_tolerance != b.reached_tolerance) return a.reached_tolerance;
+    return a.error_estimate < b.error_estimate;
+}
+
+/// Empty if the flow made all of its steps.
+std::string early_stop(const FlowReport& report, int iterations) {
+    const std::size_t made = report.steps.size();
+    const std::string stopped = "The flow stopped after step " + std::to_string(made) + " of " +
+                                std::to_string(iterations) + ": ";
+    switch (report.stop) {
+        case Stop::None:
+            return {};
+        case Stop::Vanished:
+            if (made > 0) {
+                return stopped + "step " + std::to_string(made + 1) +
+                       " would have left no surface.";
+            }
+            return "Nothing has moved: the first step would have left no surface. Take a smaller "
+                   "detail size or step size.";
+        case Stop::Pinched:
+            return stopped + "so much has pinched that preserving would blow up what is left.";
+        case Stop::NotPreserved:
+            return (made > 0 ? stopped : "Nothing has moved: ") + "step " +
+                   std::to_string(made + 1) +
+                   " would have changed the surface so much that its volume cannot be restored. "
+                   "Take more steps, or a smaller detail size or step size.";
+        case Stop::NothingMoves:
+            if (made > 0) return stopped + "everything that could move has pinched.";
+            return "Nothing has moved: all of the surface is constrained. Free the boundary, or "
+                   "select more; where cells are locked, take a greater depth.";
+    }
+    return {};
+}
+
+/// Empty unless the step size was limited.
+std::string limited_step_size(const FlowReport& report) {
+    if (report.step_size >= report.asked_step_size || report.stop != Stop::None) return {};
+    std::ostringstream text;
+    text.precision(3);
+    text << "The step size is limited to " << report.step_size << " squared units of the mesh, "
+         << "instead of " << report.asked_step_size << ": waves longer than " << report.detail_size
+         << " keep more than half of their amplitude. A smaller depth or more steps go further.";
+    return text.str();
+}
+
+/// Empty unless the grid is too coarse for the detail. A caller who gives a step size knows the
+/// grid.
+std::string unresolved_detail(const FlowParameters& parameters, const FlowReport& report) {
+    if (parameters.step_size > 0 || report.detail_size >= report.cell_size) return {};
+    std::ostringstream text;
+    text.precision(3);
+    text << "The detail size " << report.detail_size << " is smaller than a cell of the grid, "
+         << report.cell_size
+         << ". If the mesh has detail as small as that, take a greater depth than " << report.depth
+         << ".";
+    return text.str();
+}
+
+/// A step that removes more of the area than this has changed more than noise.
+constexpr double kLargeLoss = 0.1;
+
+/// Empty unless a step removed much of the area.
+std::string sudden_loss(const FlowReport& report) {
+    if (report.stop == Stop::Vanished) return {};
+    for (std::size_t i = 0; i < report.steps.size(); ++i) {
+        const double before = report.steps[i].area;
+        const double after =
+            i + 1 < report.steps.size() ? report.steps[i + 1].area : report.area_after;
+        if (after >= (1 - kLargeLoss) * before) continue;
+        std::ostringstream text;
+        text.precision(2);
+        text << "Step " << i + 1 << " removed " << 100 * (before - after) / before
+             << " % of the area. If that is more than noise, take a smaller detail size, or a "
+                "greater order to keep the shape.";
+        return text.str();
+    }
+    return {};
+}
+
+/// Empty if all steps reached the tolerance.
+std::string shortfall(const FlowReport& report, double tolerance) {
+    const auto& steps = report.steps;
+    const auto count = std::count_if(
+        steps.begin(), steps.end(), [](const StepReport& step) { return !step.reached_tolerance; });
+    if (count == 0) return {};
+    const auto worst = std::max_element(steps.begin(), steps.end(), is_better);
+    std::ostringstream text;
+    text.precision(2);
+    text << "The solver stopped short of the tolerance " << tolerance << " in " << count << " of "
+         << steps.size() << " steps: " << (count > 1 ? "the worst is " : "") << "step "
+         << worst - steps.begin() + 1 << ", at " << worst->error_estimate << " after "
+         << worst->solver_iterations << " iterations.";
+    return text.str();
+}
+
+}  // namespace
+
+bool converged(const FlowReport& report) {
+    return std::all_of(report.steps.begin(), report.steps.end(),
+                       [](const StepReport& step) { return step.reached_tolerance; });
+}
+
+std::string changes(const FlowReport& report) {
+    if (report.steps.empty()) return "Nothing has moved.";
+    std::ostringstream text;
+    text.precision(3);
+    if (report.stop == Stop::None) {
+        text << "Waves of length " << report.detail_size << " keep half of their amplitude. ";
+    }
+    text << "The step size was " << report.step_size
+         << " squared units of the mesh. The vertices moved by up to "
+         << report.largest_displacement << ", RMS " << report.rms_displacement
+         << "; the area changed by "
+         << 100 * (report.area_after - report.area_before) / report.area_before << " %";
+    if (report.oriented_consistently) text << ", the volume by " << report.volume_change;
+    text << ".";
+    return text.str();
+}
+
+std::vector<std::string> flow_warnings(const FlowParameters& parameters, const FlowReport& report,
+                                       const std::string& advice) {
+    std::vector<std::string> warnings;
+    for (const std::string& warning :
+         {early_stop(report, parameters.iterations), limited_step_size(report),
+          unresolved_detail(parameters, report), sudden_loss(report)}) {
+        if (!warning.empty()) warnings.push_back(warning);
+    }
+    const std::string short_steps = shortfall(report, parameters.tolerance);
+    if (!short_steps.empty()) warnings.push_back(short_steps + ' ' + advice);
+    return warnings;
+}
+
+}  // namespace tracked_mcf

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "filter_tracked_mcf/tool/documents/file_document.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+
+#include "filter_tracked_mcf/tool/file_error.h"
+
+namespace tracked_mcf {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::array<Format, 4> kFormats = {{{".ply", parse_ply, convert_to_ply, true},
+                                             {".obj", parse_obj, convert_to_obj, true},
+                                             {".off", parse_off, convert_to_off, true},
+                                             {".stl", parse_stl, convert_to_stl, false}}};
+
+std::string read_whole_file(const fs::path& path) {
+    if (fs::is_directory(path)) {
+        throw UnreadableFile(path.string() + " is a folder; give a mesh file.");
+    }
+    errno = 0;
+    std::ifstream file(path, std::ios::binary);
+    std::ostringstream content;
+    // Inserting an empty file would set the fail bit.
+    if (file && file.peek() != std::ifstream::traits_type::eof()) content << file.rdbuf();
+    if (!file.is_open() || file.bad() || !content) {
+        throw UnreadableFile("cannot read " + path.string() + ": " + std::strerror(errno) +
+                             "; check the name and the permissions.");
+    }
+    return content.str();
+}
+
+void check_corner_counts(const Polygons& polygons) {
+    for (std::size_t i = 0; i < polygons.size(); ++i) {
+        if (polygons.corner_count(i) >= 3) continue;
+        throw UnreadableFile("face " + std::to_string(i) + " (counted from 0) has " +
+                             std::to_string(polygons.corner_count(i)) +
+                             " corners, at least 3 are needed");
+    }
+}
+
+}  // namespace
+
+std::string FolderChange::relocate(const std::string& name) const {
+    if (name.empty() || fs::path(name).is_absolute()) return name;
+    const fs::path old_folder = fs::weakly_canonical(from), new_folder = fs::weakly_canonical(to);
+    if (old_folder == new_folder) return name;
+    return (old_folder / name).lexically_normal().lexically_proximate(new_folder).generic_string();
+}
+
+Color make_color(const std::vector<double>& channels, double full) {
+    Color color = kWhite;
+    for (std::size_t i = 0; i < channels.size(); ++i) {
+        // A channel that is not a number becomes 0.
+        const double part = channels[i] > 0 ? std::min(channels[i] / full, 1.0) : 0;
+        color[i] = static_cast<std::uint8_t>(std::lround(part * 255));
+    }
+    return color;
+}
+
+const Format* format_of(const fs::path& path) {
+    std::string extension = path.extension().string();
+    for (char& c : extension) {
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    }
+    for (const Format& format : kFormats) {
+        if (extension == format.extension) return &format;
+    }
+    return nullptr;
+}
+
+std::unique_ptr<FileDocument> open_document(const fs::path& path) {
+    std::string content = read_whole_file(path);
+    const Format* const format = format_of(path);
+    try {
+        if (!format) throw UnreadableFile("its extension is not .ply, .obj, .off or .stl");
+        if (content.empty()) throw UnreadableFile("it is empty");
+        auto document = format->parse(std::move(content));
+        check_corner_counts(document->polygons());
+        return document;
+    } catch (const UnreadableFile& error) {
+        throw UnreadableFile(path.string() + " cannot be used: " + error.what() +
+                             ". Repair the file or export the mesh again.");
+    }
+}
+
+}  // namespace tracked_mcf

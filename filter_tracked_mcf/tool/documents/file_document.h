@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <iosfwd>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "filter_tracked_mcf/tool/documents/polygons.h"
+
+namespace tracked_mcf {
+
+/// A move of a file to another folder. Names of textures and material libraries are relative to the
+/// folder of the file that refers to them.
+struct FolderChange {
+    std::filesystem::path from, to;
+
+    /// Returns the name by which the file `name` of folder `from` is found from folder `to`.
+    std::string relocate(const std::string& name) const;
+};
+
+/// Red, green, blue and alpha, 0 to 255.
+using Color = std::array<std::uint8_t, 4>;
+
+inline constexpr Color kWhite = {255, 255, 255, 255};
+
+/// Returns the colour with these three or four channels, of which `full` is the largest value.
+Color make_color(const std::vector<double>& channels, double full);
+
+/// A mesh file, kept whole so that it can be written again with new positions and nothing else
+/// changed. It has been checked: every number is a number, every index is in range, every polygon
+/// has at least three corners, and nothing is missing at the end.
+class FileDocument {
+public:
+    FileDocument() = default;
+    virtual ~FileDocument() = default;
+
+    // Documents keep views into their text.
+    FileDocument(const FileDocument&) = delete;
+    FileDocument& operator=(const FileDocument&) = delete;
+
+    /// The vertices, in the order of the file.
+    const Points& positions() const { return positions_; }
+
+    /// The faces, in the order of the file.
+    const Polygons& polygons() const { return polygons_; }
+
+    /// Returns the triangles into which the polygons are split, in the order of the polygons.
+    virtual std::vector<Triangle> triangles() const { return fans(polygons()); }
+
+    /// Returns one colour per vertex, or none if the file has no colours of vertices.
+    virtual std::vector<Color> vertex_colors() const { return {}; }
+
+    /// Gives each vertex a number, which only PLY keeps: the property `quality`.
+    void set_quality(std::vector<double> quality) { quality_ = std::move(quality); }
+    /// Returns what set_quality() was given.
+    const std::vector<double>& quality() const { return quality_; }
+
+    /// Names what the file has besides positions, polygons and colours of vertices: what other
+    /// formats do not keep.
+    virtual std::vector<std::string> extras() const = 0;
+
+    /// Writes the file with other positions. Its normals become those of the new shape; a normal
+    /// that no face with an area defines stays. Textures and material libraries get the names by
+    /// which they are found after `change`.
+    virtual void write(std::ostream& out, const Points& positions,
+                       const FolderChange& change) const = 0;
+
+protected:
+    Points positions_;
+    Polygons polygons_;
+
+private:
+    std::vector<double> quality_;
+};
+
+/// A file format, known by the extension of its files.
+struct Format {
+    const char* extension;  ///< lower case, such as ".ply"
+
+    /// Makes a document of a file's whole content. Throws UnreadableFile without the file's name.
+    std::unique_ptr<FileDocument> (*parse)(std::string&& content);
+
+    /// Writes `positions` with the polygons and the colours of vertices of `source`, which may have
+    /// any format.
+    void (*convert)(std::ostream& out, const FileDocument& source, const Points& positions);
+
+    bool keeps_colors;  ///< whether `convert` writes colours of vertices
+};
+
+/// Returns the format of a path by its extension, in upper or lower case; null if it is unknown.
+const Format* format_of(const std::filesystem::path& path);
+
+/// Reads a file in the format of its extension. Throws UnreadableFile.
+std::unique_ptr<FileDocument> open_document(const std::filesystem::path& path);
+
+/// The members of the four formats.
+std::unique_ptr<FileDocument> parse_ply(std::string&& content);
+std::unique_ptr<FileDocument> parse_obj(std::string&& content);
+std::unique_ptr<FileDocument> parse_off(std::string&& content);
+std::unique_ptr<FileDocument> parse_stl(std::string&& content);
+void convert_to_ply(std::ostream& out, const FileDocument& source, const Points& positions);
+void convert_to_obj(std::ostream& out, const FileDocument& source, const Points& positions);
+void convert_to_off(std::ostream& out, const FileDocument& source, const Points& positions);
+void convert_to_stl(std::ostream& out, const FileDocument& source, const Points& positions);
+
+}  // namespace tracked_mcf

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "filter_tracked_mcf/core/elements/tracked_elements.h"
+#include "filter_tracked_mcf/core/octree/automatic_depth.h"
+
+namespace tracked_mcf {
+
+/// Clips the domain's surface to the grid and builds its elements. Throws what clip_to_grid and
+/// build_tracked_elements throw.
+inline TrackedElements build_tracked_elements(const Domain& domain, const Grid& grid,
+                                              Cubature cubature, bool separate_sheets = true) {
+    return build_tracked_elements(domain, clip_to_grid(domain.surface(), grid), cubature,
+                                  separate_sheets);
+}
+
+/// Builds the elements of a whole mesh with its boundary constrained.
+inline TrackedElements build_tracked_elements(const TriangleMesh& mesh, const Grid& grid,
+                                              Cubature cubature, bool separate_sheets = true) {
+    return build_tracked_elements(Domain(mesh, BoundaryCondition::Locked), grid, cubature,
+                                  separate_sheets);
+}
+
+/// Returns the automatic depth of a whole mesh.
+inline int automatic_depth(const TriangleMesh& mesh) {
+    const std::int64_t vertices = count_vertices(topology_of(mesh));
+    return clip_at_automatic_depth(mesh, enclosing_grid(mesh, 0), vertices, [](int) {}).grid.depth;
+}
+
+}  // namespace tracked_mcf

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Conformalized flow: the mass of the current metric, the stiffness of the initial metric.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "filter_tracked_mcf/core/flow/flow.h"
+#include "filter_tracked_mcf/core/mesh/measures.h"
+#include "tests/support/elements.h"
+#include "tests/support/shapes.h"
+#include "tests/unit/flows.h"
+
+namespace tracked_mcf {
+namespace {
+
+FlowParameters conformalized(int depth, double step_size, int iterations) {
+    FlowParameters p = parameters(depth, step_size, iterations);
+    p.flow = FlowKind::Conformalized;
+    return p;
+}
+
+/// Returns the standard deviation of the vertices' distances from the centroid, relative to their
+/// mean.
+double roundness(const TriangleMesh& mesh) {
+    const Eigen::Vector3d centre = shapes::surface_centroid(mesh);
+    double sum = 0, squares = 0;
+    for (const Eigen::Vector3d& p : mesh.positions) {
+        sum += (p - centre).norm();
+        squares += (p - centre).squaredNorm();
+    }
+    const double mean = sum / static_cast<double>(mesh.positions.size());
+    const double variance = squares / static_cast<double>(mesh.positions.size()) - mean * mean;
+    return std::sqrt(std::max(0.0, variance)) / mean;
+}
+
+TEST(Conformalized, StiffnessIsOfTheInitialMetricAndMassOfTheCurrentMetric) {
+    const TriangleMesh mesh = shapes::bumpy_sphere(12);
+    const TrackedElements elements =
+        build_tracked_elements(mesh, enclosing_grid(mesh, 4), Cubature::ThreePoints);
+    const Coefficients rest = Coefficients::Zero(elements.finest().unknown_count(), 3);
+    const Coefficients squeezed = -0.4 * identity_coefficients(elements);
+    const auto assembled = [&](const Coefficients& at, float mass, float stiffness, FlowKind flow) {
+        ElementSystems systems;
+        assemble_elements(elements, at, {mass, stiffness, flow}, systems);
+        return systems.matrices;
+    };
+    const auto expect_equal = [](const MatrixBlocks& a, const MatrixBlocks& b) {
+        ASSERT_EQ(a.size(), b.size());
+        for (std::int64_t element = 0; element < a.size(); ++element) {
+            for (int row = 0; row < 8; ++row) {
+                for (int column = 0; column < 8; ++column) {
+                    EXPECT_NEAR(a.at(element, row, column), b.at(element, row, column), 1e-5);
+                }
+            }
+        }
+    };
+    // Scaling does not change the stiffness, so the map must also shear.
+    Coefficients sheared = squeezed;
+    sheared.col(0) += 0.3 * squeezed.col(1);
+    expect_equal(assembled(sheared, 0, 1, FlowKind::Conformalized),
+                 assembled(rest, 0, 1, FlowKind::MeanCurvature));
+    expect_equal(assembled(sheared, 1, 0, FlowKind::Conformalized),
+                 assembled(sheared, 1, 0, FlowKind::MeanCurvature));
+}
+
+TEST(Conformalized, SphereShrinksToTheSemiImplicitRadius) {
+    // Let M be the initial mass matrix, R the initial radius and r the current radius. Then D =
+    // (r/R)² M, and S x = (2/R²) M x for the coordinates x. So ((r/R)² + 2δ/R²) r(t+δ) = (r/R)² r,
+    // which gives r(t+δ) = r³ / (r² + 2δ), as in mean-curvature flow: scaling does not change S.
+    const TriangleMesh sphere = shapes::geodesic_sphere(40);
+    FlowParameters p = conformalized(5, 1e-2, 20);
+    p.absolute = true;
+    double radius = 1;
+    for (int step = 0; step < p.iterations; ++step) {
+        radius = radius * radius * radius / (radius * radius + 2 * p.step_size);
+    }
+    for (const Eigen::Vector3d& position : evolved(sphere, p).positions) {
+        EXPECT_NEAR(position.norm(), radius, 2e-3 * radius);
+    }
+    EXPECT_LT(radius, 0.8);
+}
+
+TEST(Conformalized, FirstStepIsThatOfMeanCurvatureFlow) {
+    const TriangleMesh mesh = shapes::bumpy_sphere(15);
+    EXPECT_LT(
+        distance(evolved(mesh, conformalized(5, 1e-3, 1)), evolved(mesh, parameters(5, 1e-3, 1))),
+        1e-5);
+    EXPECT_GT(
+        distance(evolved(mesh, conformalized(5, 1e-3, 9)), evolved(mesh, parameters(5, 1e-3, 9))),
+        1e-3);
+}
+
+TEST(Conformalized, DumbbellBecomesASphereWhereMeanCurvatureFlowPinches) {
+    TriangleMesh dumbbell = shapes::geodesic_sphere(40);
+    for (auto& p : dumbbell.positions) {
+        const double waist = 0.3 + 0.7 * p[0] * p[0];
+        p = Eigen::Vector3d(2 * p[0], waist * p[1], waist * p[2]);
+    }
+    FlowParameters p = conformalized(6, 5e-2, 50);
+    p.preserve = Preserve::Area;
+    TriangleMesh round = dumbbell;
+    for (const StepReport& step : evolve(round, p).steps) {
+        EXPECT_EQ(step.collapsed_samples, 0);
+        EXPECT_TRUE(step.reached_tolerance);
+    }
+    EXPECT_LT(roundness(round), 0.01);
+    EXPECT_GT(roundness(dumbbell), 0.3);
+
+    TriangleMesh pinched = dumbbell;
+    EXPECT_GT(evolve(pinched, parameters(6, 1e-3, 60)).steps.back().collapsed_samples, 0);
+}
+
+TEST(Conformalized, VanishedComponentsStayWhileTheOthersFlow) {
+    // A sphere and small thin boxes.
+    const TriangleMesh sphere = shapes::bumpy_sphere(20);
+    TriangleMesh mesh = sphere;
+    for (int i = 0; i < 20; ++i) {
+        const Eigen::Vector3d at(2 + 0.37 * (i % 3), 0.61 * (i % 5), 0.73 * (i % 4));
+        const Eigen::Affine3d place =
+            Eigen::Affine3d(Eigen::Translation3d(at)) * Eigen::Scaling(0.01 + 0.004 * i);
+        mesh = shapes::merged(mesh, shapes::transformed(shapes::box(3, {1, 1, 0.1}), place));
+    }
+    TriangleMesh after = mesh;
+    const FlowReport report = evolve(after, conformalized(0, 1e-4, 20));
+    EXPECT_EQ(report.steps.size(), 20U);
+    for (const StepReport& step : report.steps) EXPECT_TRUE(step.reached_tolerance);
+    for (std::size_t i = sphere.positions.size(); i < mesh.positions.size(); ++i) {
+        EXPECT_LT((after.positions[i] - mesh.positions[i]).norm(), 0.1);
+    }
+    EXPECT_LT(after.positions[0].norm(), 0.999 * mesh.positions[0].norm());
+}
+
+}  // namespace
+}  // namespace tracked_mcf

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a flow measures at each vertex.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "filter_tracked_mcf/core/errors.h"
+#include "tests/support/shapes.h"
+#include "tests/unit/flows.h"
+
+namespace tracked_mcf {
+namespace {
+
+constexpr double kRadius = 3;
+constexpr double kStepSize = 0.02;  ///< small beside the squared radius
+
+FlowParameters measuring(Quality quality) {
+    FlowParameters p;
+    p.depth = 5;
+    p.absolute = true;
+    p.step_size = kStepSize;
+    p.iterations = 2;
+    p.quality = quality;
+    return p;
+}
+
+TriangleMesh sphere() {
+    return shapes::transformed(shapes::geodesic_sphere(16),
+                               Eigen::Affine3d(Eigen::Scaling(kRadius)));
+}
+
+TriangleMesh inside_out(TriangleMesh mesh) {
+    for (Triangle& triangle : mesh.triangles) std::swap(triangle[0], triangle[1]);
+    return mesh;
+}
+
+std::vector<double> quality_of(TriangleMesh mesh, const FlowParameters& p,
+                               const Selection& selection = {}) {
+    return evolve(mesh, selection, p).quality;
+}
+
+void expect_all_near(const std::vector<double>& numbers, double expected, double tolerance) {
+    ASSERT_FALSE(numbers.empty());
+    const auto [least, most] = std::minmax_element(numbers.begin(), numbers.end());
+    EXPECT_NEAR(*least, expected, tolerance);
+    EXPECT_NEAR(*most, expected, tolerance);
+}
+
+TEST(Quality, IsEmptyUnlessAskedFor) {
+    EXPECT_TRUE(quality_of(sphere(), measuring(Quality::None)).empty());
+}
+
+TEST(Quality, DoesNotChangeTheFlow) {
+    const TriangleMesh plain = evolved(sphere(), measuring(Quality::None));
+    for (const Quality quality : {Quality::Displacement, Quality::MeanCurvature}) {
+        EXPECT_TRUE(same_bits(evolved(sphere(), measuring(quality)), plain));
+    }
+}
+
+TEST(Quality, DisplacementOfASphereIsTheChangeOfItsRadius) {
+    // r' = r³ / (r² + 2δ), twice
+    double radius = kRadius;
+    for (int step = 0; step < 2; ++step) {
+        radius *= radius * radius / (radius * radius + 2 * kStepSize);
+    }
+    const double change = radius - kRadius;
+    const FlowParameters p = measuring(Quality::Displacement);
+    expect_all_near(quality_of(sphere(), p), change, 0.05 * std::abs(change));
+    expect_all_near(quality_of(inside_out(sphere()), p), -change, 0.05 * std::abs(change));
+}
+
+TEST(Quality, MeanCurvatureOfASphereIsOneOverItsRadius) {
+    FlowParameters p = measuring(Quality::MeanCurvature);
+    expect_all_near(quality_of(sphere(), p), 1 / kRadius, 0.05 / kRadius);
+    expect_all_near(quality_of(inside_out(sphere()), p), -1 / kRadius, 0.05 / kRadius);
+    p.order = 3;
+    expect_all_near(quality_of(sphere(), p), 1 / kRadius, 0.05 / kRadius);
+}
+
+TEST(Quality, MeanCurvatureDoesNotSeeWhatIsPreserved) {
+    for (const Preserve preserve : {Preserve::Area, Preserve::Volume}) {
+        FlowParameters p = measuring(Quality::MeanCurvature);
+        p.boundary = BoundaryCondition::Free;
+        p.preserve = preserve;
+        p.iterations = 4;
+        expect_all_near(quality_of(sphere(), p), 1 / kRadius, 0.05 / kRadius);
+    }
+}
+
+TEST(Quality, OfATriangleSoupIsThatOfTheMesh) {
+    const TriangleMesh mesh = shapes::bumpy_sphere(8);
+    for (const Quality quality : {Quality::Displacement, Quality::MeanCurvature}) {
+        const auto of_mesh = quality_of(mesh, measuring(quality));
+        const auto of_soup = quality_of(shapes::soup(mesh), measuring(quality));
+        for (std::size_t i = 0; i < of_soup.size(); ++i) {
+            EXPECT_NEAR(of_soup[i], of_mesh[mesh.triangles[i / 3][i % 3]], 1e-6);
+        }
+    }
+}
+
+TEST(Quality, IsZeroWhereNothingMoves) {
+    // Half of the faces are selected; one vertex is used by none, and is not a number.
+    TriangleMesh mesh = sphere();
+    mesh.positions.emplace_back(
+        Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN()));
+    Selection selection;
+    for (const Triangle& triangle : mesh.triangles) {
+        selection.push_back(mesh.positions[triangle[0]].z() > 0 ? 1 : 0);
+    }
+    std::vector<bool> may_move(mesh.positions.size(), true);
+    may_move.back() = false;
+    for (std::size_t i = 0; i < selection.size(); ++i) {
+        for (const std::int32_t vertex : mesh.triangles[i]) {
+            if (selection[i] == 0) may_move[vertex] = false;
+        }
+    }
+    for (const Quality kind : {Quality::Displacement, Quality::MeanCurvature}) {
+        const auto quality = quality_of(mesh, measuring(kind), selection);
+        ASSERT_EQ(quality.size(), mesh.positions.size());
+        for (std::size_t i = 0; i < quality.size(); ++i) EXPECT_EQ(quality[i] != 0, may_move[i]);
+    }
+}
+
+TEST(Quality, AConformalizedFlowDoesNotKnowTheMeanCurvature) {
+    FlowParameters p = measuring(Quality::MeanCurvature);
+    p.flow = FlowKind::Conformalized;
+    EXPECT_THROW(validate(p), InvalidParameter);
+    p.quality = Quality::Displacement;
+    EXPECT_NO_THROW(validate(p));
+}
+
+}  // namespace
+}  // namespace tracked_mcf

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "filter_tracked_mcf/core/memory/memory_estimate.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <string>
+
+#ifdef __GLIBC__
+#include <malloc.h>
+#include <unistd.h>
+#endif
+
+#include "filter_tracked_mcf/core/elements/tracked_elements.h"
+#include "filter_tracked_mcf/core/evolve.h"
+#include "filter_tracked_mcf/core/memory/process_memory.h"
+#include "tests/support/elements.h"
+#include "tests/unit/flows.h"
+
+namespace tracked_mcf {
+namespace {
+
+FlowParameters free_at(int depth) {
+    FlowParameters p = parameters(depth, 1e-5, 1);
+    p.boundary = BoundaryCondition::Free;
+    return p;
+}
+
+/// Expects that the counts agree with those of the flow within 4 %.
+void expect_counts(const TriangleMesh& mesh, const FlowParameters& p) {
+    const Domain domain(mesh, p.boundary);
+    const Grid grid = enclosing_grid(mesh, p.depth);
+    const ExpectedCounts counts = expected_counts(size_of(domain), grid, p);
+    const TrackedElements elements =
+        build_tracked_elements(domain, grid, p.cubature, p.separate_sheets);
+    const auto expect_near = [](double expected, std::size_t number) {
+        const auto counted = static_cast<double>(number);
+        EXPECT_NEAR(expected, counted, 0.04 * counted);
+    };
+    expect_near(counts.fragments, elements.fragments.size());
+    expect_near(counts.samples, elements.samples.size());
+    expect_near(counts.elements, elements.finest().cells.size());
+    expect_near(counts.unknowns, static_cast<std::size_t>(elements.finest().unknown_count()));
+}
+
+TEST(ExpectedCounts, AgreeWithTheCountsOfAFlow) {
+    expect_counts(shapes::geodesic_sphere(40), free_at(5));
+    expect_counts(shapes::geodesic_sphere(5), free_at(7));
+    expect_counts(shapes::box(1, {1, 0.8, 0.6}), free_at(7));
+    expect_counts(shapes::soup(shapes::bumpy_sphere(30)), free_at(5));
+    expect_counts(shapes::tube(90, 30, 2), free_at(6));
+    expect_counts(shapes::separate_triangles(2000), free_at(2));
+    expect_counts(shapes::separate_triangles(2000), free_at(7));
+}
+
+TEST(ExpectedCounts, CountSheetsSeparatelyOrPerCell) {
+    const TriangleMesh sphere = shapes::geodesic_sphere(20);
+    const TriangleMesh mesh =
+        shapes::merged(sphere, shapes::transformed(sphere, Eigen::Affine3d(Eigen::Scaling(1.001))));
+    expect_counts(mesh, free_at(5));
+
+    FlowParameters together = free_at(1);
+    together.separate_sheets = false;
+    const Domain domain(mesh, together.boundary);
+    const ExpectedCounts counts =
+        expected_counts(size_of(domain), enclosing_grid(mesh, 1), together);
+    EXPECT_LE(counts.elements, 8) << "there are no more cells";
+    EXPECT_LE(counts.unknowns, 27);
+}
+
+TEST(SurfaceSize, OfAPartIsThatOfThePartAlone) {
+    const TriangleMesh sphere = shapes::geodesic_sphere(40);
+    const Selection selection = above(sphere, 0.3);
+    const SurfaceSize selected = size_of(Domain(sphere, selection, BoundaryCondition::Free));
+    const TriangleMesh part = part_of(sphere, selection);
+    const SurfaceSize alone = size_of(Domain(part, BoundaryCondition::Free));
+    EXPECT_EQ(selected.triangles, alone.triangles);
+    EXPECT_EQ(selected.extents, alone.extents);
+    EXPECT_EQ(selected.shadows, alone.shadows);
+    EXPECT_EQ(selected.rim, alone.rim);
+    EXPECT_EQ(selected.characteristic, alone.characteristic);
+}
+
+TEST(MemoryEstimate, GrowsWithTheDepthLikeTheAreaInCells) {
+    const TriangleMesh mesh = shapes::bumpy_sphere(20);
+    const FlowParameters p = free_at(8);
+    const SurfaceSize size = size_of(Domain(mesh, p.boundary));
+    const auto bytes = [&](int depth) {
+        return estimate_flow_bytes(size, enclosing_grid(mesh, depth), p);
+    };
+    for (int depth = 1; depth < kMaximumDepth; ++depth) EXPECT_GT(bytes(depth + 1), bytes(depth));
+    EXPECT_NEAR(bytes(12) / bytes(11), 4, 0.1);
+}
+
+/// Returns the resident memory of this process, or 0 if the system does not report it.
+std::int64_t resident_bytes() {
+#ifdef __GLIBC__
+    malloc_trim(0);  // else the flow would reuse memory that is free but still resident
+    std::ifstream statm("/proc/self/statm");
+    std::int64_t size = 0, resident = 0;
+    if (statm >> size >> resident) return resident * sysconf(_SC_PAGESIZE);
+#endif
+    return 0;
+}
+
+/// Expects that a flow takes the estimated memory within a factor of 0.8 to 1.3.
+void expect_estimate(TriangleMesh mesh, FlowParameters p) {
+    if (TRACKED_MCF_SANITIZED) GTEST_SKIP() << "sanitizers take memory of their own";
+    p.iterations = 1;
+    p.threads = 2;
+    p.boundary = BoundaryCondition::Free;  // else separate triangles would be constrained
+    const std::int64_t before = resident_bytes();
+    const std::int64_t peak_before = peak_memory_bytes();
+    if (before == 0 || peak_before == 0) GTEST_SKIP() << "the system does not report memory";
+    const FlowReport report = evolve(mesh, p);
+    if (report.peak_memory_bytes <= peak_before) {
+        GTEST_SKIP() << "an earlier test in this process took more memory";
+    }
+    const auto actual = static_cast<double>(report.peak_memory_bytes - before);
+    const auto estimate = static_cast<double>(report.estimated_memory_bytes);
+    EXPECT_GT(estimate, 0.8 * actual);
+    EXPECT_LT(estimate, 1.3 * actual);
+}
+
+TEST(MemoryOfAFlow, OfAFineMesh) {
+    expect_estimate(shapes::bumpy_sphere(100), free_at(0));
+}
+
+TEST(MemoryOfAFlow, OfFewLargeTriangles) {
+    expect_estimate(shapes::box(1, {1, 0.8, 0.6}), free_at(8));
+}
+
+TEST(MemoryOfAFlow, OfASoup) {
+    expect_estimate(shapes::soup(shapes::geodesic_sphere(100)), free_at(0));
+}
+
+TEST(MemoryOfAFlow, OfAnOpenTube) {
+    expect_estimate(shapes::tube(450, 150, 2), free_at(0));
+}
+
+TEST(MemoryOfAFlow, OfSeparateTriangles) {
+    FlowParameters p = free_at(5);
+    p.step_size = 1;  // a short step leaves the coarse levels idle, here as large as the finest
+    expect_estimate(shapes::separate_triangles(20000), p);
+}
+
+TEST(MemoryOfAFlow, OfAMeshThatIsFinerThanTheGrid) {
+    expect_estimate(shapes::geodesic_sphere(160), free_at(4));
+}
+
+TEST(MemoryOfAFlow, SolvedByWCycles) {
+    FlowParameters p = free_at(8);
+    p.solver = Solver::OneWCycle;
+    expect_estimate(shapes::bumpy_sphere(60), p);
+}
+
+}  // namespace
+}  // namespace tracked_mcf

@@ -1,0 +1,671 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "filter_tracked_mcf/core/octree/sheets.h"
+#include "filter_tracked_mcf/core/mesh/measures.h"
+#include "filter_tracked_mcf/core/mesh/weld.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <map>
+#include <random>
+#include <set>
+#include <string>
+
+#include "filter_tracked_mcf/core/cells/bspline.h"
+#include "filter_tracked_mcf/core/cells/clip.h"
+#include "filter_tracked_mcf/core/flow/flow.h"
+#include "filter_tracked_mcf/core/parallel/disjoint_sets.h"
+#include "filter_tracked_mcf/core/parallel/parallel.h"
+#include "filter_tracked_mcf/core/solver/paper/multigrid.h"
+#include "filter_tracked_mcf/core/solver/paper/transfer.h"
+#include "filter_tracked_mcf/core/system/constrained_cells.h"
+#include "tests/support/elements.h"
+#include "tests/support/shapes.h"
+
+namespace tracked_mcf {
+namespace {
+
+/// Integer coordinates of a cell, or of a corner of cells.
+using Key = std::array<int, 3>;
+
+Key key_of(const Cell& cell) {
+    return {cell[0], cell[1], cell[2]};
+}
+
+/// Separates the sheets by separate_sheets() (octree/sheets.h), links them by find_links()
+/// (octree/sheet_links.h) and builds the levels (octree/octree.h).
+TrackedElements build(const TriangleMesh& mesh, const Grid& grid, bool separate = true) {
+    return build_tracked_elements(mesh, grid, Cubature::ThreePoints, separate);
+}
+
+/// A grid whose cells have side 1 and whose first corner is the origin.
+Grid unit_grid(int depth) {
+    return {Eigen::Vector3d::Zero(), 1, depth};
+}
+
+std::map<Key, int> count_elements(const Level& level) {
+    std::map<Key, int> count;
+    for (const MortonCode cell : level.cells) ++count[key_of(cell_at(cell))];
+    return count;
+}
+
+std::map<Key, int> count_unknowns(const Level& level) {
+    std::map<Key, std::set<std::int32_t>> unknowns;
+    for (std::int32_t element = 0; element < level.element_count(); ++element) {
+        for (int corner = 0; corner < 8; ++corner) {
+            const Cell offset(corner_bit(corner, 0), corner_bit(corner, 1), corner_bit(corner, 2));
+            unknowns[key_of(cell_at(level.cells[element]) + offset)].insert(
+                level.unknowns[element][corner]);
+        }
+    }
+    std::map<Key, int> count;
+    for (const auto& [corner, of_corner] : unknowns) {
+        count[corner] = static_cast<int>(of_corner.size());
+    }
+    return count;
+}
+
+/// Counts elements and unknowns by their definition: the connected parts of the surface in a box,
+/// which is a cell or a support.
+class Oracle {
+public:
+    Oracle(const TriangleMesh& mesh, const Grid& grid)
+        : mesh_(to_grid(mesh, grid)), welded_(weld_coincident_vertices(mesh)), grid_(grid) {}
+
+    std::map<Key, int> elements(int level) const { return count_parts(level, {Cell(0, 0, 0)}, 1); }
+    std::map<Key, int> unknowns(int level) const {
+        std::vector<Cell> offsets;
+        offsets.reserve(8);
+        for (int corner = 0; corner < 8; ++corner) {
+            offsets.emplace_back(corner_bit(corner, 0), corner_bit(corner, 1),
+                                 corner_bit(corner, 2));
+        }
+        return count_parts(level, offsets, 2);
+    }
+
+private:
+    /// Counts the parts in the boxes at these offsets from occupied cells. A box is `side` cells
+    /// wide and ends one cell above its key.
+    std::map<Key, int> count_parts(int level, const std::vector<Cell>& offsets, int side) const {
+        const int cell_size = 1 << (grid_.depth - level);
+        std::map<Key, std::set<std::int32_t>> triangles;
+        const auto count = static_cast<std::int32_t>(mesh_.original.triangles.size());
+        for (std::int32_t triangle = 0; triangle < count; ++triangle) {
+            for_each_fragment(mesh_.corners(triangle), grid_.cells_per_side(),
+                              [&](const Cell& cell, const Polygon&) {
+                                  for (const Cell& offset : offsets) {
+                                      triangles[key_of(cell / cell_size + offset)].insert(triangle);
+                                  }
+                              });
+        }
+        std::map<Key, int> parts;
+        for (const auto& [at, of_box] : triangles) {
+            const Eigen::Vector3d upper(at[0] + 1, at[1] + 1, at[2] + 1);
+            const Eigen::AlignedBox3d box(cell_size * (upper - Eigen::Vector3d::Constant(side)),
+                                          cell_size * upper);
+            parts[at] = count_parts({of_box.begin(), of_box.end()}, box);
+        }
+        return parts;
+    }
+
+    int count_parts(const std::vector<std::int32_t>& triangles,
+                    const Eigen::AlignedBox3d& box) const {
+        DisjointSets parts(static_cast<std::int32_t>(triangles.size()));
+        std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t>
+            first;  // by edge, or (v, v) for a vertex v
+        for (std::int32_t i = 0; i < static_cast<std::int32_t>(triangles.size()); ++i) {
+            const Triangle& t = mesh_.original.triangles[triangles[i]];
+            const auto corners = mesh_.corners(triangles[i]);
+            for (int a = 0; a < 3; ++a) {
+                const int b = (a + 1) % 3;
+                const std::pair ends(std::minmax(welded_[t[a]], welded_[t[b]]));
+                if (box.contains(corners[a])) {
+                    parts.unite(i,
+                                first.try_emplace({welded_[t[a]], welded_[t[a]]}, i).first->second);
+                }
+                if (meet(corners[a], corners[b], box)) {
+                    parts.unite(i, first.try_emplace(ends, i).first->second);
+                }
+            }
+        }
+        const std::vector<std::int32_t> representatives = std::move(parts).representatives();
+        return static_cast<int>(std::set(representatives.begin(), representatives.end()).size());
+    }
+
+    /// Returns whether a segment and a box share more than a point.
+    static bool meet(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                     const Eigen::AlignedBox3d& box) {
+        double enter = 0;
+        double leave = 1;
+        for (int axis = 0; axis < 3; ++axis) {
+            const double slope = b[axis] - a[axis];
+            if (slope == 0) {
+                if (a[axis] < box.min()[axis] || a[axis] > box.max()[axis]) return false;
+                continue;
+            }
+            const double at_min = (box.min()[axis] - a[axis]) / slope;
+            const double at_max = (box.max()[axis] - a[axis]) / slope;
+            enter = std::max(enter, std::min(at_min, at_max));
+            leave = std::min(leave, std::max(at_min, at_max));
+        }
+        return leave > enter + 1e-13;
+    }
+
+    GridMesh mesh_;
+    std::vector<std::int32_t> welded_;
+    Grid grid_;
+};
+
+void expect_connected_parts(const TriangleMesh& mesh, const Grid& grid, const std::string& name) {
+    const TrackedElements elements = build(mesh, grid);
+    const Oracle oracle(mesh, grid);
+    for (int level = 0; level <= grid.depth; ++level) {
+        EXPECT_EQ(count_elements(elements.levels[level]), oracle.elements(level))
+            << name << ", level " << level;
+        EXPECT_EQ(count_unknowns(elements.levels[level]), oracle.unknowns(level))
+            << name << ", level " << level;
+    }
+}
+
+void expect_connected_parts(const TriangleMesh& mesh, int depth, const std::string& name) {
+    expect_connected_parts(mesh, enclosing_grid(mesh, depth), name);
+}
+
+/// Maps x to y, y to z and z to x, exactly.
+TriangleMesh axes_rotated(const TriangleMesh& mesh) {
+    Eigen::Affine3d turn = Eigen::Affine3d::Identity();
+    turn.linear() << 0, 0, 1, 1, 0, 0, 0, 1, 0;
+    return shapes::transformed(mesh, turn);
+}
+
+TriangleMesh moved(const TriangleMesh& mesh, const Eigen::Vector3d& by) {
+    return shapes::transformed(mesh, Eigen::Affine3d(Eigen::Translation3d(by)));
+}
+
+TriangleMesh scaled(const TriangleMesh& mesh, double by) {
+    return shapes::transformed(mesh, Eigen::Affine3d(Eigen::Scaling(by)));
+}
+
+/// Two nested spheres, a twentieth of the radius apart.
+TriangleMesh close_shells() {
+    return shapes::merged(shapes::bumpy_sphere(8), scaled(shapes::bumpy_sphere(9), 1.05));
+}
+
+/// Returns the triangles in another order.
+TriangleMesh shuffled(TriangleMesh mesh) {
+    std::mt19937 random(3);
+    std::shuffle(mesh.triangles.begin(), mesh.triangles.end(), random);
+    return mesh;
+}
+
+/// A thin torus whose tube is narrower than a cell at depth 4.
+TriangleMesh thin_torus() {
+    return shapes::torus(40, 8, 1, 0.06);
+}
+
+/// A square of 8 by 8 quads in the plane x = y, its corners at (2, 2, 2) and (10, 10, 10).
+TriangleMesh diagonal_square() {
+    Eigen::Affine3d upright = Eigen::Affine3d::Identity();
+    upright.linear() << 8, 0, 0, 8, 0, 0, 0, 8, 0;
+    return moved(shapes::transformed(shapes::square(8), upright), {2, 2, 2});
+}
+
+/// A cone of four triangles, open at the base. Its apex is the origin, its axis is along x.
+TriangleMesh cone(double length) {
+    TriangleMesh mesh;
+    mesh.positions = {{0, 0, 0},
+                      {length, 0.3, 0.3},
+                      {length, -0.3, 0.3},
+                      {length, -0.3, -0.3},
+                      {length, 0.3, -0.3}};
+    mesh.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 1}};
+    return mesh;
+}
+
+int elements_in_middle_cell(const TriangleMesh& mesh) {
+    return count_elements(build(mesh, unit_grid(2)).finest())[{1, 1, 1}];
+}
+
+TriangleMesh triangles(const std::vector<Eigen::Vector3d>& positions,
+                       const std::vector<Triangle>& faces) {
+    return {positions, faces};
+}
+
+TEST(DisjointSets, AreRepresentedByTheirSmallestMembers) {
+    DisjointSets sets(8);
+    sets.unite(7, 3);
+    sets.unite(5, 6);
+    sets.unite(3, 6);
+    sets.unite(1, 2);
+    EXPECT_EQ(sets.find(7), 3);
+    EXPECT_EQ(std::move(sets).representatives(),
+              (std::vector<std::int32_t>{0, 1, 1, 3, 4, 3, 3, 3}));
+}
+
+// The cases below count the sheets in the cell [1, 2]³.
+
+TEST(Sheets, ParallelSheetsAreSeparate) {
+    const auto sheet = [](double z) {
+        return triangles({{1.2, 1.2, z}, {1.8, 1.2, z}, {1.5, 1.8, z}}, {{0, 1, 2}});
+    };
+    EXPECT_EQ(elements_in_middle_cell(shapes::merged(sheet(1.4), sheet(1.6))), 2);
+    EXPECT_EQ(
+        elements_in_middle_cell(shapes::merged(shapes::merged(sheet(1.4), sheet(1.6)), sheet(1.5))),
+        3);
+}
+
+TEST(Sheets, AFoldIsOneSheetOnlyWhereItsEdgePasses) {
+    const auto fold = [](double x) {
+        return triangles({{x, 0.5, 1.5}, {x, 2.5, 1.5}, {0.2, 1.5, 1.3}, {0.2, 1.5, 1.7}},
+                         {{0, 1, 2}, {0, 1, 3}});
+    };
+    EXPECT_EQ(elements_in_middle_cell(fold(1.7)), 1);
+    EXPECT_EQ(elements_in_middle_cell(fold(2.3)), 2);
+}
+
+TEST(Sheets, AnyNumberOfTrianglesAtAnEdgeAreOneSheet) {
+    std::vector<Eigen::Vector3d> positions = {{1.5, 1.5, 0.5}, {1.5, 1.5, 2.5}};
+    std::vector<Triangle> faces;
+    for (std::int32_t i = 2; i < 7; ++i) {
+        positions.emplace_back(1.5 + std::cos(i), 1.5 + std::sin(i), 1.5);
+        faces.push_back({i % 2, i, 1 - i % 2});
+    }
+    EXPECT_EQ(elements_in_middle_cell(triangles(positions, faces)), 1);
+}
+
+TEST(Sheets, AFinIsPartOfItsSheet) {
+    TriangleMesh mesh = triangles(
+        {{1.1, 1.1, 1.5}, {1.9, 1.1, 1.5}, {1.5, 1.9, 1.5}, {1.5, 1.2, 1.9}, {1.5, 1.5, 1.9}},
+        {{0, 1, 2}, {0, 1, 3}});
+    EXPECT_EQ(elements_in_middle_cell(mesh), 1);
+    mesh.triangles.push_back({4, 4, 3});  // a needle on the fin
+    EXPECT_EQ(elements_in_middle_cell(mesh), 1);
+    mesh.positions.emplace_back(1.2, 1.9, 1.9);
+    mesh.triangles.push_back({5, 5, 5});  // an isolated point
+    EXPECT_EQ(elements_in_middle_cell(mesh), 2);
+}
+
+TEST(Sheets, ConesAreOneSheetOnlyAtTheirCommonApex) {
+    const TriangleMesh cones = shapes::merged(cone(0.9), cone(-0.9));
+    EXPECT_EQ(elements_in_middle_cell(moved(cones, {1.5, 1.5, 1.5})), 1);
+    const TriangleMesh nested = shapes::merged(cone(2), scaled(cone(1.5), 1.3));
+    EXPECT_EQ(elements_in_middle_cell(moved(nested, {1.01, 1.5, 1.5})), 1);
+    EXPECT_EQ(elements_in_middle_cell(moved(nested, {0.99, 1.5, 1.5})), 2);
+}
+
+TEST(Sheets, CopiesOfATriangleAreOneSheetOnlyWhereTheirEdgesPass) {
+    const TriangleMesh small =
+        triangles({{1.2, 1.2, 1.5}, {1.8, 1.2, 1.5}, {1.5, 1.8, 1.5}}, {{0, 1, 2}, {1, 0, 2}});
+    EXPECT_EQ(elements_in_middle_cell(small), 1);
+    const TriangleMesh large =
+        triangles({{0.1, 0.1, 1.5}, {3.9, 0.1, 1.5}, {1.5, 3.9, 1.5}}, {{0, 1, 2}, {1, 0, 2}});
+    const auto count = count_elements(build(large, unit_grid(2)).finest());
+    EXPECT_EQ(count.at({1, 1, 1}), 2);
+    EXPECT_EQ(count.at({0, 0, 1}), 1);
+}
+
+TEST(Sheets, ElementsAndUnknownsAreTheConnectedPartsOnEveryLevel) {
+    expect_connected_parts(shapes::bumpy_sphere(12), 5, "bumpy sphere");
+    expect_connected_parts(close_shells(), 4, "close shells");
+    expect_connected_parts(shuffled(close_shells()), 4, "close shells, shuffled");
+    expect_connected_parts(thin_torus(), 4, "thin torus");
+    expect_connected_parts(shapes::moebius_band(30, 4), 4, "Moebius band");
+    expect_connected_parts(shapes::separate_triangles(500), 5, "separate triangles");
+    expect_connected_parts(shapes::geodesic_sphere(1), 6, "triangles of many cells");
+    TriangleMesh mixed = shapes::torus(12, 6, 1, 0.5);
+    mixed.positions.emplace_back(0, 0, 0);
+    const auto extra = static_cast<std::int32_t>(mixed.positions.size()) - 1;
+    mixed.triangles.push_back({3, extra, extra});                // a needle to the middle
+    mixed.triangles.push_back({extra, 20, 45});                  // a fin from there
+    mixed.triangles.push_back(mixed.triangles[10]);              // a copy
+    mixed.triangles.push_back({mixed.triangles[11][0], 7, 40});  // through everything
+    expect_connected_parts(mixed, 4, "mixed");
+}
+
+TEST(Sheets, StayConnectedAcrossManyCells) {
+    TriangleMesh plate = moved(shapes::box(1, {70, 70, 2}), {20, 20, 64});
+    // A needle through corners of the grid: no two of its cells share more than a corner.
+    const auto end = static_cast<std::int32_t>(plate.positions.size());
+    plate.positions.emplace_back(4, 4, 4);
+    plate.positions.emplace_back(100, 100, 100);
+    plate.triangles.push_back({end, end + 1, end + 1});
+    expect_connected_parts(plate, unit_grid(7), "plate");
+}
+
+TEST(Sheets, StayConnectedWhereMeshEdgesLieInGridPlanesAndLines) {
+    // Grid planes are at whole numbers.
+    const std::map<std::string, TriangleMesh> meshes = {
+        {"box, coarse", moved(shapes::box(1, {8, 8, 8}), {4, 4, 4})},
+        {"box, as fine as the grid", moved(shapes::box(8, {8, 8, 8}), {4, 4, 4})},
+        {"box, oblong", moved(shapes::box(3, {9, 6, 3}), {1, 4, 9})},
+        {"box, thin", moved(shapes::box(4, {8, 8, 0.25}), {4, 4, 8})},
+        {"box, a cell thick", moved(shapes::box(4, {8, 8, 1}), {4, 4, 8})},
+        {"diagonal square", diagonal_square()},
+        {"sphere", moved(scaled(shapes::geodesic_sphere(4), 7), {8, 8, 8})},
+        {"torus", moved(scaled(shapes::torus(16, 8, 1, 0.3), 6), {8, 8, 8})},
+        {"square", moved(scaled(shapes::square(3), 9), {3, 2, 5})},
+        {"cones with an apex at a grid corner",
+         moved(shapes::merged(cone(3), cone(-3)), {8, 8, 8})},
+        {"cones with an apex on a grid line",
+         moved(shapes::merged(cone(3), cone(-3)), {8, 8, 7.6})},
+    };
+    for (const auto& [name, mesh] : meshes) {
+        TriangleMesh turned = mesh;
+        for (int turn = 0; turn < 3; ++turn) {
+            expect_connected_parts(turned, unit_grid(4), name + ", turn " + std::to_string(turn));
+            turned = axes_rotated(turned);
+        }
+    }
+}
+
+bool same(const Level& a, const Level& b) {
+    return a.cells == b.cells && a.unknowns == b.unknowns && a.parents == b.parents &&
+           a.unknown_count() == b.unknown_count();
+}
+
+void expect_same_levels(const TrackedElements& a, const TrackedElements& b) {
+    ASSERT_EQ(a.levels.size(), b.levels.size());
+    for (std::size_t level = 0; level < a.levels.size(); ++level) {
+        EXPECT_TRUE(same(a.levels[level], b.levels[level])) << level;
+    }
+}
+
+TEST(Sheets, OfASoupAreThoseOfItsMesh) {
+    const TriangleMesh mesh = close_shells();
+    const Grid grid = enclosing_grid(mesh, 5);
+    const TrackedElements welded = build(mesh, grid);
+    const TrackedElements soup = build(shapes::soup(mesh), grid);
+    expect_same_levels(welded, soup);
+    EXPECT_EQ(welded.fragment_begin, soup.fragment_begin);
+    EXPECT_GT(welded.finest().element_count(), count_cells(welded.finest()));
+}
+
+TEST(Sheets, AreTheSameAtAnyNumberOfThreads) {
+    const TriangleMesh mesh =
+        shapes::merged(shapes::bumpy_sphere(60), scaled(shapes::bumpy_sphere(50), 1.01));
+    const Grid grid = enclosing_grid(mesh, 6);
+    const auto at = [&](int threads) {
+        const ThreadCountScope scope(threads);
+        return build(mesh, grid);
+    };
+    const TrackedElements one = at(1);
+    EXPECT_GT(one.finest().element_count(), count_cells(one.finest()) + 1000);
+    for (const int threads : {2, 3, 5}) {
+        const TrackedElements several = at(threads);
+        expect_same_levels(several, one);
+        EXPECT_EQ(several.fragment_begin, one.fragment_begin);
+    }
+}
+
+TEST(Sheets, UnseparatedHaveOneElementPerCellAndOneUnknownPerCorner) {
+    const TriangleMesh mesh = close_shells();
+    const TrackedElements elements = build(mesh, enclosing_grid(mesh, 4), false);
+    for (const Level& level : elements.levels) {
+        for (const auto& [cell, count] : count_elements(level)) EXPECT_EQ(count, 1);
+        for (const auto& [corner, count] : count_unknowns(level)) EXPECT_EQ(count, 1);
+    }
+}
+
+TEST(Sheets, IdentityCoefficientsReproduceEveryVertex) {
+    for (const TriangleMesh& mesh : {close_shells(), thin_torus(), shapes::moebius_band(30, 4),
+                                     shapes::separate_triangles(500)}) {
+        const TrackedElements elements = build(mesh, enclosing_grid(mesh, 4));
+        const Coefficients identity = identity_coefficients(elements);
+        for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+            const Eigen::Vector3d in_grid =
+                evaluate_vertex(elements, identity, elements.vertices[i]);
+            EXPECT_LT((in_grid - elements.grid.to_grid(mesh.positions[i])).norm(), 1e-12 * 16);
+        }
+    }
+}
+
+TEST(Sheets, TheIdentityIsOneMapOnEveryElement) {
+    // The eight functions of an element belong to the eight corners of its cell.
+    const TriangleMesh mesh = close_shells();
+    const TrackedElements elements = build(mesh, enclosing_grid(mesh, 4));
+    const Coefficients identity = identity_coefficients(elements);
+    for (std::int32_t element = 0; element < elements.finest().element_count(); ++element) {
+        const Cell cell = cell_at(elements.finest().cells[element]);
+        for (int corner = 0; corner < 8; ++corner) {
+            const std::int32_t unknown = elements.finest().unknowns[element][corner];
+            for (int axis = 0; axis < 3; ++axis) {
+                EXPECT_EQ(identity(unknown, axis), cell[axis] + corner_bit(corner, axis));
+            }
+        }
+    }
+}
+
+/// The system of a flow's first step, without constraints.
+struct System {
+    System(const TriangleMesh& mesh, const Grid& grid)
+        : elements(build(mesh, grid)),
+          multigrid(elements, constrained_unknowns(elements, BoundaryCondition::Free)) {
+        assemble_elements(elements, Coefficients::Zero(elements.finest().unknown_count(), 3),
+                          {1, 0.5F}, systems);
+        multigrid.refresh(systems.matrices);
+    }
+
+    TrackedElements elements;
+    Multigrid multigrid;
+    ElementSystems systems;
+};
+
+TEST(Sheets, CoarseMatricesAreTheGalerkinProducts) {
+    for (const TriangleMesh& mesh :
+         {close_shells(), thin_torus(), shapes::moebius_band(30, 4),
+          shapes::separate_triangles(300), shapes::torus(30, 20, 1, 0.4)}) {
+        const System system(mesh, enclosing_grid(mesh, 4));
+        for (int level = 4; level > 0; --level) {
+            using Double = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+            const Double fine = system.multigrid.matrix(level).matrix().cast<double>();
+            const Double p =
+                prolongation(system.elements.levels[level], system.elements.levels[level - 1])
+                    .cast<double>();
+            const Double coarse = system.multigrid.matrix(level - 1).matrix().cast<double>();
+            const Double product = p.transpose() * fine * p;
+            EXPECT_LT((coarse - product).norm(), 1e-6 * coarse.norm()) << level;
+        }
+    }
+}
+
+TEST(Sheets, AFineFunctionLiesInOnePartOfEachCoarseFunctionOverIt) {
+    // All elements of a fine function have the same coarse functions.
+    for (const TriangleMesh& mesh : {close_shells(), thin_torus(), shapes::moebius_band(30, 4)}) {
+        const TrackedElements elements = build(mesh, enclosing_grid(mesh, 4));
+        for (int l = 4; l > 0; --l) {
+            const Level& fine = elements.levels[l];
+            const Level& coarse = elements.levels[l - 1];
+            std::vector<std::set<std::int32_t>> above(
+                static_cast<std::size_t>(fine.unknown_count()));
+            for (std::int32_t element = 0; element < fine.element_count(); ++element) {
+                const auto weights = refinement_weights(octant_of(fine.cells[element]));
+                for (int corner = 0; corner < 8; ++corner) {
+                    std::set<std::int32_t> here;
+                    for (int parent_corner = 0; parent_corner < 8; ++parent_corner) {
+                        if (weights(corner, parent_corner) == 0) continue;
+                        here.insert(coarse.unknowns[fine.parents[element]][parent_corner]);
+                    }
+                    auto& known = above[fine.unknowns[element][corner]];
+                    if (known.empty()) known = here;
+                    EXPECT_EQ(known, here);
+                }
+            }
+        }
+    }
+}
+
+FlowParameters one_step(double step_size) {
+    FlowParameters parameters;
+    parameters.step_size = step_size;
+    parameters.boundary = BoundaryCondition::Free;
+    parameters.solver = Solver::OneWCycle;
+    return parameters;
+}
+
+TriangleMesh after_a_step(TriangleMesh mesh, const FlowParameters& parameters, const Grid& grid) {
+    Flow flow(mesh, parameters, grid);
+    flow.step();
+    flow.move_vertices(mesh.positions);
+    return mesh;
+}
+
+bool same_bits(const std::vector<Eigen::Vector3d>& a, const std::vector<Eigen::Vector3d>& b) {
+    return a.size() == b.size() &&
+           std::memcmp(a[0].data(), b[0].data(), a.size() * sizeof(Eigen::Vector3d)) == 0;
+}
+
+TEST(Sheets, EqualUnseparatedBitForBitWhereNoTwoShareASupport) {
+    const std::map<std::string, TriangleMesh> meshes = {
+        {"box", moved(shapes::box(4, {8, 8, 8}), {4, 4, 4})},
+        // Of a radius at which no support's edges cut the sphere in two, on any level.
+        {"sphere", moved(scaled(shapes::geodesic_sphere(6), 7.55), {8, 8, 8})},
+        {"square", moved(scaled(shapes::square(6), 9), {3, 2, 5})},
+        {"diagonal square", diagonal_square()}};
+    for (const auto& [name, mesh] : meshes) {
+        TriangleMesh turned = mesh;
+        for (int turn = 0; turn < 3; ++turn) {
+            const Grid grid = unit_grid(4);
+            expect_same_levels(build(turned, grid, true), build(turned, grid, false));
+            FlowParameters parameters = one_step(1e-3);
+            parameters.separate_sheets = true;
+            const TriangleMesh separate = after_a_step(turned, parameters, grid);
+            parameters.separate_sheets = false;
+            const TriangleMesh glued = after_a_step(turned, parameters, grid);
+            EXPECT_TRUE(same_bits(separate.positions, glued.positions)) << name << turn;
+            EXPECT_FALSE(same_bits(separate.positions, turned.positions)) << name << turn;
+            turned = axes_rotated(turned);
+        }
+    }
+}
+
+/// Pairs of surfaces at most a quarter of a cell apart on unit_grid(4).
+std::vector<std::pair<TriangleMesh, TriangleMesh>> close_pieces() {
+    const TriangleMesh sphere = scaled(shapes::geodesic_sphere(8), 3);
+    const TriangleMesh plane = moved(scaled(shapes::square(10), 13), {1.3, 1.4, 4.2});
+    return {{moved(sphere, {4.1, 8.2, 8.3}), moved(sphere, {10.35, 8.2, 8.3})},
+            {moved(sphere, {8.1, 8.2, 7.45}), plane}};
+}
+
+/// A one-to-one map from numbers in a part to numbers in the whole.
+class Correspondence {
+public:
+    void expect(std::int32_t of_part, std::int32_t of_whole) {
+        EXPECT_EQ(whole_.try_emplace(of_part, of_whole).first->second, of_whole);
+        EXPECT_EQ(part_.try_emplace(of_whole, of_part).first->second, of_part);
+    }
+    std::int32_t of_whole(std::int32_t part) const { return whole_.at(part); }
+
+private:
+    std::map<std::int32_t, std::int32_t> whole_, part_;
+};
+
+/// Maps the finest elements of the first and of the second piece to those of both together. In a
+/// cell, the elements of the first piece come first.
+std::array<Correspondence, 2> finest_elements_of(const Level& first, const Level& second,
+                                                 const Level& both) {
+    std::array<Correspondence, 2> elements;
+    std::int32_t i = 0;
+    std::int32_t j = 0;
+    for (std::int32_t k = 0; k < both.element_count(); ++k) {
+        if (i < first.element_count() && first.cells[i] == both.cells[k]) {
+            elements[0].expect(i++, k);
+        } else {
+            EXPECT_EQ(second.cells.at(j), both.cells[k]);
+            elements[1].expect(j++, k);
+        }
+    }
+    return elements;
+}
+
+/// Expects that a piece has the same elements and unknowns alone as together with the other piece.
+void expect_same_tree(const TrackedElements& part, const TrackedElements& whole,
+                      Correspondence elements) {
+    for (std::size_t l = part.levels.size(); l-- > 0;) {
+        const Level& of_part = part.levels[l];
+        const Level& of_whole = whole.levels[l];
+        Correspondence unknowns;
+        Correspondence parents;
+        for (std::int32_t element = 0; element < of_part.element_count(); ++element) {
+            const std::int32_t same_element = elements.of_whole(element);
+            for (int corner = 0; corner < 8; ++corner) {
+                unknowns.expect(of_part.unknowns[element][corner],
+                                of_whole.unknowns[same_element][corner]);
+            }
+            if (l > 0) parents.expect(of_part.parents[element], of_whole.parents[same_element]);
+        }
+        elements = parents;
+    }
+}
+
+TEST(Sheets, OfTwoClosePiecesAreThoseOfEachAlone) {
+    for (const auto& [first, second] : close_pieces()) {
+        const System a(first, unit_grid(4));
+        const System b(second, unit_grid(4));
+        const System both(shapes::merged(first, second), unit_grid(4));
+        const Level& finest = both.elements.finest();
+        EXPECT_GT(finest.element_count(), count_cells(finest) + 2);
+        for (std::size_t l = 0; l < both.elements.levels.size(); ++l) {
+            EXPECT_EQ(both.elements.levels[l].unknown_count(),
+                      a.elements.levels[l].unknown_count() + b.elements.levels[l].unknown_count());
+        }
+        const auto elements = finest_elements_of(a.elements.finest(), b.elements.finest(), finest);
+        for (const auto& [part, same_elements] :
+             {std::pair(&a, elements[0]), std::pair(&b, elements[1])}) {
+            expect_same_tree(part->elements, both.elements, same_elements);
+            for (std::int32_t i = 0; i < part->elements.finest().element_count(); ++i) {
+                const ElementMatrix alone = part->systems.matrices.of(i);
+                const ElementMatrix together = both.systems.matrices.of(same_elements.of_whole(i));
+                EXPECT_TRUE(std::equal(alone.entry[0], alone.entry[0] + 64, together.entry[0]));
+            }
+        }
+    }
+}
+
+TEST(Sheets, TwoClosePiecesFlowAsEachAloneBitForBit) {
+    for (const auto& [first, second] : close_pieces()) {
+        const Grid grid = unit_grid(4);
+        const TriangleMesh both = shapes::merged(first, second);
+        // Step sizes are relative to the longest side.
+        const auto step = [](const TriangleMesh& mesh) {
+            return one_step(0.25 / (longest_side(mesh) * longest_side(mesh)));
+        };
+        TriangleMesh apart = shapes::merged(after_a_step(first, step(first), grid),
+                                            after_a_step(second, step(second), grid));
+        FlowParameters parameters = step(both);
+        const TriangleMesh together = after_a_step(both, parameters, grid);
+        EXPECT_TRUE(same_bits(together.positions, apart.positions));
+        parameters.separate_sheets = false;
+        const TriangleMesh glued = after_a_step(both, parameters, grid);
+        EXPECT_FALSE(same_bits(glued.positions, apart.positions));
+    }
+}
+
+TEST(Sheets, ManySeparateTrianglesFlow) {
+    const TriangleMesh mesh = shapes::separate_triangles(20000);
+    const Grid grid = enclosing_grid(mesh, 6);
+    const Flow flow(mesh, one_step(1e-5), grid);
+    EXPECT_EQ(flow.elements().levels[0].element_count(), 20000);
+    EXPECT_EQ(flow.elements().levels[0].unknown_count(), 8 * 20000);
+    const TriangleMesh after = after_a_step(mesh, one_step(1e-5), grid);
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        ASSERT_TRUE(after.positions[i].allFinite());
+    }
+    EXPECT_LT(surface_area(after), surface_area(mesh));
+}
+
+TEST(Sheets, AreCountedInTheReport) {
+    const TriangleMesh mesh = close_shells();
+    FlowParameters parameters;
+    parameters.depth = 4;
+    const Flow separate(mesh, parameters);
+    EXPECT_EQ(separate.report().elements, separate.elements().finest().element_count());
+    EXPECT_GT(separate.report().elements, separate.report().cells);
+    parameters.separate_sheets = false;
+    const Flow glued(mesh, parameters);
+    EXPECT_EQ(glued.report().cells, separate.report().cells);
+    EXPECT_EQ(glued.report().elements, glued.report().cells);
+}
+
+}  // namespace
+}  // namespace tracked_mcf

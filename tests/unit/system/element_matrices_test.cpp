@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "filter_tracked_mcf/core/system/element_matrices.h"
+#include "filter_tracked_mcf/core/mesh/measures.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <random>
+
+#include "filter_tracked_mcf/core/cells/bspline.h"
+#include "tests/support/bspline_gradients.h"
+#include "tests/support/elements.h"
+#include "tests/support/shapes.h"
+
+namespace tracked_mcf {
+namespace {
+
+using Matrix8 = Eigen::Matrix<double, 8, 8>;
+
+Matrix8 to_matrix(const MatrixBlocks& matrices, std::int64_t element) {
+    const ElementMatrix whole = matrices.of(element);
+    return Eigen::Map<const Eigen::Matrix<float, 8, 8>>(whole.entry[0]).cast<double>();
+}
+
+TrackedElements bumpy_elements() {
+    const TriangleMesh mesh = shapes::bumpy_sphere(10);
+    return build_tracked_elements(mesh, enclosing_grid(mesh, 4), Cubature::ThreePoints);
+}
+
+ElementSystems assemble(const TrackedElements& elements, const Coefficients& displacement,
+                        SystemWeights weights) {
+    ElementSystems systems;
+    assemble_elements(elements, displacement, weights, systems);
+    return systems;
+}
+
+constexpr SystemWeights kMass = {1, 0};
+constexpr SystemWeights kStiffness = {0, 1};
+
+/// A smooth displacement. X_t is invertible and far from an isometry.
+Coefficients wobble(const TrackedElements& elements) {
+    Coefficients displacement = identity_coefficients(elements);
+    for (Eigen::Index i = 0; i < displacement.rows(); ++i) {
+        const Eigen::RowVector3d p = displacement.row(i);
+        displacement.row(i) << 0.9 * std::sin(0.5 * p[1]), 0.3 * p[0] + std::cos(0.4 * p[2]),
+            0.2 * p[2] + std::sin(0.3 * p[0]);
+    }
+    return displacement;
+}
+
+/// Equation 4 for one element as in the paper, in double precision: the metric from the embedding's
+/// coefficients, then a sum over the samples.
+struct Reference {
+    Matrix8 mass = Matrix8::Zero();
+    Matrix8 stiffness = Matrix8::Zero();
+    Eigen::Matrix<double, 8, 3> stiffness_times_x = Eigen::Matrix<double, 8, 3>::Zero();
+    double area = 0;
+};
+Reference integrate(const TrackedElements& elements, const Coefficients& embedding,
+                    std::int32_t element) {
+    Eigen::Matrix<double, 8, 3> x;
+    for (int corner = 0; corner < 8; ++corner) {
+        x.row(corner) = embedding.row(elements.finest().unknowns[element][corner]);
+    }
+    Reference reference;
+    std::int64_t sample = elements.sample_begin[element];
+    for (std::int64_t f = elements.fragment_begin[element];
+         f < elements.fragment_begin[element + 1]; ++f) {
+        const Fragment& fragment = elements.fragments[f];
+        const Eigen::Vector3d normal =
+            Eigen::Map<const Eigen::Vector3f>(fragment.normal).cast<double>();
+        Eigen::Matrix<double, 3, 2> tangents;
+        tangents.col(0) = normal.unitOrthogonal();
+        tangents.col(1) = normal.normalized().cross(tangents.col(0));
+        for (std::int32_t i = 0; i < fragment.sample_count; ++i, ++sample) {
+            const Eigen::Vector3d local = elements.samples.local(sample);
+            const CornerValues beta = bspline_values(local);
+            const Eigen::Matrix<double, 8, 2> eta = bspline_gradients(local) * tangents;
+            const Eigen::Matrix<double, 3, 2> dx = x.transpose() * eta;
+            const Eigen::Matrix2d g = dx.transpose() * dx;
+            const double weight = std::sqrt(g.determinant()) * elements.samples.weight(sample);
+            reference.mass += weight * beta * beta.transpose();
+            reference.stiffness += weight * eta * g.inverse() * eta.transpose();
+            reference.area += weight;
+        }
+    }
+    reference.stiffness_times_x = reference.stiffness * x;
+    return reference;
+}
+
+void expect_paper(const TrackedElements& elements, const Coefficients& displacement) {
+    const ElementSystems mass = assemble(elements, displacement, kMass);
+    const ElementSystems stiffness = assemble(elements, displacement, kStiffness);
+    const Coefficients embedding = identity_coefficients(elements) + displacement;
+    double area = 0;
+    for (std::int32_t element = 0; element < elements.finest().element_count(); ++element) {
+        const Reference expected = integrate(elements, embedding, element);
+        area += expected.area;
+        EXPECT_LT((to_matrix(mass.matrices, element) - expected.mass).norm(),
+                  1e-5 * expected.mass.norm());
+        EXPECT_LT((to_matrix(stiffness.matrices, element) - expected.stiffness).norm(),
+                  1e-5 * expected.stiffness.norm());
+        for (int axis = 0; axis < 3; ++axis) {
+            for (int corner = 0; corner < 8; ++corner) {
+                EXPECT_NEAR(-stiffness.right_sides[element].entry[axis][corner],
+                            expected.stiffness_times_x(corner, axis),
+                            1e-5 * expected.stiffness_times_x.norm());
+            }
+        }
+    }
+    EXPECT_NEAR(mass.area, area, 1e-6 * area);
+    EXPECT_EQ(mass.collapsed_samples, 0);
+}
+
+TEST(ElementMatrices, AreEquation4OfTheInitialSurface) {
+    const TrackedElements elements = bumpy_elements();
+    expect_paper(elements, Coefficients::Zero(elements.finest().unknown_count(), 3));
+}
+
+TEST(ElementMatrices, AreEquation4OfADeformedSurface) {
+    const TrackedElements elements = bumpy_elements();
+    expect_paper(elements, wobble(elements));
+}
+
+TEST(ElementMatrices, MetricOfTheInitialEmbeddingIsTheIdentity) {
+    // So mass and area are the plain integrals over the initial surface.
+    const TriangleMesh mesh = shapes::bumpy_sphere(10);
+    const TrackedElements elements = bumpy_elements();
+    const ElementSystems systems =
+        assemble(elements, Coefficients::Zero(elements.finest().unknown_count(), 3), kMass);
+    const double h2 = elements.grid.cell_size * elements.grid.cell_size;
+    EXPECT_NEAR(systems.area * h2, surface_area(mesh), 1e-6 * surface_area(mesh));
+    for (std::int32_t element = 0; element < elements.finest().element_count(); ++element) {
+        Matrix8 plain = Matrix8::Zero();
+        for (std::int64_t s = elements.sample_begin[element];
+             s < elements.sample_begin[element + 1]; ++s) {
+            const CornerValues values = bspline_values(elements.samples.local(s));
+            plain += elements.samples.weight(s) * values * values.transpose();
+        }
+        EXPECT_LT((to_matrix(systems.matrices, element) - plain).norm(), 1e-6 * plain.norm());
+    }
+}
+
+TEST(ElementMatrices, MassSumsToTheAreaUnderTheCurrentMetric) {
+    const TrackedElements elements = bumpy_elements();
+    const ElementSystems systems = assemble(elements, wobble(elements), kMass);
+    double sum = 0;
+    for (std::int64_t element = 0; element < systems.matrices.size(); ++element) {
+        sum += to_matrix(systems.matrices, element).sum();
+    }
+    EXPECT_NEAR(sum, systems.area, 1e-6 * systems.area);
+}
+
+TEST(ElementMatrices, StiffnessAnnihilatesConstants) {
+    const TrackedElements elements = bumpy_elements();
+    const ElementSystems stiffness = assemble(elements, wobble(elements), kStiffness);
+    for (std::int64_t element = 0; element < stiffness.matrices.size(); ++element) {
+        const Matrix8 matrix = to_matrix(stiffness.matrices, element);
+        EXPECT_LT((matrix * CornerValues::Ones()).norm(), 1e-5 * matrix.norm());
+    }
+}
+
+void expect_same(const ElementSystems& a, const ElementSystems& b, double scale) {
+    for (std::int64_t element = 0; element < a.matrices.size(); ++element) {
+        const Matrix8 expected = scale * to_matrix(a.matrices, element);
+        EXPECT_LT((to_matrix(b.matrices, element) - expected).norm(), 2e-5 * expected.norm());
+    }
+}
+
+TEST(ElementMatrices, AreInvariantUnderRigidMotionsOfTheEmbedding) {
+    const TrackedElements elements = bumpy_elements();
+    const Coefficients identity = identity_coefficients(elements);
+    const Coefficients displacement = wobble(elements);
+    const Eigen::Matrix3d rotation =
+        Eigen::AngleAxisd(1.1, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+    Coefficients moved = (identity + displacement) * rotation.transpose() - identity;
+    moved.rowwise() += Eigen::RowVector3d(3, -5, 2);
+    for (const SystemWeights weights : {kMass, kStiffness}) {
+        expect_same(assemble(elements, displacement, weights), assemble(elements, moved, weights),
+                    1);
+    }
+}
+
+TEST(ElementMatrices, ScalingTheEmbeddingScalesTheMassByTheSquareAndKeepsTheStiffness) {
+    const TrackedElements elements = bumpy_elements();
+    const Coefficients identity = identity_coefficients(elements);
+    const Coefficients displacement = wobble(elements);
+    const Coefficients scaled = 3 * (identity + displacement) - identity;
+    expect_same(assemble(elements, displacement, kMass), assemble(elements, scaled, kMass), 9);
+    expect_same(assemble(elements, displacement, kStiffness),
+                assemble(elements, scaled, kStiffness), 1);
+}
+
+TEST(ElementMatrices, CollapsedSamplesContributeNothing) {
+    const TrackedElements elements = bumpy_elements();
+    const Coefficients to_a_point = -identity_coefficients(elements);
+    Coefficients to_a_line = to_a_point;
+    to_a_line.col(0).setZero();
+    for (const Coefficients& collapse : {to_a_point, to_a_line}) {
+        const ElementSystems systems = assemble(elements, collapse, {1, 1});
+        EXPECT_EQ(systems.collapsed_samples, elements.samples.size());
+        EXPECT_EQ(systems.area, 0);
+        for (std::int64_t element = 0; element < systems.matrices.size(); ++element) {
+            EXPECT_EQ(to_matrix(systems.matrices, element).norm(), 0);
+        }
+    }
+}
+
+TEST(ElementMatrices, FunctionsSumToOneAtEverySample) {
+    // Σ_J ∫ B_I B_J equals ∫ B_I for every I only if Σ_J B_J = 1 at every sample.
+    const TrackedElements elements = bumpy_elements();
+    const ElementSystems systems =
+        assemble(elements, Coefficients::Zero(elements.finest().unknown_count(), 3), kMass);
+    for (std::int32_t element = 0; element < elements.finest().element_count(); ++element) {
+        CornerValues integrals = CornerValues::Zero();
+        for (std::int64_t s = elements.sample_begin[element];
+             s < elements.sample_begin[element + 1]; ++s) {
+            integrals += elements.samples.weight(s) * bspline_values(elements.samples.local(s));
+        }
+        const CornerValues row_sums = to_matrix(systems.matrices, element).rowwise().sum();
+        EXPECT_LT((row_sums - integrals).norm(), 1e-6 * integrals.norm());
+    }
+}
+
+}  // namespace
+}  // namespace tracked_mcf
