@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/hosts/host.h"
 
+#include <iterator>
 #include <stdexcept>
 
 #include "release.h"
@@ -38,8 +39,9 @@ Declaration Filter::declaration() const {
             filters.postCondition(action)};
 }
 
-int Filter::filters_in_plugin() const {
-    return loaded_->plugin.filters().actions().size();
+std::ptrdiff_t Filter::filters_in_plugin() const {
+    const auto actions = loaded_->plugin.filters().actions(); // a QList or a std::list
+    return std::distance(actions.begin(), actions.end());
 }
 
 bool Filter::is_applicable(const MeshModel& layer) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <QVariant>
+#include <cstddef>
 #include <map>
 #include <memory>
 #include <string>
@@ -40,7 +41,7 @@ public:
 
     Declaration declaration() const;
     /// Returns the number of the plugin's filters.
-    int filters_in_plugin() const;
+    std::ptrdiff_t filters_in_plugin() const;
     bool is_applicable(const MeshModel& layer) const;
     /// Returns the parameters with the dialog's defaults.
     RichParameterList parameters(MeshDocument& document) const;
