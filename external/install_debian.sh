@@ -9,6 +9,7 @@
 #   tests        building and running all tests
 #   experiments  building and running tests/experiments
 #   benchmark    building and running tests/benchmark, CGAL included
+#   pymeshlab    external/pymeshlab.sh
 #   checks       formatting, static analysis and ThreadSanitizer
 #
 # Runs apt only if a package is missing, with sudo unless run as root.
@@ -27,6 +28,7 @@ packages_of() {
             python3-matplotlib python3-vtk9 python3-numpy xvfb xauth ;;
         benchmark) echo "$(packages_of program)" libgtest-dev libgmock-dev libboost-dev \
             libcgal-dev python3 ;;
+        pymeshlab) echo python3-venv python3-numpy python3-matplotlib ;;
         checks) echo clang clang-format clang-tidy-22 libclang-rt-dev libomp-dev git ;;
         *) echo "install_debian.sh: unknown task '$1'" >&2 && return 1 ;;
     esac

@@ -21,7 +21,7 @@ make_home
 cd "$(dirname "$mesh")" # MeshLab's log on the picture shows no folder
 start_meshlab "$prefix/bin/meshlab" "$(basename "$mesh")"
 start_filter
-xdotool windowmove --sync "$dialog" 860 80 windowsize --sync "$dialog" 328 640 sleep 0.5
+xdotool windowmove --sync "$dialog" 752 80 windowsize --sync "$dialog" 500 640 sleep 0.5
 eval "$(xdotool getwindowgeometry --shell "$dialog")"
 surface before
 xdotool key Tab Tab space # from Apply over Default to Preview
@@ -35,8 +35,8 @@ number() { # LABEL X Y: of the badge's centre
 }
 number 1 36 34
 number 2 121 34
-number 3 $((X - 18)) $((Y + 270))
+number 3 $((X - 18)) $((Y + 160))
 number 4 $((X - 18)) $((Y + HEIGHT - 84))
-number 5 $((X + WIDTH + 18)) $((Y + HEIGHT - 22))
+number 5 $((X + WIDTH - 40)) $((Y + HEIGHT - 22))
 convert "$out/window.png" -font "$(fc-match -f '%{file}' sans:bold)" -pointsize 20 "${badges[@]}" -strip "$out/five_steps.png"
 echo "the picture is $out/five_steps.png"

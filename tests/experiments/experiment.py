@@ -86,6 +86,10 @@ class Experiment:
         self._rows += rows
         return rows
 
+    def record(self, rows):
+        """Adds rows, which are dictionaries, to the measurements."""
+        self._rows += rows
+
     def say(self, line=""):
         print(line, flush=True)
         print(line, file=self._text)

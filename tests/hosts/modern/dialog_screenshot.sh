@@ -35,7 +35,7 @@ surface before
 wait_for "the dialog fits a screen of 1280 by 960" smaller_than 1280 830
 click_help
 # The dialog scrolls, unless it is enlarged.
-xdotool windowsize --sync "$dialog" 600 720
+xdotool windowsize --sync "$dialog" 780 820
 picture dialog_with_help
 click_help
 sleep 0.5
