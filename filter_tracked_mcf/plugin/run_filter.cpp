@@ -5,16 +5,37 @@
 #include <new>
 #include <numeric>
 #include <sstream>
+#include <string>
 
+#include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/parameters/flow_warnings.h"
+#include "filter_tracked_mcf/parameters/parameter_table.h"
 
 namespace tracked_mcf {
+
+namespace {
+
+/// Appends the dialog's label of the parameter whose name begins the message.
+std::string with_label(const std::string& message) {
+    const std::string name = message.substr(0, message.find(' '));
+    for (const ParameterDescription& parameter : parameter_table()) {
+        if (parameter.name != name) continue;
+        const bool is_zero = message.rfind(name + " is 0;", 0) == 0;
+        return message + " In the dialog it is \"" + parameter.label + "\"." +
+               (is_zero ? " MeshLab reads a number with a decimal comma as 0: use a point." : "");
+    }
+    return message;
+}
+
+}  // namespace
 
 FilterOutcome guard(const std::function<FilterOutcome()>& work) {
     try {
         return work();
     } catch (const std::bad_alloc&) {
         return {false, "There is not enough memory. Choose a smaller depth.", {}};
+    } catch (const InvalidParameter& error) {
+        return {false, with_label(error.what()), {}};
     } catch (const std::exception& error) {
         return {false, error.what(), {}};
     } catch (...) {

@@ -26,7 +26,7 @@ struct FilterOutcome {
 };
 
 /// Runs `work` and turns any exception into a failed outcome: an exception that a host does not
-/// know ends its program.
+/// know ends its program. The message about a parameter says its label in the dialog, too.
 FilterOutcome guard(const std::function<FilterOutcome()>& work);
 
 namespace run_filter_detail {

@@ -113,6 +113,28 @@ TEST(ParameterValues, AValueOfTheWrongTypeIsRefused) {
     }
 }
 
+/// Returns the message of a filter that fails with this error.
+template <class Error>
+std::string message_of(const Error& error) {
+    const FilterOutcome outcome = guard([&]() -> FilterOutcome { throw error; });
+    EXPECT_FALSE(outcome.succeeded);
+    return outcome.message;
+}
+
+TEST(Guard, AMessageAboutAParameterSaysItsLabel) {
+    EXPECT_EQ(message_of(InvalidParameter("depth is 13; give 0 to 12.")),
+              "depth is 13; give 0 to 12. In the dialog it is \"Octree depth (expert)\".");
+    EXPECT_EQ(message_of(InvalidParameter("threads is -1; give more.")),
+              "threads is -1; give more.");
+    EXPECT_EQ(message_of(InvalidMesh("depth is no word of this.")), "depth is no word of this.");
+}
+
+TEST(Guard, AZeroMayBeANumberThatMeshLabCouldNotRead) {
+    EXPECT_EQ(message_of(InvalidParameter("iterations is 0; give 1 to 9.")),
+              "iterations is 0; give 1 to 9. In the dialog it is \"Smoothing steps\". MeshLab "
+              "reads a number with a decimal comma as 0: use a point.");
+}
+
 TEST(AsTyped, RecoversTheDecimalOfAFloat) {
     EXPECT_EQ(as_typed(1e-5f), 1e-5);
     EXPECT_EQ(as_typed(0.1f), 0.1);
