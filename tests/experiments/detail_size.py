@@ -16,6 +16,7 @@ import tempfile
 
 import numpy
 from experiment import Experiment
+from ply import read_vertices, write_ply
 
 WAVELENGTHS = [0.25, 0.5, 1, 2, 4, 8]  # in detail sizes
 LENGTH, WIDTH = 24, 4  # of the plate, in detail sizes
@@ -40,21 +41,6 @@ def plate():
     triangles = numpy.concatenate([numpy.stack([a, b, c], -1).reshape(-1, 3),
                                    numpy.stack([a, c, d], -1).reshape(-1, 3)])
     return numpy.stack([x, y, z], -1).reshape(-1, 3), triangles
-
-
-def write_ply(path, vertices, triangles):
-    header = (f"ply\nformat binary_little_endian 1.0\nelement vertex {len(vertices)}\n"
-              "property double x\nproperty double y\nproperty double z\n"
-              f"element face {len(triangles)}\nproperty list uchar int vertex_indices\nend_header\n")
-    faces = numpy.empty(len(triangles), dtype=[("count", "u1"), ("corners", "<i4", 3)])
-    faces["count"], faces["corners"] = 3, triangles
-    path.write_bytes(header.encode() + vertices.astype("<f8").tobytes() + faces.tobytes())
-
-
-def read_vertices(path, count):
-    data = path.read_bytes()
-    begin = data.index(b"end_header\n") + len(b"end_header\n")
-    return numpy.frombuffer(data, "<f8", 3 * count, begin).reshape(-1, 3)
 
 
 def rotation():

@@ -35,6 +35,7 @@ def parse_arguments():
     parser.add_argument("--center", nargs=2, type=float, default=(0, 0), metavar=("RIGHT", "UP"),
                         help="middle of the picture, in half widths and heights of the mesh")
     parser.add_argument("--flat", action="store_true", help="flat shading")
+    parser.add_argument("--colours", action="store_true", help="show the colours of PLY vertices")
     parser.add_argument("--height", type=int, default=900, help="height of the picture in pixels")
     arguments = parser.parse_args()
     if arguments.labels and len(arguments.labels) != len(arguments.meshes):
@@ -101,14 +102,14 @@ def add_normals(surface):
     return normals.GetOutput()
 
 
-def make_actor(surface, flat):
+def make_actor(surface, flat, colours):
     surface = add_normals(surface)
-    surface.GetPointData().SetScalars(None)  # colours of the file: the shape is what counts
     mapper = vtkPolyDataMapper()
     mapper.SetInputData(surface)
-    mapper.ScalarVisibilityOff()
+    mapper.SetScalarVisibility(colours)
     actor = vtkActor()
     actor.SetMapper(mapper)
+    actor.ForceOpaqueOn()  # whatever the colours' alpha: VTK would not sort translucent faces
     material = actor.GetProperty()
     material.SetColor(MATERIAL)
     material.SetAmbient(0.12)
@@ -182,7 +183,7 @@ def make_renderer(surface, view, index, arguments):
     renderer.SetBackground(1, 1, 1)
     count = len(arguments.meshes)
     renderer.SetViewport(index / count, 0, (index + 1) / count, 1)
-    renderer.AddActor(make_actor(surface, arguments.flat))
+    renderer.AddActor(make_actor(surface, arguments.flat, arguments.colours))
     renderer.AutomaticLightCreationOff()
     add_lights(renderer)
     view.apply(renderer.GetActiveCamera())
