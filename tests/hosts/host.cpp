@@ -40,7 +40,7 @@ Declaration Filter::declaration() const {
 }
 
 std::ptrdiff_t Filter::filters_in_plugin() const {
-    const auto actions = loaded_->plugin.filters().actions(); // a QList or a std::list
+    const auto actions = loaded_->plugin.filters().actions();  // a QList or a std::list
     return std::distance(actions.begin(), actions.end());
 }
 

@@ -143,7 +143,9 @@ void Flow::assemble() {
         elements_, displacement_,
         {1.0F, static_cast<float>(step_size_in_cells_), parameters_.flow, parameters_.order > 1},
         systems_);
-    if (prediction_.size() > 0) subtract_prediction(elements_, prediction_, systems_);
+    if (predicts()) {
+        multiply(elements_, systems_.matrices, prediction_.embedding, prediction_.products);
+    }
 }
 
 void Flow::add_curve_constraint() {
@@ -187,11 +189,39 @@ void Flow::solve(StepReport& report) {
     for (int i = 0; i < parameters_.order; ++i) {
         const ProgressSpan span(1.0 * i / parameters_.order, (i + 1.0) / parameters_.order);
         // A d = δ S d', where d' is the displacement of a step of one order less
-        if (i > 0) {
-            multiply(elements_, systems_.stiffnesses, solutions_[i - 1].x, systems_.right_sides);
-        }
+        if (i > 0) multiply(elements_, systems_.stiffnesses, step_of(i), systems_.right_sides);
+        if (predicts()) subtract_prediction(i + 1);
         solve(solutions_[i], report);
     }
+}
+
+double Flow::Prediction::loss(std::int32_t component, int order, int all_orders) const {
+    const double loss = losses[component];
+    return std::copysign(std::pow(std::abs(loss), double(order) / all_orders), loss);
+}
+
+void Flow::subtract_prediction(int order) {
+    parallel_for_rows(elements_.finest().element_count(), [&](std::int32_t element) {
+        const auto loss =
+            static_cast<float>(prediction_.loss(component_of_[element], order, parameters_.order));
+        for (int axis = 0; axis < 3; ++axis) {
+            for (int row = 0; row < 8; ++row) {
+                systems_.right_sides[element].entry[axis][row] +=
+                    loss * prediction_.products[element].entry[axis][row];
+            }
+        }
+    });
+}
+
+/// Returns the displacement of a step of this order, at most that of the flow.
+Coefficients Flow::step_of(int order) const {
+    Coefficients step = solutions_[order - 1].x;
+    if (!predicts()) return step;
+    for_each_unknown(elements_, component_of_, [&](std::int32_t unknown, std::int32_t component) {
+        step.row(unknown) -= prediction_.loss(component, order, parameters_.order) *
+                             prediction_.embedding.row(unknown);
+    });
+    return step;
 }
 
 void Flow::solve(Solution& solution, StepReport& report) {
@@ -208,11 +238,8 @@ void Flow::solve(Solution& solution, StepReport& report) {
 void Flow::add() {
     previous_ = displacement_;
     poll_progress();
-    displacement_ += solutions_.back().x;
-    if (prediction_.size() > 0) displacement_ += prediction_;
-    if (parameters_.quality != Quality::MeanCurvature) return;
-    last_step_ = solutions_.front().x;
-    if (prediction_.size() > 0) last_step_ += prediction_;
+    displacement_ += step_of(parameters_.order);
+    if (parameters_.quality == Quality::MeanCurvature) last_step_ = step_of(1);
 }
 
 void Flow::undo_step(Stop reason) {
@@ -223,17 +250,19 @@ void Flow::undo_step(Stop reason) {
 }
 
 void Flow::scale(const std::vector<Scaling>& components) {
-    const Coefficients corners = identity_coefficients(elements_);
-    prediction_ = Coefficients::Zero(parameters_.order == 1 ? corners.rows() : 0, 3);
+    prediction_.embedding = identity_coefficients(elements_);
+    prediction_.losses.clear();
+    for (const Scaling& component : components) {
+        prediction_.losses.push_back(1 - 1 / component.factor);
+    }
     poll_progress();
     for_each_unknown(elements_, component_of_, [&](std::int32_t unknown, std::int32_t component) {
         const auto& [centre, factor] = components[component];
-        const Eigen::RowVector3d from_centre =
-            corners.row(unknown) - elements_.grid.to_grid(centre).transpose();
+        auto from_centre = prediction_.embedding.row(unknown);
+        from_centre -= elements_.grid.to_grid(centre).transpose();
         auto displacement = displacement_.row(unknown);
         displacement = factor * displacement + (factor - 1) * from_centre;
-        if (prediction_.size() == 0) return;
-        prediction_.row(unknown) = (1 / factor - 1) * (from_centre + displacement);
+        from_centre += displacement;
     });
 }
 

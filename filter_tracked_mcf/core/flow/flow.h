@@ -71,10 +71,10 @@ public:
 
     /// Scales the embedding of each connected component (components.h).
     ///
-    /// The next step, if its order is 1, predicts the same scalings again and solves only for the
-    /// remainder. Otherwise the stabilisation, which penalises a change of thickness of the space
-    /// around the surface, and the functions that hardly meet the surface would distort the
-    /// embedding a little at each scaling.
+    /// The next step predicts the same scalings again and solves only for the remainder. Otherwise
+    /// the stabilisation, which penalises a change of thickness of the space around the surface,
+    /// and the functions that hardly meet the surface would distort the embedding a little at each
+    /// scaling.
     void scale(const std::vector<Scaling>& components);
 
     /// Returns the displacement z by which the last step answers a pressure of 1: the solution of
@@ -109,6 +109,16 @@ private:
     struct Start;
     static Start start(const Domain& domain, const FlowParameters& parameters,
                        const std::optional<Grid>& grid);
+
+    /// What scale() expects of the next step: that it shrinks each component about a point.
+    struct Prediction {
+        Coefficients embedding;      ///< relative to these points; empty if nothing is expected
+        std::vector<double> losses;  ///< the fraction that the step removes, for each component
+        std::vector<ElementVector> products;  ///< (D + δS) embedding
+        /// Returns the fraction that a step of one order removes of a component, if that of
+        /// `all_orders` removes losses[component] = h^all_orders of it.
+        double loss(std::int32_t component, int order, int all_orders) const;
+    };
     Flow(const Domain& domain, const FlowParameters& parameters, Start start);
 
     // The parts of a step, in order. n is the conormal and λ the multiplier of the curve
@@ -121,6 +131,9 @@ private:
     void add();                      // x(t+δ) = x(t) + d
 
     void solve(Solution& solution, StepReport& report);
+    bool predicts() const { return prediction_.embedding.size() > 0; }
+    void subtract_prediction(int order);  // b -= A p, with p the prediction for the order
+    Coefficients step_of(int order) const;
     bool ends_here(const StepReport& report);
     bool constrains_curve() const { return parameters_.boundary != BoundaryCondition::LockedCells; }
     const Supports& supports();
@@ -141,9 +154,9 @@ private:
     std::optional<VanishedComponents> vanished_components_;  ///< only in a conformalized flow
     CurveConstraint curve_constraint_;
     Coefficients displacement_;
-    Coefficients previous_;    ///< the displacement before the last step
-    Coefficients last_step_;   ///< d of order 1; empty unless the quality needs it
-    Coefficients prediction_;  ///< of the next step's d, after scale(); else empty
+    Coefficients previous_;   ///< the displacement before the last step
+    Coefficients last_step_;  ///< d of order 1; empty unless the quality needs it
+    Prediction prediction_;   ///< of the next step
 
     // Refilled at every step.
     ElementSystems systems_;

@@ -26,9 +26,8 @@ struct BytesPer {
 constexpr BytesPer kClipping = {0.9e6, 40, 56, 0, 0, 0};
 constexpr BytesPer kConverged = {1.5e6, 70, 51, 12, 12, 710};
 constexpr BytesPer kOneWCycle = {1.5e6, 70, 51, 12, 170, 600};
-/// Added if the area is preserved: positions and triangles, the prediction, and the corners of
-/// cells.
-constexpr BytesPer kArea = {0, 100, 0, 0, 0, 65};
+/// Added if the area is preserved: positions and triangles, and the prediction.
+constexpr BytesPer kArea = {0, 100, 0, 0, 0, 95};
 /// Added if the volume is preserved: positions, velocities and triangles, and the response.
 constexpr BytesPer kVolume = {0, 150, 0, 0, 30, 0};
 /// Added for orders above 1: the stiffness.

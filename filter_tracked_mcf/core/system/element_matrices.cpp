@@ -89,19 +89,6 @@ void assemble_elements(const TrackedElements& elements, const Coefficients& disp
     }
 }
 
-void subtract_prediction(const TrackedElements& elements, const Coefficients& prediction,
-                         ElementSystems& systems) {
-    parallel_for_rows(elements.finest().element_count(), [&](std::int32_t element) {
-        const CornerRows rows = product(elements, systems.matrices, prediction, element);
-        for (int row = 0; row < 8; ++row) {
-            for (int axis = 0; axis < 3; ++axis) {
-                systems.right_sides[element].entry[axis][row] -=
-                    static_cast<float>(rows(row, axis));
-            }
-        }
-    });
-}
-
 void multiply(const TrackedElements& elements, const MatrixBlocks& matrices,
               const Coefficients& vector, std::vector<ElementVector>& products) {
     products.resize(static_cast<std::size_t>(elements.finest().element_count()));

@@ -47,10 +47,6 @@ struct ElementSystems {
 void assemble_elements(const TrackedElements& elements, const Coefficients& displacement,
                        const SystemWeights& weights, ElementSystems& systems);
 
-/// Shifts the system to the unknown d - prediction: right-hand side -= A prediction.
-void subtract_prediction(const TrackedElements& elements, const Coefficients& prediction,
-                         ElementSystems& systems);
-
 /// Computes the product of element matrices of the finest level and a vector, element by element.
 void multiply(const TrackedElements& elements, const MatrixBlocks& matrices,
               const Coefficients& vector, std::vector<ElementVector>& products);

@@ -316,6 +316,22 @@ TEST(PreservingArea, IsAStepThenAScaling) {
     EXPECT_LT(distance(evolved(mesh, preserving(Preserve::Area, 1e-3, 1)), scaled), 1e-12);
 }
 
+TEST(PreservingArea, OfEachOrderTurnsAnEllipsoidIntoASphere) {
+    TriangleMesh mesh = shapes::geodesic_sphere(16);
+    for (auto& p : mesh.positions) p = p.cwiseProduct(Eigen::Vector3d(1, 0.6, 0.4));
+    for (int order = 1; order <= kMaximumOrder; ++order) {
+        FlowParameters p = preserving(Preserve::Area, 0.1, 40);
+        p.flow = FlowKind::Conformalized;
+        p.order = order;
+        const TriangleMesh after = evolved(mesh, p);
+        const Eigen::Vector3d centre = shapes::surface_centroid(after);
+        const double radius = std::sqrt(surface_area(mesh) / (4 * std::acos(-1.0)));
+        for (const Eigen::Vector3d& position : after.positions) {
+            EXPECT_NEAR((position - centre).norm(), radius, 0.02 * radius) << order;
+        }
+    }
+}
+
 TEST(PreservingArea, OfTwoComponentsKeepsEachAreaAndCentroid) {
     for (const int order : {1, 2}) {
         const TriangleMesh mesh = beside(shapes::bumpy_sphere(16), 0.4);
