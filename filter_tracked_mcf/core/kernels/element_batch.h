@@ -118,17 +118,32 @@ TRACKED_MCF_INLINE Lanes area_of(const Lanes (&moments)[kMomentRows]) {
     return area;
 }
 
-/// Writes the matrices mass * D + δ S of the batch into a block, from this lane of the block on.
-TRACKED_MCF_INLINE void write_matrices(const Lanes (&moments)[kMomentRows], float mass,
-                                       float step_size_in_cells, MatrixBlock& block,
+/// Writes the matrices of the batch into a block, from this lane of the block on.
+TRACKED_MCF_INLINE void write_matrices(const IntegrationInput& input,
+                                       const Lanes (&moments)[kMomentRows], MatrixBlock& block,
                                        std::int64_t lane) {
     float* entry = block.entry[0] + lane;
 #pragma GCC unroll 8
     for (int row = 0; row < 8; ++row) {
 #pragma GCC unroll 8
         for (int column = row; column < 8; ++column, entry += kBlockElements) {
-            const Lanes stiffness = step_size_in_cells * stiffness_entry(moments, row, column);
-            store(stiffness + mass * mass_entry(moments, row, column), entry);
+            const Lanes stiffness =
+                input.step_size_in_cells * stiffness_entry(moments, row, column);
+            store(stiffness + input.mass * mass_entry(moments, row, column), entry);
+        }
+    }
+}
+
+/// Writes the weighted stiffnesses of the batch, as write_matrices() does.
+TRACKED_MCF_INLINE void write_stiffnesses(const IntegrationInput& input,
+                                          const Lanes (&moments)[kMomentRows], MatrixBlock& block,
+                                          std::int64_t lane) {
+    float* entry = block.entry[0] + lane;
+#pragma GCC unroll 8
+    for (int row = 0; row < 8; ++row) {
+#pragma GCC unroll 8
+        for (int column = row; column < 8; ++column, entry += kBlockElements) {
+            store(input.step_size_in_cells * stiffness_entry(moments, row, column), entry);
         }
     }
 }
@@ -168,10 +183,9 @@ TRACKED_MCF_INLINE void write_systems(const IntegrationInput& input, std::int64_
     transpose_moments(batch, moments);
     const std::int64_t block = begin / kBlockElements;
     const std::int64_t lane = begin % kBlockElements;
-    const float step_size = input.step_size_in_cells;
-    write_matrices(moments, input.mass, step_size, output.matrices[block], lane);
+    write_matrices(input, moments, output.matrices[block], lane);
     if (output.stiffnesses != nullptr) {
-        write_matrices(moments, 0, step_size, output.stiffnesses[block], lane);
+        write_stiffnesses(input, moments, output.stiffnesses[block], lane);
     }
     Lanes results[kResults];
     find_results(input, moments, results);
