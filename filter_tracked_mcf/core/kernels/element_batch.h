@@ -134,7 +134,8 @@ TRACKED_MCF_INLINE void write_matrices(const IntegrationInput& input,
     }
 }
 
-/// Writes the weighted stiffnesses of the batch, as write_matrices() does.
+/// Writes the weighted stiffnesses of the batch, as write_matrices() does. In one loop for both,
+/// compilers round the sums of write_matrices() differently.
 TRACKED_MCF_INLINE void write_stiffnesses(const IntegrationInput& input,
                                           const Lanes (&moments)[kMomentRows], MatrixBlock& block,
                                           std::int64_t lane) {
