@@ -1,0 +1,314 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "filter_tracked_mcf/core/evolve.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <limits>
+
+#include "filter_tracked_mcf/core/errors.h"
+#include "filter_tracked_mcf/core/mesh/measures.h"
+#include "filter_tracked_mcf/core/parallel/progress_meter.h"
+#include "filter_tracked_mcf/core/solver/conjugate_gradients.h"
+#include "tests/support/shapes.h"
+#include "tests/unit/flows.h"
+
+namespace tracked_mcf {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+TEST(Evolve, ReportsSizesAndResiduals) {
+    TriangleMesh mesh = shapes::bumpy_sphere(20);
+    const FlowReport report = evolve(mesh, parameters(5, 1e-3, 3));
+    EXPECT_EQ(report.vertices, 4002);
+    EXPECT_EQ(report.triangles, 8000);
+    EXPECT_EQ(report.depth, 5);
+    EXPECT_GT(report.cells, 1000);
+    EXPECT_GT(report.unknowns, report.cells);
+    EXPECT_GT(report.fragments, report.triangles);
+    EXPECT_GT(report.split_triangles, report.fragments);
+    EXPECT_EQ(report.samples, 3 * report.split_triangles);
+    EXPECT_EQ(report.constrained_unknowns, 0);
+    EXPECT_LT(report.area_after, report.area_before);
+    EXPECT_GT(report.peak_memory_bytes, 1000000);
+    ASSERT_EQ(report.steps.size(), 3U);
+    for (const StepReport& step : report.steps) {
+        EXPECT_LT(step.residual_after, 0.2 * step.residual_before);
+        EXPECT_EQ(step.collapsed_samples, 0);
+    }
+    EXPECT_NEAR(report.steps[0].area, report.area_before, 1e-6 * report.area_before);
+}
+
+TEST(Evolve, ReportsHowTheSurfaceChanged) {
+    TriangleMesh mesh = shapes::bumpy_sphere(20);
+    mesh.positions.emplace_back(100, 0, 0);  // unused
+    const TriangleMesh before = mesh;
+    const FlowReport report = evolve(mesh, parameters(5, 1e-3, 3));
+    EXPECT_EQ(report.largest_displacement, distance(mesh, before));
+    double squares = 0;
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        squares += (mesh.positions[i] - before.positions[i]).squaredNorm();
+    }
+    const double rms = std::sqrt(squares / 4002);
+    EXPECT_NEAR(report.rms_displacement, rms, 1e-14 * rms);
+    const double change = enclosed_volume(mesh) - enclosed_volume(before);
+    EXPECT_NEAR(report.volume_change, change, 1e-12);
+    EXPECT_LT(report.volume_change, -0.01);
+    EXPECT_TRUE(report.oriented_consistently);
+    std::swap(mesh.triangles[0][0], mesh.triangles[0][1]);
+    EXPECT_FALSE(evolve(mesh, parameters(5, 1e-3, 1)).oriented_consistently);
+}
+
+TEST(Evolve, ReportsTheVolumeOfTheSelectedPart) {
+    TriangleMesh mesh = shapes::bumpy_sphere(20);
+    const TriangleMesh before = mesh;
+    const Selection top = above(mesh, 0.3);
+    const FlowReport report = evolve(mesh, top, parameters(5, 1e-3, 3));
+    // Unselected triangles at the seam do not move, so the whole volume changes as much.
+    const double change = enclosed_volume(mesh) - enclosed_volume(before);
+    EXPECT_NEAR(report.volume_change, change, 1e-12);
+    EXPECT_LT(report.volume_change, -0.01);
+}
+
+TEST(Evolve, ProgressRisesFromZeroToOne) {
+    TriangleMesh mesh = shapes::bumpy_sphere(5);
+    std::vector<double> fractions;
+    evolve(mesh, parameters(3, 1e-3, 4), [&](double fraction, std::string_view phase) {
+        EXPECT_FALSE(phase.empty());
+        fractions.push_back(fraction);
+        return true;
+    });
+    EXPECT_EQ(fractions.front(), 0);
+    EXPECT_EQ(fractions.back(), 1);
+    EXPECT_TRUE(std::is_sorted(fractions.begin(), fractions.end()));
+    EXPECT_GE(fractions.size(), 6U);
+}
+
+/// Calls the callback only when a phase begins, never because time has passed.
+void evolve_by_phases(TriangleMesh& mesh, const Progress& progress) {
+    const ProgressMeter meter(progress, std::chrono::hours(1));
+    evolve(mesh, parameters(3, 1e-3, 4));
+}
+
+TEST(Evolve, CancellingLeavesTheMeshAsItWas) {
+    const TriangleMesh mesh = shapes::bumpy_sphere(5);
+    int calls = 0;
+    TriangleMesh whole = mesh;
+    evolve_by_phases(whole, [&](double, std::string_view) { return ++calls > 0; });
+    EXPECT_GE(calls, 6);
+    for (int last = 1; last <= calls; ++last) {
+        TriangleMesh stopped = mesh;
+        int left = last;
+        EXPECT_THROW(
+            evolve_by_phases(stopped, [&](double, std::string_view) { return --left > 0; }),
+            Cancelled);
+        EXPECT_TRUE(same_bits(stopped, mesh));
+    }
+}
+
+template <class Exception>
+void expect_rejected(const TriangleMesh& mesh, const FlowParameters& p, const std::string& named) {
+    TriangleMesh untouched = mesh;
+    try {
+        evolve(untouched, p);
+        ADD_FAILURE() << "accepted: " << named;
+    } catch (const Exception& error) {
+        EXPECT_NE(std::string(error.what()).find(named), std::string::npos) << error.what();
+    }
+    EXPECT_TRUE(same_bits(untouched, mesh));
+}
+
+TEST(Evolve, RejectsParametersOutOfRangeAndNamesThem) {
+    const TriangleMesh mesh = shapes::bumpy_sphere(5);
+    for (const int depth : {-1, 13, 1000}) {
+        expect_rejected<InvalidParameter>(mesh, parameters(depth, 1e-3, 1), "depth");
+    }
+    for (const int iterations : {-5, 0, 1000001}) {
+        expect_rejected<InvalidParameter>(mesh, parameters(3, 1e-3, iterations), "iterations");
+    }
+    for (const double step : {-1e-5, 1e36, kNaN, kInfinity, -kInfinity}) {
+        expect_rejected<InvalidParameter>(mesh, parameters(3, step, 1), "step_size");
+    }
+    FlowParameters p = parameters(3, 1e-3, 1);
+    p.absolute = true;
+    for (const double step : {-1e-5, kNaN, kInfinity, -kInfinity}) {
+        p.step_size = step;
+        expect_rejected<InvalidParameter>(mesh, p, "step_size");
+    }
+    p.step_size = 1;
+    for (const double detail_size : {-1e-5, kNaN, kInfinity, -kInfinity}) {
+        p.detail_size = detail_size;
+        expect_rejected<InvalidParameter>(mesh, p, "detail_size");
+    }
+    p.detail_size = 0;
+    for (const int order : {-1, 0, 5}) {
+        p.order = order;
+        expect_rejected<InvalidParameter>(mesh, p, "order");
+    }
+    p.order = 1;
+    for (const double penalty : {0.0, -1.0, 1e7, kNaN, kInfinity}) {
+        p.boundary_penalty = penalty;
+        expect_rejected<InvalidParameter>(mesh, p, "boundary_penalty");
+    }
+    p.boundary_penalty = 10;
+    p.cycles = 0;
+    expect_rejected<InvalidParameter>(mesh, p, "cycles");
+    p.cycles = 1;
+    p.threads = -2;
+    expect_rejected<InvalidParameter>(mesh, p, "threads");
+    p.threads = 0;
+    for (const double tolerance : {0.0, -1e-3, 1.0, 2.0, kNaN, kInfinity}) {
+        p.tolerance = tolerance;
+        expect_rejected<InvalidParameter>(mesh, p, "tolerance");
+    }
+    p.tolerance = 1e-3;
+    for (const Solver solver : {Solver::Converged, Solver::OneWCycle}) {
+        p.solver = solver;
+        for (const double weight : {-1e-9, 1001.0, kNaN, kInfinity, -kInfinity}) {
+            p.stabilization = weight;
+            expect_rejected<InvalidParameter>(mesh, p, "stabilization");
+        }
+    }
+}
+
+TEST(Evolve, SaysWhichNumbersAParameterMayBe) {
+    const auto complaint = [](const FlowParameters& p) -> std::string {
+        try {
+            validate(p);
+        } catch (const InvalidParameter& error) {
+            return error.what();
+        }
+        return "none";
+    };
+    FlowParameters p;
+    p.step_size = kInfinity;
+    EXPECT_EQ(
+        complaint(p),
+        "step_size is inf; give a number greater than 0 and at most 1e+09, such as 1e-5, or 0 "
+        "to take the detail size.");
+    p.absolute = true;
+    EXPECT_EQ(complaint(p),
+              "step_size is inf; give a number greater than 0, in squared units of the mesh, or 0 "
+              "to take the detail size.");
+    p.absolute = false;
+    p.step_size = 0;
+    p.detail_size = -1;
+    EXPECT_EQ(
+        complaint(p),
+        "detail_size is -1; give a number greater than 0, a length in units of the mesh, or 0 "
+        "to take 2.5 mean edge lengths.");
+    p.detail_size = 0;
+    p.order = 5;
+    EXPECT_EQ(complaint(p), "order is 5; give 1 to 4.");
+    for (p.order = 1; p.order <= kMaximumOrder; ++p.order) EXPECT_EQ(complaint(p), "none");
+    p.order = 1;
+    p.tolerance = 1;
+    EXPECT_EQ(complaint(p),
+              "tolerance is 1; give a number greater than 0 and less than 1, such as 1e-3.");
+    p.tolerance = 1e-10;
+    p.stabilization = -1;
+    EXPECT_EQ(complaint(p),
+              "stabilization is -1; give a number from 0, which is none, to 1000, such as 0.01.");
+    for (const double weight : {0.0, kMaximumStabilization}) {
+        p.stabilization = weight;
+        EXPECT_EQ(complaint(p), "none");
+    }
+}
+
+TEST(Evolve, AcceptsAnyAbsoluteStepSize) {
+    // A step size of 1e-320 moves nothing. Any step size that is large relative to the mesh, such
+    // as 1e9 or 1e308, gives the same result.
+    const TriangleMesh cap = bumpy_cap(10);
+    FlowParameters p = parameters(4, 1e-320, 2);
+    p.absolute = true;
+    EXPECT_LT(distance(evolved(cap, p), cap), 1e-12);
+    p.step_size = 1e308;
+    const TriangleMesh far = evolved(cap, p);
+    p.step_size = 1e9;
+    EXPECT_TRUE(same_bits(far, evolved(cap, p)));
+}
+
+TEST(Evolve, StabilizesTheConvergedSolverByDefault) {
+    FlowParameters p;
+    EXPECT_EQ(stabilization_of(p), kDefaultStabilization);
+    p.solver = Solver::OneWCycle;
+    EXPECT_EQ(stabilization_of(p), 0);
+    p.stabilization = 0.1;
+    EXPECT_EQ(stabilization_of(p), 0.1);
+    p.solver = Solver::Converged;
+    p.stabilization = 0;
+    EXPECT_EQ(stabilization_of(p), 0);
+}
+
+TEST(Evolve, ReachesATightToleranceOrReportsThatItDidNot) {
+    FlowParameters p = parameters(4, 1e-3, 2);
+    for (const double tolerance : {1e-10, 1e-30}) {  // double precision cannot reach the second
+        p.tolerance = tolerance;
+        TriangleMesh mesh = shapes::bumpy_sphere(10);
+        for (const StepReport& step : evolve(mesh, p).steps) {
+            EXPECT_EQ(step.reached_tolerance, tolerance == 1e-10);
+            EXPECT_EQ(step.reached_tolerance, step.error_estimate <= tolerance);
+            EXPECT_GT(step.solver_iterations, 3);
+            EXPECT_LE(step.solver_iterations, kMaximumSolverIterations);
+        }
+    }
+}
+
+TEST(Evolve, RejectsMeshesThatCannotFlow) {
+    const FlowParameters p = parameters(3, 1e-3, 1);
+    expect_rejected<InvalidMesh>(TriangleMesh(), p, "empty");
+    TriangleMesh mesh = shapes::bumpy_sphere(5);
+    mesh.triangles.clear();
+    expect_rejected<InvalidMesh>(mesh, p, "no faces");
+    for (const double bad : {kNaN, kInfinity}) {
+        mesh = shapes::bumpy_sphere(5);
+        mesh.positions[3][1] = bad;
+        expect_rejected<InvalidMesh>(mesh, p, "finite");
+    }
+    mesh = shapes::bumpy_sphere(5);
+    for (auto& position : mesh.positions) position.tail<2>().setZero();
+    expect_rejected<InvalidMesh>(mesh, p, "degenerate");
+    for (auto& position : mesh.positions) position.setZero();
+    expect_rejected<InvalidMesh>(mesh, p, "degenerate");
+    for (const double far : {1e16, 1e308}) {
+        mesh = shapes::bumpy_sphere(5);
+        for (auto& position : mesh.positions) position[2] += far;
+        expect_rejected<InvalidMesh>(mesh, p, "origin");
+    }
+}
+
+TEST(Evolve, HugeStepsAndTinyMeshesStayFinite) {
+    const TriangleMesh mesh = shapes::bumpy_sphere(8);
+    for (const double step : {1e-12, 1.0, kMaximumStepSize}) {
+        const TriangleMesh after = evolved(mesh, parameters(4, step, 3));
+        for (const auto& position : after.positions) EXPECT_TRUE(position.allFinite());
+        EXPECT_LE(surface_area(after), surface_area(mesh));
+    }
+    TriangleMesh triangle;
+    triangle.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    triangle.triangles = {{0, 1, 2}};
+    FlowParameters p = parameters(0, 1e-5, 10);
+    p.boundary = BoundaryCondition::Free;
+    for (const auto& position : evolved(triangle, p).positions) EXPECT_TRUE(position.allFinite());
+}
+
+TEST(Evolve, ClosedMeshesStayInTheirBoxAtAnyStepSize) {
+    const TriangleMesh mesh = shapes::bumpy_sphere(16);
+    const Grid box = enclosing_grid(mesh, 0);
+    for (const Solver solver : {Solver::Converged, Solver::OneWCycle}) {
+        for (const double step : {1.0, 1e2, 1e4, 1e6, kMaximumStepSize}) {
+            FlowParameters p = parameters(6, step, 2);
+            p.solver = solver;
+            for (const auto& position : evolved(mesh, p).positions) {
+                const Eigen::Vector3d local = box.to_grid(position);
+                EXPECT_GT(local.minCoeff(), 0) << step;
+                EXPECT_LT(local.maxCoeff(), 1) << step;
+            }
+        }
+    }
+}
+
+}  // namespace
+}  // namespace tracked_mcf
