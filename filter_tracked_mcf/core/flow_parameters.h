@@ -76,6 +76,11 @@ struct FlowParameters {
     /// kDefaultDetailInEdges mean edge lengths.
     double detail_size = 0;
 
+    /// Whether the detail size is proportional to the local edge length, from a tenth of
+    /// detail_size to ten times as much, and detail_size where that has its mean. A step size
+    /// follows in the same way. Noise of scans does so too.
+    bool local_detail_size = false;
+
     /// Step size δ for the mesh scaled so that the longest side of its bounding box is 1; 0 to
     /// kMaximumStepSize. δ is a squared length, see step_size_for(). 0 takes the one that belongs
     /// to the detail size; any other replaces it. Steps above 1e5 squared cells act like one of

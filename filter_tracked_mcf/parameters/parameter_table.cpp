@@ -12,9 +12,11 @@ const std::vector<ParameterDescription>& parameter_table() {
          "Waves of this length keep half their height after all steps, shorter ones less. 0 takes "
          "2.5 mean edge lengths.",
          ParameterDescription::Length{}},
+        {"local_detail_size", "Larger where faces are larger",
+         "The length follows the local edge length, as noise of scans does.",
+         ParameterDescription::Boolean{defaults.local_detail_size}},
         {"iterations", "Smoothing steps",
-         "Steps in which the detail is removed, 1 to 1000000. More are more accurate and take "
-         "longer.",
+         "Steps in which the detail is removed, 1 to 1000000. More are more accurate.",
          ParameterDescription::Integer{defaults.iterations}},
         {"order", "Shape",
          "How well detail larger than that is kept. Each order more takes another solve in each "
@@ -42,8 +44,7 @@ const std::vector<ParameterDescription>& parameter_table() {
          ParameterDescription::Choice{static_cast<int>(defaults.quality),
                                       {"Kept", "Displacement", "Mean curvature"}}},
         {"step_size", "Step size (expert)",
-         "The flow's time step, a squared length, for a model with longest side 1. 0 takes the one "
-         "for the detail above.",
+         "Time step, a squared length, for longest side 1. 0 takes that of the detail size.",
          ParameterDescription::Real{defaults.step_size}},
         {"absolute", "Absolute step size (expert)",
          "The step size is in squared units of the mesh.",
@@ -53,12 +54,11 @@ const std::vector<ParameterDescription>& parameter_table() {
          "many functions as vertices.",
          ParameterDescription::Integer{defaults.depth}},
         {"flow", "Flow (expert)",
-         "Mean curvature: thin parts pinch. Conformalized: nothing pinches, and the shape becomes "
-         "a sphere.",
+         "Mean curvature: thin parts pinch. Conformalized: becomes a sphere.",
          ParameterDescription::Choice{static_cast<int>(defaults.flow),
                                       {"Mean curvature", "Conformalized"}}},
         {"separate_sheets", "Separate sheets (expert)",
-         "Parts that only share grid cells move independently. Off only to compare with the paper.",
+         "Parts that only share grid cells move independently. Off is as in the paper.",
          ParameterDescription::Boolean{defaults.separate_sheets}},
         {"solver", "Solver (expert)",
          "Converged: solves each step. One W-cycle: one multigrid cycle, only to compare with the "

@@ -46,6 +46,7 @@ FlowParameters flow_parameters(const ParameterValues& values) {
     check_choices(values);
     FlowParameters parameters;
     parameters.detail_size = read<double>(values, "detail_size");
+    parameters.local_detail_size = read<bool>(values, "local_detail_size");
     parameters.depth = read<int>(values, "depth");
     parameters.step_size = read<double>(values, "step_size");
     parameters.absolute = read<bool>(values, "absolute");

@@ -128,6 +128,8 @@ void add_steps(CLI::App& app, CommandLine& line) {
                    tooltip_of("detail_size")))
         ->type_name("X|X%")
         ->default_str("0");
+    app.add_flag("--local-detail-size", parameters.local_detail_size,
+                 shared_help("local_detail_size"));
     app.add_option("--order", parameters.order,
                    help_of("1 to 4. " + tooltip_of("order") + " 1 is the flow itself."))
         ->type_name("N")

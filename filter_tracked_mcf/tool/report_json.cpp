@@ -17,6 +17,7 @@ using Json = nlohmann::ordered_json;
 Json parameters_json(const CommandLine& line) {
     const FlowParameters& parameters = line.parameters;
     return {{"detail_size", parameters.detail_size},
+            {"local_detail_size", parameters.local_detail_size},
             {"order", parameters.order},
             {"depth", parameters.depth},
             {"step_size", parameters.step_size},

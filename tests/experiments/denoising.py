@@ -5,12 +5,13 @@
 Normally distributed noise moves the vertices of a clean scan along its normals. The table shows the RMS
 distance of the smoothed vertices to the clean surface, in mean edge lengths of the scan: for the default
 parameters, the same with order 2, the best settings of this filter (order 2 or 3, ten steps, one more
-than the automatic depth), and the best settings of each of MeshLab's smoothers. "uneven" scans had one
+than the automatic depth, with and without a local detail size), and the best settings of each of MeshLab's smoothers. "uneven" scans had one
 half subdivided before.
 
 Needs PyMeshLab: external/pymeshlab.sh build/pymeshlab, then build/pymeshlab/bin/python denoising.py.
 """
 
+import itertools
 import json
 import pathlib
 import subprocess
@@ -90,10 +91,12 @@ class Tool:
         meshes.add_mesh(pymeshlab.Mesh(vertices, scan.faces))
         meshes.save_current_mesh(str(self._folder / "in.ply"), save_vertex_quality=False)
 
-    def smooth(self, detail_size=None, order=1, steps=3, depth=0):
+    def smooth(self, detail_size=None, order=1, steps=3, depth=0, local=False):
         """Returns the vertices after the filter, and its seconds without reading and writing.
         `detail_size` is in mean edge lengths; None is the default."""
         words = ["--order", order, "--iterations", steps, "--depth", depth]
+        if local:
+            words.append("--local-detail-size")
         if detail_size is not None:
             words += ["--detail-size", repr(detail_size * self._edge)]
         subprocess.run([self._program, self._folder / "in.ply", self._folder / "out.ply", "--quiet",
@@ -146,9 +149,9 @@ def best(scan, families):
 
 
 def our_families(tool, depth):
-    for order in (2, 3):
-        yield [(f"ℓ {size:g}, order {order}, depth {depth}",
-                lambda size=size, order=order: tool.smooth(size, order, 10, depth))
+    for order, local in itertools.product((2, 3), (False, True)):
+        yield [(f"{'local ' if local else ''}ℓ {size:g}, order {order}, depth {depth}",
+                lambda size=size, order=order, local=local: tool.smooth(size, order, 10, depth, local))
                for size in DETAIL_SIZES]
 
 

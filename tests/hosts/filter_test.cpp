@@ -17,10 +17,13 @@ namespace tracked_mcf {
 namespace {
 
 ParameterValues values_other_than_default() {
-    return {{"detail_size", 0.5}, {"order", 2},      {"depth", 7},  {"step_size", 2e-4},
-            {"absolute", true},   {"iterations", 5}, {"flow", 1},   {"boundary", 2},
-            {"selected", true},   {"preserve", 1},   {"solver", 1}, {"separate_sheets", false},
-            {"quality", 1}};
+    return {{"detail_size", 0.5}, {"order", 2},
+            {"depth", 7},         {"step_size", 2e-4},
+            {"absolute", true},   {"iterations", 5},
+            {"flow", 1},          {"boundary", 2},
+            {"selected", true},   {"preserve", 1},
+            {"solver", 1},        {"separate_sheets", false},
+            {"quality", 1},       {"local_detail_size", true}};
 }
 
 TEST(ParameterValues, EveryParameterOfTheTableIsRead) {
@@ -38,6 +41,7 @@ TEST(ParameterValues, EveryParameterOfTheTableIsRead) {
 TEST(ParameterValues, ReachTheCoreUnchanged) {
     const FlowParameters parameters = flow_parameters(values_other_than_default());
     EXPECT_EQ(parameters.detail_size, 0.5);
+    EXPECT_TRUE(parameters.local_detail_size);
     EXPECT_EQ(parameters.order, 3) << "the first choice is order 1";
     EXPECT_EQ(parameters.depth, 7);
     EXPECT_EQ(parameters.step_size, 2e-4);

@@ -54,6 +54,7 @@ report() { sed -n "s/^  \"$1\": \(.*\),\$/\1/p" "$work/default.json"; } # KEY: o
 compare default "" ""
 detail_size=$(report detail_size | awk '{printf "%.4g", 2 * $1}')
 compare detail_size "detail_size=$detail_size" "--detail-size $detail_size"
+compare local_detail_size local_detail_size=true --local-detail-size
 for order in 2 3 4; do
     compare order_$order order=$((order - 1)) "--order $order"
 done

@@ -209,6 +209,7 @@ TEST_F(Plugin, EveryParameterHasAnEffect) {
         return after([&] { host::set_length(parameters, "detail_size", 1); });
     };
     EXPECT_NE(with_detail_size_1(), by_default);
+    EXPECT_NE(with("local_detail_size", BoolValue(true)), by_default);
     EXPECT_NE(with("order", *host::choice(1)), by_default);
     EXPECT_NE(with("order", *host::choice(2)), with("order", *host::choice(1)));
     EXPECT_NE(with("order", *host::choice(3)), with("order", *host::choice(2)));

@@ -10,8 +10,10 @@ namespace tracked_mcf {
 /// build_tracked_elements throw.
 inline TrackedElements build_tracked_elements(const Domain& domain, const Grid& grid,
                                               Cubature cubature, bool separate_sheets = true) {
-    return build_tracked_elements(domain, clip_to_grid(domain.surface(), grid), cubature,
-                                  separate_sheets);
+    FlowParameters parameters;
+    parameters.cubature = cubature;
+    parameters.separate_sheets = separate_sheets;
+    return build_tracked_elements(domain, clip_to_grid(domain.surface(), grid), parameters);
 }
 
 /// Builds the elements of a whole mesh with its boundary constrained.

@@ -47,6 +47,7 @@ TEST(CommandLine, DefaultsAreThoseOfTheFlow) {
     EXPECT_FALSE(line.quiet);
     EXPECT_EQ(line.detail_size.value, defaults.detail_size);
     EXPECT_FALSE(line.detail_size.in_per_cent);
+    EXPECT_EQ(line.parameters.local_detail_size, defaults.local_detail_size);
     EXPECT_EQ(line.parameters.order, defaults.order);
     EXPECT_EQ(line.parameters.depth, defaults.depth);
     EXPECT_EQ(line.parameters.step_size, defaults.step_size);
@@ -70,6 +71,7 @@ TEST(CommandLine, EveryOptionIsTaken) {
                                     "b.Stl",
                                     "--detail-size",
                                     "0.75%",
+                                    "--local-detail-size",
                                     "--order",
                                     "4",
                                     "--depth",
@@ -105,6 +107,7 @@ TEST(CommandLine, EveryOptionIsTaken) {
                                     "--quiet"});
     EXPECT_EQ(line.detail_size.value, 0.75);
     EXPECT_TRUE(line.detail_size.in_per_cent);
+    EXPECT_TRUE(line.parameters.local_detail_size);
     EXPECT_EQ(line.parameters.order, 4);
     EXPECT_EQ(line.parameters.depth, 7);
     EXPECT_EQ(line.parameters.step_size, 2.5e-4);

@@ -18,6 +18,7 @@ TEST(Report, HoldsEveryMemberUnderItsName) {
     line.input = "in.ply";
     line.output = "out.obj";
     line.parameters.detail_size = 0.375;
+    line.parameters.local_detail_size = true;
     line.parameters.order = 2;
     line.parameters.depth = 7;
     line.parameters.step_size = 2e-4;
@@ -65,7 +66,8 @@ TEST(Report, HoldsEveryMemberUnderItsName) {
     const Json expected = Json::parse(R"({
         "program": "tracked_mcf", "version": ")" TRACKED_MCF_VERSION R"(",
         "input": "in.ply", "output": "out.obj",
-        "parameters": {"detail_size": 0.375, "order": 2, "depth": 7, "step_size": 2e-4, "absolute": true, "iterations": 3,
+        "parameters": {"detail_size": 0.375, "local_detail_size": true, "order": 2, "depth": 7,
+                       "step_size": 2e-4, "absolute": true, "iterations": 3,
                        "flow": "conformalized", "boundary": "free", "selected": "q",
                        "preserve": "area", "quality": "displacement", "separate_sheets": false, "cubature": 12,
                        "solver": "converged", "tolerance": 0.5, "stabilization": 0.25, "cycles": 2, "threads": 1},

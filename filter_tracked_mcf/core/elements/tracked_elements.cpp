@@ -9,6 +9,7 @@
 #include "filter_tracked_mcf/core/cells/clip.h"
 #include "filter_tracked_mcf/core/cells/cubature.h"
 #include "filter_tracked_mcf/core/elements/curve_samples.h"
+#include "filter_tracked_mcf/core/elements/densities.h"
 #include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/mesh/measures.h"
 #include "filter_tracked_mcf/core/mesh/weld.h"
@@ -168,7 +169,7 @@ void count_vertices(TrackedElements& elements, const std::vector<std::uint8_t>& 
 }  // namespace
 
 TrackedElements build_tracked_elements(const Domain& domain, ClippedSurface surface,
-                                       Cubature cubature, bool separate_sheets) {
+                                       const FlowParameters& parameters) {
     const std::size_t triangle_count = domain.surface().triangles.size();
     if (surface.degenerate_count == static_cast<std::int64_t>(triangle_count)) {
         throw InvalidMesh(
@@ -182,10 +183,15 @@ TrackedElements build_tracked_elements(const Domain& domain, ClippedSurface surf
     count_vertices(elements, referenced_vertices(domain.surface()));
 
     enter_setup_phase(kBuildOctree);
-    build_octree(elements, surface.mesh, domain.topology(), surface.fragments, separate_sheets);
+    build_octree(elements, surface.mesh, domain.topology(), surface.fragments,
+                 parameters.separate_sheets);
     enter_setup_phase(kSampleSurface);
-    ElementBuilder(elements, domain, surface.mesh, surface.fragments, cubature_rule(cubature))
+    ElementBuilder(elements, domain, surface.mesh, surface.fragments,
+                   cubature_rule(parameters.cubature))
         .build();
+    if (parameters.local_detail_size) {
+        elements.densities = element_densities(elements, domain, surface.fragments);
+    }
     elements.curve_samples = sample_constrained_edges(elements, surface.mesh, surface.fragments,
                                                       domain.constrained_edges());
     return elements;

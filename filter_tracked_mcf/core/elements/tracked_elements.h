@@ -46,6 +46,8 @@ struct TrackedElements {
     std::vector<std::int64_t> fragment_begin;  ///< per finest element, and the end
     std::vector<std::int64_t> sample_begin;    ///< per finest element, and the end
 
+    std::vector<float> densities;  ///< per finest element (densities.h); empty if all are 1
+
     RawVector<VertexLocation> vertices;                ///< equal for coincident vertices
     std::vector<std::uint8_t> vertex_constrained;      ///< per vertex: it keeps its bits
     std::vector<std::uint8_t> meets_constrained_edge;  ///< per finest element
@@ -61,10 +63,10 @@ struct TrackedElements {
 };
 
 /// Builds the octree over the domain's clipped surface, and computes its samples and the locations
-/// of its vertices; see FlowParameters for the options. Throws InvalidMesh if all triangles are
-/// degenerate.
+/// of its vertices, with the cubature, separate_sheets and local_detail_size of the parameters.
+/// Throws InvalidMesh if all triangles are degenerate.
 TrackedElements build_tracked_elements(const Domain& domain, ClippedSurface surface,
-                                       Cubature cubature, bool separate_sheets);
+                                       const FlowParameters& parameters);
 
 /// Returns the coefficients of the identity, Σ (i, j, k) B_ijk(p) = p (section 5.3): the
 /// coefficient of each unknown is its corner.

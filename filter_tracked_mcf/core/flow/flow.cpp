@@ -26,6 +26,13 @@ constexpr double kAssemblyShare = 0.45;
 /// and with it the location of a closed surface.
 constexpr double kLargestStepSizeInCells = 1e5;
 
+/// Returns the greatest step size, in squared sides of a cell. A step size that follows the local
+/// edge length is greatest where the density is smallest.
+double largest_step_size(const std::vector<float>& densities) {
+    const auto smallest = std::min_element(densities.begin(), densities.end());
+    return kLargestStepSizeInCells * (smallest == densities.end() ? 1.0 : double{*smallest});
+}
+
 /// Returns the step size that the parameters ask for, in squared sides of a cell.
 double in_cells(const FlowParameters& parameters, const Domain& domain, const Grid& grid) {
     if (parameters.step_size > 0) {
@@ -74,11 +81,10 @@ Flow::Flow(const TriangleMesh& mesh, const FlowParameters& parameters,
 
 Flow::Flow(const Domain& domain, const FlowParameters& parameters, Start start)
     : parameters_(parameters),
-      elements_(build_tracked_elements(domain, std::move(start.surface), parameters.cubature,
-                                       parameters.separate_sheets)),
+      elements_(build_tracked_elements(domain, std::move(start.surface), parameters)),
       component_of_(components_of(elements_)),
-      step_size_in_cells_(
-          std::min(in_cells(parameters, domain, elements_.grid), kLargestStepSizeInCells)),
+      step_size_in_cells_(std::min(in_cells(parameters, domain, elements_.grid),
+                                   largest_step_size(elements_.densities))),
       solver_(make_step_solver(elements_, parameters)),
       stabilization_(elements_),
       curve_constraint_(elements_, parameters.boundary_penalty),
@@ -306,6 +312,12 @@ std::vector<Eigen::Vector3d> Flow::velocities(std::size_t vertex_count) const {
     std::vector<Eigen::Vector3d> velocities(vertex_count, Eigen::Vector3d::Zero());
     if (last_step_.size() == 0) return velocities;
     add_at_vertices(last_step_ / report_.step_size, velocities);
+    if (elements_.densities.empty()) return velocities;
+    for (std::size_t vertex = 0; vertex < vertex_count; ++vertex) {
+        const std::int32_t element = elements_.vertices[vertex].element;
+        if (element != VertexLocation::kNoElement)
+            velocities[vertex] *= elements_.densities[element];
+    }
     return velocities;
 }
 

@@ -91,8 +91,9 @@ public:
     void move_vertices(std::vector<Eigen::Vector3d>& positions) const;
 
     /// Returns the velocity d/δ of the last step at each of `vertex_count` vertices, in 1 / mesh
-    /// units: that of a step of order 1, before anything is preserved. Zero at vertices that do not
-    /// move, and unless the parameters' quality asks for the mean curvature.
+    /// units: that of a step of order 1, before anything is preserved. Where the detail size
+    /// follows the local edge length, δ is that of the vertex's element. Zero at vertices that do
+    /// not move, and unless the parameters' quality asks for the mean curvature.
     std::vector<Eigen::Vector3d> velocities(std::size_t vertex_count) const;
 
     const FlowReport& report() const { return report_; }

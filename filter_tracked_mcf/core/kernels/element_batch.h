@@ -119,7 +119,7 @@ TRACKED_MCF_INLINE Lanes area_of(const Lanes (&moments)[kMomentRows]) {
 }
 
 /// Writes the matrices of the batch into a block, from this lane of the block on.
-TRACKED_MCF_INLINE void write_matrices(const IntegrationInput& input,
+TRACKED_MCF_INLINE void write_matrices(const IntegrationInput& input, const Lanes& mass,
                                        const Lanes (&moments)[kMomentRows], MatrixBlock& block,
                                        std::int64_t lane) {
     float* entry = block.entry[0] + lane;
@@ -129,7 +129,7 @@ TRACKED_MCF_INLINE void write_matrices(const IntegrationInput& input,
         for (int column = row; column < 8; ++column, entry += kBlockElements) {
             const Lanes stiffness =
                 input.step_size_in_cells * stiffness_entry(moments, row, column);
-            store(stiffness + input.mass * mass_entry(moments, row, column), entry);
+            store(stiffness + mass * mass_entry(moments, row, column), entry);
         }
     }
 }
@@ -184,7 +184,9 @@ TRACKED_MCF_INLINE void write_systems(const IntegrationInput& input, std::int64_
     transpose_moments(batch, moments);
     const std::int64_t block = begin / kBlockElements;
     const std::int64_t lane = begin % kBlockElements;
-    write_matrices(input, moments, output.matrices[block], lane);
+    const Lanes mass =
+        input.densities == nullptr ? splat(input.mass) : input.mass * load(input.densities + begin);
+    write_matrices(input, mass, moments, output.matrices[block], lane);
     if (output.stiffnesses != nullptr) {
         write_stiffnesses(input, moments, output.stiffnesses[block], lane);
     }

@@ -47,7 +47,8 @@ struct IntegrationInput {
     const std::int32_t* unknowns;  ///< eight for each element of the level
     const double* displacement;    ///< of the embedding X_t, three for each unknown, grid units
     SampleArrays samples;
-    float mass;                ///< weight of ∫ B_I B_J
+    float mass;              ///< weight of ∫ B_I B_J
+    const float* densities;  ///< per element, a factor of mass; or null, if all are 1
     float step_size_in_cells;  ///< δ, the weight of ∫ ∇B_I · ∇B_J; squared sides of a finest cell
     bool initial_metric;  ///< the stiffness uses the initial metric; no sample collapses
 };

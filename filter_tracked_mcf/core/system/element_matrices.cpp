@@ -24,6 +24,7 @@ IntegrationInput integration_input(const TrackedElements& elements,
     input.samples.sample_begin = elements.sample_begin.data();
     input.samples.fragment_begin = elements.fragment_begin.data();
     input.mass = weights.mass;
+    input.densities = elements.densities.empty() ? nullptr : elements.densities.data();
     input.step_size_in_cells = weights.step_size_in_cells;
     input.initial_metric = weights.flow == FlowKind::Conformalized;
     return input;

@@ -35,10 +35,11 @@ struct ElementSystems {
 /// The metric is that of the embedding X_t(p) = p + Σ u_I B_I(p), where u is the displacement in
 /// grid units:
 ///
-///     matrices           mass * ∫ B_I B_J + δ ∫ ∇B_I · ∇B_J      (equation 4)
+///     matrices           mass * ∫ ρ B_I B_J + δ ∫ ∇B_I · ∇B_J    (equation 4)
 ///     right-hand sides   -δ ∫ ∇B_I · ∇X_t
 ///
-/// With mass 1, the solution d = X_{t+δ} - X_t is that of equation 2. In a conformalized flow, the
+/// The density ρ is 1 unless the detail size follows the local edge length (densities.h). With mass
+/// 1, the solution d = X_{t+δ} - X_t is that of equation 2. In a conformalized flow, the
 /// gradients and their integrals use the initial metric.
 ///
 /// The kernels compute in single precision. They take differences within a cell in double first, so

@@ -6,8 +6,8 @@
 # 'fnz > 0'.
 set -euo pipefail
 
-declare -A is=([detail_size]=0 [iterations]=3 [order]=0 [preserve]=0 [boundary]=0 [selected]=false
-    [quality]=0 [step_size]=0 [absolute]=false [depth]=0 [flow]=0 [separate_sheets]=true [solver]=0)
+declare -A is=([detail_size]=0 [local_detail_size]=false [iterations]=3 [order]=0 [preserve]=0
+    [boundary]=0 [selected]=false [quality]=0 [step_size]=0 [absolute]=false [depth]=0 [flow]=0 [separate_sheets]=true [solver]=0)
 condition=
 if [ "${1:-}" = --select ]; then
     condition=$(sed 's/&/\&amp;/g; s/</\&lt;/g; s/>/\&gt;/g' <<< "$2")
@@ -31,6 +31,7 @@ XML
 cat << XML
  <filter name="Mean Curvature Flow">
   <Param type="RichAbsPerc" name="detail_size" value="${is[detail_size]}" min="0" max="1"/>
+  <Param type="RichBool" name="local_detail_size" value="${is[local_detail_size]}"/>
   <Param type="RichInt" name="iterations" value="${is[iterations]}"/>
   <Param type="RichEnum" name="order" value="${is[order]}" enum_cardinality="4"
          enum_val0="Flow (order 1)" enum_val1="Kept (order 2)" enum_val2="Kept better (order 3)"

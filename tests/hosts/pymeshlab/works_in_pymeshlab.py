@@ -29,6 +29,7 @@ RUNS = [
      [*COARSE_OPTIONS, "--detail-size", "1.5%"]),
     ({**COARSE, "detail_size": pymeshlab.PureValue(0.125)},
      [*COARSE_OPTIONS, "--detail-size", "0.125"]),
+    ({**COARSE, "local_detail_size": True}, [*COARSE_OPTIONS, "--local-detail-size"]),
     ({**COARSE, "order": "Kept (order 2)"}, [*COARSE_OPTIONS, "--order", "2"]),
     ({**COARSE, "order": 2}, [*COARSE_OPTIONS, "--order", "3"]),
     ({**COARSE, "order": "Kept best (order 4)", "preserve": 2},

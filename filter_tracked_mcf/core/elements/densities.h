@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "filter_tracked_mcf/core/cells/fragments.h"
+#include "filter_tracked_mcf/core/elements/tracked_elements.h"
+#include "filter_tracked_mcf/core/mesh/domain.h"
+
+namespace tracked_mcf {
+
+/// A detail size that follows the local edge length is at most this many times the usual one, and
+/// at least one over it.
+inline constexpr double kMostDetailSizes = 10;
+
+/// Returns the mass density of each finest element, with 1 at triangles of mean edge length, for a
+/// detail size that follows the local edge length. In equation 2, a density ρ acts like a time step
+/// δ / ρ, so it is 1 / r² where the detail size is r times the usual one. `fragments` are those of
+/// the elements. Readable beyond the end like ElementSystems, in whole blocks.
+std::vector<float> element_densities(const TrackedElements& elements, const Domain& domain,
+                                     const RawVector<FragmentEntry>& fragments);
+
+}  // namespace tracked_mcf
