@@ -23,6 +23,11 @@ constexpr double kWorthRefining = 0.5;
 /// Usual ratio of the decreases of the squared error in two consecutive iterations.
 constexpr double kUsualDecreaseRatio = 0.1;
 
+/// A step length is about 1 or greater, because the V-cycle is nearly the inverse of A. If it is
+/// less than this, the V-cycle has overshot along a few functions with much energy. The decrease is
+/// theirs, and says nothing about the error that remains.
+constexpr double kOvershot = 0.5;
+
 /// Returns a / b if b is positive, else 0, for then nothing is left to solve.
 double ratio(double a, double b) {
     return b > 0 ? a / b : 0;
@@ -115,8 +120,9 @@ double ConjugateGradients::descend(ElementMultigrid& multigrid, double goal, dou
         // Rounding errors may leave a direction without energy; then the solve gives up.
         if (energy <= 0 || !is_factor(alpha)) return std::numeric_limits<double>::max();
         move(static_cast<float>(alpha));
+        total_decrease_ += alpha * rz;
+        if (0 < alpha && alpha < kOvershot) continue;
         const double decrease_before = std::exchange(decrease, alpha * rz);
-        total_decrease_ += decrease;
         if (decrease > 0 && decrease_before > 0) decrease_ratio_ = decrease / decrease_before;
         // The ratio of an earlier solve says little about a first iteration, so be careful.
         const double next_ratio =

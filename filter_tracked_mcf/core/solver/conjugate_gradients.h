@@ -18,7 +18,8 @@ struct Convergence {
     /// Not finite if the numbers are not. Each iteration reduces the squared error by a known
     /// number (Hestenes and Stiefel 1952, theorem 6:1). The estimate extrapolates these decreases
     /// as a geometric series, whose ratio is that of the last two decreases. After one iteration,
-    /// the ratio is that of an earlier solve, but at least the usual one.
+    /// the ratio is that of an earlier solve, but at least the usual one. Iterations in which the
+    /// V-cycle overshot do not count.
     double error_estimate = 0;
     bool reached_tolerance = true;
     double residual = 0;  ///< 2-norm of the final residual over the three coordinates
