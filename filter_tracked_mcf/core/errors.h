@@ -24,11 +24,6 @@ struct InvalidParameter : Error {
     using Error::Error;
 };
 
-/// The solution is no longer finite.
-struct NumericalFailure : Error {
-    using Error::Error;
-};
-
 /// The flow is expected to need more memory than is free.
 struct NotEnoughMemory : Error {
     using Error::Error;

@@ -30,6 +30,9 @@ double progress_before(int step, int iterations) {
     return (kSetupInSteps + step) / (kSetupInSteps + iterations + kFinishInSteps);
 }
 
+/// The area has grown if it did so by more than this fraction.
+constexpr double kGrowth = 1e-3;
+
 /// A flow, and what preserves its area or volume if the parameters ask for it.
 struct Run {
     std::optional<Flow> flow;
@@ -84,6 +87,7 @@ void compare(const TriangleMesh& before, const std::vector<Eigen::Vector3d>& aft
     double largest = 0, squares = 0;
     for (std::size_t i = 0; i < after.size(); ++i) {
         const double square = (after[i] - before.positions[i]).squaredNorm();
+        if (!std::isfinite(square)) continue;  // a vertex that no triangle uses
         squares += square;
         largest = std::max(largest, square);
     }
@@ -118,6 +122,27 @@ std::vector<double> measure_quality(Quality quality, const Flow& flow, const Tri
     return along_normals(vectors, {after, before.triangles}, selection);
 }
 
+/// Returns whether the area has grown, which the exact flow does not do. The tolerance is relative
+/// to the displacement of the whole surface, so the grid may displace parts that are much thinner
+/// than its cells by more than their width.
+bool has_gone_wrong(const FlowParameters& parameters, const FlowReport& report) {
+    const bool may_grow = parameters.flow != FlowKind::MeanCurvature || parameters.order > 1 ||
+                          parameters.preserve != Preserve::None;
+    return !may_grow && report.area_after > (1 + kGrowth) * report.area_before;
+}
+
+/// Flows again from the start, to a smaller tolerance.
+FlowReport evolve_carefully(TriangleMesh& mesh, const Selection& selection,
+                            const FlowParameters& parameters, const Progress& progress) {
+    FlowParameters careful = parameters;
+    careful.tolerance = kCarefulTolerance;
+    FlowReport report = evolve(mesh, selection, careful, progress);
+    for (StepReport& step : report.steps) {
+        step.reached_tolerance = step.error_estimate <= parameters.tolerance;
+    }
+    return report;
+}
+
 }  // namespace
 
 double default_detail_size(const TriangleMesh& mesh, const Selection& selection) {
@@ -148,6 +173,10 @@ FlowReport evolve(TriangleMesh& mesh, const Selection& selection, const FlowPara
     report.setup_seconds = setup_seconds;
     report.area_before = area_before;
     report.area_after = surface_area({positions, mesh.triangles}, selection);
+    if (parameters.tolerance > kCarefulTolerance && has_gone_wrong(parameters, report)) {
+        run.flow.reset();
+        return evolve_carefully(mesh, selection, parameters, progress);
+    }
     report.oriented_consistently = run.oriented_consistently;
     compare(mesh, positions, selection, report);
     report.quality = measure_quality(parameters.quality, *run.flow, mesh, positions, selection);

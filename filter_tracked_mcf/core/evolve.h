@@ -17,7 +17,7 @@ namespace tracked_mcf {
 /// those that no selected triangle uses. If nothing is left to do, the flow ends before its last
 /// step and FlowReport::stop says why.
 ///
-/// Throws InvalidMesh, InvalidParameter, NotEnoughMemory, NumericalFailure or Cancelled (errors.h)
+/// Throws InvalidMesh, InvalidParameter, NotEnoughMemory or Cancelled (errors.h)
 /// and leaves the mesh unchanged.
 FlowReport evolve(TriangleMesh& mesh, const Selection& selection, const FlowParameters& parameters,
                   const Progress& progress = {});

@@ -31,7 +31,13 @@ std::string early_stop(const FlowReport& report, int iterations) {
             return "Nothing has moved: the first step would have left no surface. Take a smaller "
                    "detail size or step size.";
         case Stop::Pinched:
-            return stopped + "so much has pinched that preserving would blow up what is left.";
+            return (made > 0 ? stopped : "Nothing has moved: ") +
+                   "so much has pinched that preserving would blow up what is left.";
+        case Stop::StepFailed:
+            return (made > 0 ? stopped : "Nothing has moved: ") + "step " +
+                   std::to_string(made + 1) +
+                   " failed, in 16 parts, too: the surface left its bounds, or the equations could "
+                   "not be solved. Take a smaller detail size or step size, or a greater depth.";
         case Stop::NotPreserved:
             return (made > 0 ? stopped : "Nothing has moved: ") + "step " +
                    std::to_string(made + 1) +

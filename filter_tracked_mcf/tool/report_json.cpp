@@ -40,6 +40,7 @@ Json parameters_json(const CommandLine& line) {
 const char* stop_name(Stop stop) {
     if (stop == Stop::Vanished) return "vanished";
     if (stop == Stop::Pinched) return "pinched";
+    if (stop == Stop::StepFailed) return "step failed";
     if (stop == Stop::NotPreserved) return "volume not preserved";
     return stop == Stop::NothingMoves ? "nothing moves" : "none";
 }

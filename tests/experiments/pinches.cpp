@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/flow/flow.h"
 #include "filter_tracked_mcf/tool/mesh_file.h"
 #include "tests/experiments/collapse.h"
@@ -47,12 +46,7 @@ private:
         const std::string& configuration = options_.configurations[index];
         FlowParameters parameters = options_.parameters(options_.depths.front(), configuration);
         parameters.boundary = BoundaryCondition::Free;
-        try {
-            flow(parameters, index);
-        } catch (const NumericalFailure& failure) {
-            print_row(configuration, 0, 0);
-            std::cerr << configuration << ": " << failure.what() << '\n';
-        }
+        flow(parameters, index);
     }
 
     void flow(const FlowParameters& parameters, std::size_t index) {

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/flow/flow.h"
 #include "filter_tracked_mcf/core/flow/preserving.h"
 #include "filter_tracked_mcf/core/mesh/measures.h"
@@ -88,12 +87,7 @@ public:
 
 private:
     void run_configuration(std::size_t index) {
-        try {
-            flow(options_.parameters(options_.depths.front(), options_.configurations[index]),
-                 index);
-        } catch (const NumericalFailure& failure) {
-            std::cerr << options_.configurations[index] << ": " << failure.what() << '\n';
-        }
+        flow(options_.parameters(options_.depths.front(), options_.configurations[index]), index);
     }
 
     void flow(const FlowParameters& parameters, std::size_t index) {

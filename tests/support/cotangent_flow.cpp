@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "filter_tracked_mcf/core/cells/grid.h"
-#include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/mesh/mesh_topology.h"
 
 namespace tracked_mcf {
@@ -157,7 +156,7 @@ CotangentFlow::Points CotangentFlow::solve() {
     is_analyzed_ = true;
     solver_.factorize(matrix_);
     if (solver_.info() != Eigen::Success) {
-        throw NumericalFailure("The cotangent flow's matrix cannot be factorised.");
+        throw std::runtime_error("The cotangent flow's matrix cannot be factorised.");
     }
     const double norm = std::max(right_side_.norm(), 1e-300);
     Points displacement = solver_.solve(right_side_);

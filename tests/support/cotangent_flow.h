@@ -28,7 +28,7 @@ public:
     /// boundary is Free, its vertices are constrained. LockedCells is treated as Locked.
     CotangentFlow(const TriangleMesh& mesh, double step_size, BoundaryCondition boundary);
 
-    /// Throws NumericalFailure if the matrix cannot be factorised.
+    /// Throws std::runtime_error if the matrix cannot be factorised.
     void step();
 
     /// Returns the mesh with the current positions and the initial numbering of vertices.

@@ -168,6 +168,10 @@ TEST(Report, NamesEveryWayToStop) {
     EXPECT_EQ(stop(), "vanished");
     report.stop = Stop::Pinched;
     EXPECT_EQ(stop(), "pinched");
+    report.stop = Stop::NotPreserved;
+    EXPECT_EQ(stop(), "volume not preserved");
+    report.stop = Stop::StepFailed;
+    EXPECT_EQ(stop(), "step failed");
     report.stop = Stop::NothingMoves;
     EXPECT_EQ(stop(), "nothing moves");
 }

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "filter_tracked_mcf/core/elements/components.h"
-#include "filter_tracked_mcf/core/errors.h"
+#include "filter_tracked_mcf/core/flow/drift.h"
 #include "filter_tracked_mcf/core/memory/memory_check.h"
 #include "filter_tracked_mcf/core/mesh/measures.h"
 #include "filter_tracked_mcf/core/octree/automatic_depth.h"
@@ -25,6 +25,12 @@ constexpr double kAssemblyShare = 0.45;
 /// Beyond this δ, in squared sides of a cell, single precision loses the mass matrix beside δ S,
 /// and with it the location of a closed surface.
 constexpr double kLargestStepSizeInCells = 1e5;
+
+/// Beyond this error, relative to its solution, a solve has reached nothing.
+constexpr double kNothingReached = 0.5;
+
+/// The numbers of parts in which a step that has failed is made again.
+constexpr int kParts[] = {1, 4, 16};
 
 /// Returns the greatest step size, in squared sides of a cell. A step size that follows the local
 /// edge length is greatest where the density is smallest.
@@ -88,6 +94,9 @@ Flow::Flow(const Domain& domain, const FlowParameters& parameters, Start start)
       solver_(make_step_solver(elements_, parameters)),
       stabilization_(elements_),
       curve_constraint_(elements_, parameters.boundary_penalty),
+      confinement_(
+          elements_, component_of_,
+          parameters.order == 1 ? 0 : detail_size_for(step_size_in_cells_, 1, parameters.order)),
       displacement_(Coefficients::Zero(elements_.finest().unknown_count(), 3)),
       solutions_(parameters.order) {
     fill_report(domain);
@@ -121,15 +130,12 @@ void Flow::fill_report(const Domain& domain) {
 }
 
 bool Flow::step() {
-    if (constrains_curve() && parameters_.update_boundary_multipliers && !report_.steps.empty()) {
+    if (updates_multipliers() && !report_.steps.empty()) {
         curve_constraint_.update_multipliers(displacement_);
     }
     StepReport report;
     const Stopwatch assembling;
-    assemble();              // A = D + δS, b = -δ S x(t)
-    add_curve_constraint();  // A += δη C, b += δ (n + λ) - δη C u
-    stabilize();             // A += κ (δ + 0.1) N
-    constrain_unknowns();    // constrained unknowns: zero rows and columns of A
+    prepare(step_size_in_cells_);
     report.assemble_seconds = assembling.seconds();
     report.area = systems_.area * elements_.grid.cell_size * elements_.grid.cell_size;
     report.collapsed_samples = systems_.collapsed_samples;
@@ -137,32 +143,83 @@ bool Flow::step() {
     const ProgressSpan solving(kAssemblyShare, 1);
     if (ends_here(report)) return false;
     const Stopwatch stopwatch;
+    tolerance_ = parameters_.tolerance;
     solve(report);  // A d = b, and again for a greater order
     add();          // x(t+δ) = x(t) + d
+    bool success = succeeded(report);
+    for (const int parts : kParts) success = success || repeat(parts, report);
     report.solve_seconds = stopwatch.seconds();
     report_.steps.push_back(report);
+    if (!success) undo_step(Stop::StepFailed);
+    return success;
+}
+
+void Flow::prepare(double delta) {
+    assemble(delta);              // A = D + δS, b = -δ S x(t)
+    add_curve_constraint(delta);  // A += δη C, b += δ (n + λ) - δη C u
+    stabilize(delta);             // A += κ (δ + 0.1) N
+    constrain_unknowns(delta);    // constrained unknowns: zero rows and columns of A
+}
+
+bool Flow::succeeded(const StepReport& report) const {
+    const bool reached = report.reached_tolerance || report.error_estimate <= kNothingReached;
+    return reached && confinement_.holds(displacement_);
+}
+
+bool Flow::repeat(int parts, StepReport& report) {
+    displacement_ = previous_;
+    prediction_ = {};  // that of the whole step
+    solutions_.assign(solutions_.size(), {});
+    report.error_estimate = 0;
+    report.reached_tolerance = true;
+    tolerance_ = std::min(parameters_.tolerance, kCarefulTolerance);
+    const std::vector<std::uint8_t> constrained = constrained_components();
+    ElementSystems masses;
+    for (int i = 0; i < parts; ++i) {
+        if (updates_multipliers() && i > 0) curve_constraint_.update_multipliers(displacement_);
+        prepare(step_size_in_cells_ / parts);
+        if (!solver_->has_free_unknowns()) break;
+        solve(report);
+        report.reached_tolerance = report.error_estimate <= parameters_.tolerance;
+        Coefficients step = step_of(parameters_.order);
+        assemble_elements(elements_, displacement_, {1.0F, 0.0F, parameters_.flow, false}, masses);
+        remove_drift(elements_, component_of_, masses.matrices, constrained, step);
+        displacement_ += step;
+        if (parameters_.quality == Quality::MeanCurvature) last_step_ = parts * step_of(1);
+        if (!succeeded(report)) return false;
+    }
     return true;
 }
 
-void Flow::assemble() {
-    assemble_elements(
-        elements_, displacement_,
-        {1.0F, static_cast<float>(step_size_in_cells_), parameters_.flow, parameters_.order > 1},
-        systems_);
+std::vector<std::uint8_t> Flow::constrained_components() const {
+    std::vector<std::uint8_t> constrained(static_cast<std::size_t>(component_count(elements_)), 0);
+    for_each_unknown(elements_, component_of_, [&](std::int32_t unknown, std::int32_t component) {
+        if (solver_->constrained()[unknown] != 0) constrained[component] = 1;
+    });
+    for (const CurveSample& sample : elements_.curve_samples) {
+        if (constrains_curve()) constrained[component_of_[sample.element]] = 1;
+    }
+    return constrained;
+}
+
+void Flow::assemble(double delta) {
+    assemble_elements(elements_, displacement_,
+                      {1.0F, static_cast<float>(delta), parameters_.flow, parameters_.order > 1},
+                      systems_);
     if (predicts()) {
         multiply(elements_, systems_.matrices, prediction_.embedding, prediction_.products);
     }
 }
 
-void Flow::add_curve_constraint() {
-    if (constrains_curve()) curve_constraint_.add(displacement_, step_size_in_cells_, systems_);
+void Flow::add_curve_constraint(double delta) {
+    if (constrains_curve()) curve_constraint_.add(displacement_, delta, systems_);
 }
 
-void Flow::stabilize() {
-    stabilization_.add(stabilization_of(parameters_), step_size_in_cells_, systems_.matrices);
+void Flow::stabilize(double delta) {
+    stabilization_.add(stabilization_of(parameters_), delta, systems_.matrices);
 }
 
-void Flow::constrain_unknowns() {
+void Flow::constrain_unknowns(double delta) {
     if (parameters_.constrain_pinches && parameters_.flow == FlowKind::Conformalized) {
         vanished_components_->constrain(systems_, kVanishedArea, solver_->constrained());
     } else if (parameters_.constrain_pinches && !systems_.collapses.empty()) {
@@ -171,7 +228,7 @@ void Flow::constrain_unknowns() {
                           converged ? kPinchedShareConverged : kPinchedShareOneWCycle,
                           solver_->constrained());
     }
-    solver_->take(systems_.matrices, systems_.area, step_size_in_cells_);
+    solver_->take(systems_.matrices, systems_.area, delta);
 }
 
 const Supports& Flow::supports() {
@@ -231,14 +288,7 @@ Coefficients Flow::step_of(int order) const {
 }
 
 void Flow::solve(Solution& solution, StepReport& report) {
-    solver_->solve(systems_.right_sides, solution, report);
-    // Conjugate gradients leave the solution at zero if the system is not finite. A sum is finite
-    // only if every term is, and needs no branch for each.
-    if (!std::isfinite(solution.x.squaredNorm()) || !std::isfinite(report.error_estimate)) {
-        throw NumericalFailure(
-            "The flow broke down: its numbers are no longer finite. Use a smaller detail size or "
-            "step size.");
-    }
+    solver_->solve(systems_.right_sides, tolerance_, solution, report);
 }
 
 void Flow::add() {
@@ -270,6 +320,7 @@ void Flow::scale(const std::vector<Scaling>& components) {
         displacement = factor * displacement + (factor - 1) * from_centre;
         from_centre += displacement;
     });
+    confinement_.move_to(displacement_);
 }
 
 const Coefficients& Flow::pressure_response() {
@@ -285,6 +336,7 @@ void Flow::inflate(const std::vector<double>& factors) {
     for_each_unknown(elements_, component_of_, [&](std::int32_t unknown, std::int32_t component) {
         displacement_.row(unknown) += factors[component] * pressure_response_.x.row(unknown);
     });
+    confinement_.move_to(displacement_);
 }
 
 void Flow::add_at_vertices(const Coefficients& coefficients,

@@ -9,6 +9,7 @@
 #include "filter_tracked_mcf/core/cells/grid.h"
 #include "filter_tracked_mcf/core/elements/supports.h"
 #include "filter_tracked_mcf/core/elements/tracked_elements.h"
+#include "filter_tracked_mcf/core/flow/confinement.h"
 #include "filter_tracked_mcf/core/flow_parameters.h"
 #include "filter_tracked_mcf/core/flow_report.h"
 #include "filter_tracked_mcf/core/mesh/domain.h"
@@ -58,10 +59,13 @@ public:
     /// d = x(t+δ) - x(t), with the stabilisation and the constraints that the parameters ask for,
     /// and adds d to the embedding. A step of order m solves m times, see FlowParameters::order.
     ///
-    /// Returns false, without a step, if nothing is left to do; report().stop then says why. If the
-    /// previous step has left almost no area, that step is undone.
+    /// A step fails if it takes the surface where it cannot be (confinement.h), or if the solver
+    /// reaches nothing. It is then made again with more care, in one, 4 or 16 parts.
     ///
-    /// Throws NumericalFailure if the solution is not finite, leaving the embedding as it was.
+    /// Returns false, without a step, if nothing is left to do, or if the step has failed in parts,
+    /// too; report().stop then says why. If the previous step has left almost no area, that step is
+    /// undone.
+    ///
     /// Throws what poll_progress() throws; the flow cannot be continued then.
     bool step();
 
@@ -122,14 +126,23 @@ private:
     };
     Flow(const Domain& domain, const FlowParameters& parameters, Start start);
 
+    /// Assembles the system of a step of this size, in squared sides of a cell.
+    void prepare(double step_size_in_cells);
+    /// Makes the last step again, in parts, to a smaller tolerance and without drift (drift.h).
+    /// Returns whether it succeeded.
+    bool repeat(int parts, StepReport& report);
+    bool succeeded(const StepReport& report) const;
+    /// Returns flags, per component, of those that a boundary or a constrained unknown holds.
+    std::vector<std::uint8_t> constrained_components() const;
+
     // The parts of a step, in order. n is the conormal and λ the multiplier of the curve
     // constraint, C its matrix and u its displacement; N is the matrix of the stabilisation.
-    void assemble();                 // A = D + δS, b = -δ S x(t)
-    void add_curve_constraint();     // A += δη C, b += δ (n + λ) - δη C u
-    void stabilize();                // A += κ (δ + 0.1) N
-    void constrain_unknowns();       // constrained unknowns: zero rows and columns of A
-    void solve(StepReport& report);  // A d = b, and again for a greater order
-    void add();                      // x(t+δ) = x(t) + d
+    void assemble(double delta);              // A = D + δS, b = -δ S x(t)
+    void add_curve_constraint(double delta);  // A += δη C, b += δ (n + λ) - δη C u
+    void stabilize(double delta);             // A += κ (δ + 0.1) N
+    void constrain_unknowns(double delta);    // constrained unknowns: zero rows and columns of A
+    void solve(StepReport& report);           // A d = b, and again for a greater order
+    void add();                               // x(t+δ) = x(t) + d
 
     void solve(Solution& solution, StepReport& report);
     bool predicts() const { return prediction_.embedding.size() > 0; }
@@ -137,6 +150,9 @@ private:
     Coefficients step_of(int order) const;
     bool ends_here(const StepReport& report);
     bool constrains_curve() const { return parameters_.boundary != BoundaryCondition::LockedCells; }
+    bool updates_multipliers() const {
+        return constrains_curve() && parameters_.update_boundary_multipliers;
+    }
     const Supports& supports();
     void fill_report(const Domain& domain);
 
@@ -154,6 +170,8 @@ private:
     std::optional<Supports> supports_;                       ///< measured when first needed
     std::optional<VanishedComponents> vanished_components_;  ///< only in a conformalized flow
     CurveConstraint curve_constraint_;
+    Confinement confinement_;
+    double tolerance_ = 0;  ///< of the present solves
     Coefficients displacement_;
     Coefficients previous_;   ///< the displacement before the last step
     Coefficients last_step_;  ///< d of order 1; empty unless the quality needs it

@@ -20,8 +20,14 @@ namespace {
 /// fraction of a sphere is 0.09.
 constexpr double kFlat = 1e-9;
 
-/// The largest allowed ratio of a component's present size to its initial one.
-constexpr double kLargestGrowth = 4;
+/// The size of a component's bounds, in longest sides of its initial box or in diameters of the
+/// sphere that it may become. The flow makes no surface longer, but thin threads and flat ends that
+/// have pinched do not shrink with the rest, and so preserving would make them grow without bound.
+/// Long shapes become longer in a conformalized flow before they become round.
+constexpr double kLargestGrowth = 4, kLargestConformalizedGrowth = 16;
+
+/// The flow ends if components of more than this share of the area would blow up.
+constexpr double kMostBlownUp = 0.5;
 
 /// The volume that a component has swept, relative to its area times its size. Newton's method
 /// takes it to the goal in a few steps, or to the rounding errors of a mesh far from the origin,
@@ -95,6 +101,14 @@ Preserver::Preserver(const Domain& domain, const FlowParameters& parameters, con
         component_of_.push_back(flow.component_of()[flow.elements().vertices[triangle[0]].element]);
     }
     initial_ = measure(mesh_.positions);
+    const double growth =
+        flow_ == FlowKind::Conformalized ? kLargestConformalizedGrowth : kLargestGrowth;
+    for (Measures& component : initial_) {
+        const double sphere = std::sqrt(component.area / std::acos(-1.0));
+        const double half = growth / 2 * std::max(component.box.sizes().maxCoeff(), sphere);
+        component.bounds = {component.box.center().array() - half,
+                            component.box.center().array() + half};
+    }
 }
 
 std::vector<Preserver::Measures> Preserver::measure(
@@ -141,20 +155,22 @@ bool Preserver::restore(Flow& flow) {
         flow.undo_step(Stop::Vanished);
         return false;
     }
+    double blown_up = 0;  // initial area
     if (scales(kind_, flow_)) {
-        flow.scale(scalings(present));
-    } else if (!restore_volumes(flow, std::move(positions))) {
+        flow.scale(scalings(present, blown_up));
+    } else if (!restore_volumes(flow, std::move(positions), blown_up)) {
         flow.undo_step(Stop::NotPreserved);
         return false;
     }
-    if (blows_up(measure(moved(flow)), flow.report())) {
+    if (blown_up > kMostBlownUp * initial_area) {
         flow.undo_step(Stop::Pinched);
         return false;
     }
     return true;
 }
 
-std::vector<Scaling> Preserver::scalings(const std::vector<Measures>& present) const {
+std::vector<Scaling> Preserver::scalings(const std::vector<Measures>& present,
+                                         double& blown_up) const {
     std::vector<Scaling> scalings(present.size());
     for (std::size_t i = 0; i < present.size(); ++i) {
         const bool by_volume = kind_ == Preserve::Volume;
@@ -163,7 +179,15 @@ std::vector<Scaling> Preserver::scalings(const std::vector<Measures>& present) c
         // The ratio is negative if a component has turned inside out.
         const bool vanished = present[i].area <= kVanishedArea * initial_[i].area;
         if (vanished || !(ratio > 0) || !std::isfinite(ratio)) continue;
-        scalings[i] = {present[i].centroid, by_volume ? std::cbrt(ratio) : std::sqrt(ratio)};
+        const double factor = by_volume ? std::cbrt(ratio) : std::sqrt(ratio);
+        const Eigen::Vector3d& centre = present[i].centroid;
+        const Eigen::AlignedBox3d scaled(centre + factor * (present[i].box.min() - centre),
+                                         centre + factor * (present[i].box.max() - centre));
+        if (initial_[i].bounds.contains(scaled)) {
+            scalings[i] = {centre, factor};
+        } else {
+            blown_up += initial_[i].area;
+        }
     }
     return scalings;
 }
@@ -182,7 +206,8 @@ std::vector<Eigen::Vector3d> Preserver::velocities(const Flow& flow,
     return velocities;
 }
 
-bool Preserver::restore_volumes(Flow& flow, std::vector<Eigen::Vector3d> positions) const {
+bool Preserver::restore_volumes(Flow& flow, std::vector<Eigen::Vector3d> positions,
+                                double& blown_up) const {
     const auto velocity = velocities(flow, flow.pressure_response());
     std::vector<double> pressures(initial_.size(), 0);
     double worst = 0;  // swept volume, relative
@@ -213,20 +238,14 @@ bool Preserver::restore_volumes(Flow& flow, std::vector<Eigen::Vector3d> positio
         }
     }
     if (!(worst <= kSweptAtMost)) return false;
+    const std::vector<Measures> restored = measure(positions);
+    for (std::size_t i = 0; i < initial_.size(); ++i) {
+        if (initial_[i].bounds.contains(restored[i].box)) continue;
+        blown_up += initial_[i].area;
+        pressures[i] = 0;
+    }
     flow.inflate(pressures);
     return true;
-}
-
-/// Mean-curvature flow never makes a surface longer, and preserving keeps its solid parts within
-/// bounds. Threads that have pinched do not shrink with them, and so grow without bound.
-bool Preserver::blows_up(const std::vector<Measures>& present, const FlowReport& report) const {
-    if (flow_ == FlowKind::Conformalized) return false;
-    if (kind_ == Preserve::Area && report.steps.back().collapsed_samples == 0) return false;
-    for (std::size_t i = 0; i < present.size(); ++i) {
-        const double size = present[i].box.sizes().maxCoeff();
-        if (!(size <= kLargestGrowth * initial_[i].box.sizes().maxCoeff())) return true;
-    }
-    return false;
 }
 
 }  // namespace tracked_mcf

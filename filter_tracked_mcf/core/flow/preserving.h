@@ -24,7 +24,8 @@ public:
 
     /// Restores what is preserved after a step. Returns false, with that step undone, if the step
     /// has left almost nothing, or only thin threads, or has changed the volume so much that no
-    /// pressure restores it. A component that has vanished, or that cannot move, stays as it is.
+    /// pressure restores it. A component that has vanished, cannot move, or would blow up because
+    /// only thin threads are left of it, stays as it is.
     bool restore(Flow& flow);
 
 private:
@@ -35,19 +36,22 @@ private:
         double swept = 0;          ///< between the initial and the present surface
         Eigen::Vector3d centroid;  ///< of the surface; undefined without area
         Eigen::AlignedBox3d box;
+        Eigen::AlignedBox3d bounds;  ///< initial_: where the component must stay
     };
 
     std::vector<Measures> measure(const std::vector<Eigen::Vector3d>& positions) const;
     /// Moves the vertices to where the flow has brought them.
     std::vector<Eigen::Vector3d> moved(const Flow& flow) const;
-    std::vector<Scaling> scalings(const std::vector<Measures>& present) const;
+    /// Adds the initial area of components that a scaling would take out of their bounds to
+    /// `blown_up`; they are not scaled. restore_volumes() does alike.
+    std::vector<Scaling> scalings(const std::vector<Measures>& present, double& blown_up) const;
     /// Adds to the displacement, for each component, the multiple of the pressure response that
     /// takes the swept volume back to zero. `positions` are those after the step. Returns false,
     /// without a change, if there is no such multiple.
-    bool restore_volumes(Flow& flow, std::vector<Eigen::Vector3d> positions) const;
+    bool restore_volumes(Flow& flow, std::vector<Eigen::Vector3d> positions,
+                         double& blown_up) const;
     /// Returns the velocities of the vertices under a pressure of 1.
     std::vector<Eigen::Vector3d> velocities(const Flow& flow, const Coefficients& response) const;
-    bool blows_up(const std::vector<Measures>& present, const FlowReport& report) const;
 
     const TriangleMesh& mesh_;
     std::vector<Triangle> triangles_;         ///< those that flow

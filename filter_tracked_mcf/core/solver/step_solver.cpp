@@ -28,9 +28,8 @@ void add_solve(int iterations, double residual_before, double residual_after, St
 /// Implements Solver::Converged.
 class ConvergedSolver : public StepSolver {
 public:
-    ConvergedSolver(const TrackedElements& elements, ConstrainedByLevel constrained,
-                    double tolerance)
-        : multigrid_(elements, std::move(constrained)), tolerance_(tolerance) {}
+    ConvergedSolver(const TrackedElements& elements, ConstrainedByLevel constrained)
+        : multigrid_(elements, std::move(constrained)) {}
 
     std::vector<std::uint8_t>& constrained() override { return multigrid_.constrained(); }
 
@@ -49,7 +48,7 @@ public:
                            [](auto flag) { return flag != 0; });
     }
 
-    void solve(const std::vector<ElementVector>& right_sides, Solution& solution,
+    void solve(const std::vector<ElementVector>& right_sides, double tolerance, Solution& solution,
                StepReport& report) override {
         multigrid_.assemble(right_sides, right_side_);
         Convergence convergence;
@@ -58,7 +57,7 @@ public:
             const int left = kMaximumSolverIterations - made;
             const bool last = tries == kMostTries;
             const int most = last ? left : std::min(left, worth_trying());
-            convergence = conjugate_gradients_.solve(multigrid_, right_side_, tolerance_, most,
+            convergence = conjugate_gradients_.solve(multigrid_, right_side_, tolerance, most,
                                                      solution.x, solution.earlier_guess);
             made += convergence.iterations;
             if (last || convergence.reached_tolerance || made == kMaximumSolverIterations) break;
@@ -85,7 +84,6 @@ private:
 
     ElementMultigrid multigrid_;
     ConjugateGradients conjugate_gradients_;
-    double tolerance_;
     double first_area_ = 0;         ///< area of the surface in the first step, grid units²
     double stiffness_to_mass_ = 0;  ///< see ElementMultigrid::refresh
     Effort effort_ = Effort::Usual;
@@ -111,8 +109,8 @@ public:
                            [](float inverse) { return inverse != 0; });
     }
 
-    void solve(const std::vector<ElementVector>& right_sides, Solution& solution,
-               StepReport& report) override {
+    void solve(const std::vector<ElementVector>& right_sides, double /*tolerance*/,
+               Solution& solution, StepReport& report) override {
         multigrid_.finest().assemble(right_sides, right_side_);
         set_zero(x_, right_side_.cols());
         const double residual_before = residual();
@@ -144,8 +142,7 @@ std::unique_ptr<StepSolver> make_step_solver(const TrackedElements& elements,
     if (parameters.solver == Solver::OneWCycle) {
         return std::make_unique<CycleSolver>(elements, std::move(constrained), parameters.cycles);
     }
-    return std::make_unique<ConvergedSolver>(elements, std::move(constrained),
-                                             parameters.tolerance);
+    return std::make_unique<ConvergedSolver>(elements, std::move(constrained));
 }
 
 }  // namespace tracked_mcf

@@ -40,9 +40,10 @@ public:
     virtual bool has_free_unknowns() const = 0;
 
     /// Solves the system that was taken for a right-hand side, given by its elements, and adds the
-    /// solver's numbers to the report. On entry, `solution` is that of the last step.
-    virtual void solve(const std::vector<ElementVector>& right_sides, Solution& solution,
-                       StepReport& report) = 0;
+    /// solver's numbers to the report. `tolerance` is as in FlowParameters; cycles ignore it. On
+    /// entry, `solution` is that of the last step.
+    virtual void solve(const std::vector<ElementVector>& right_sides, double tolerance,
+                       Solution& solution, StepReport& report) = 0;
 };
 
 /// Returns a new solver; `elements` must outlive it.

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "filter_tracked_mcf/core/flow/confinement.h"
+
+#include <algorithm>
+
+#include "filter_tracked_mcf/core/cells/grid.h"
+#include "filter_tracked_mcf/core/elements/components.h"
+#include "filter_tracked_mcf/core/parallel/parallel.h"
+
+namespace tracked_mcf {
+
+Confinement::Confinement(const TrackedElements& elements,
+                         const std::vector<std::int32_t>& component_of, double detail_size)
+    : elements_(elements), component_of_(component_of) {
+    move_to(Coefficients::Zero(elements.finest().unknown_count(), 3));
+    Eigen::AlignedBox3d all;
+    for (const Eigen::AlignedBox3d& box : boxes_) all.extend(box);
+    const double diagonal = all.diagonal().norm();
+    margin_ = kMarginInDiagonals * diagonal + kMarginInCells +
+              kMarginInDetail * std::min(detail_size, diagonal);
+    for (Eigen::AlignedBox3d& box : boxes_) {
+        box = {box.min().array() - margin_, box.max().array() + margin_};
+    }
+}
+
+void Confinement::move_to(const Coefficients& displacement) {
+    boxes_.assign(static_cast<std::size_t>(component_count(elements_)), {});
+    for (std::size_t vertex = 0; vertex < elements_.vertices.size(); ++vertex) {
+        const std::int32_t element = elements_.vertices[vertex].element;
+        if (element == VertexLocation::kNoElement) continue;
+        boxes_[component_of_[element]].extend(
+            position(displacement, static_cast<std::int32_t>(vertex)));
+    }
+    for (Eigen::AlignedBox3d& box : boxes_) {
+        box = {box.min().array() - margin_, box.max().array() + margin_};
+    }
+}
+
+bool Confinement::holds(const Coefficients& displacement) const {
+    const auto count = static_cast<std::int64_t>(elements_.vertices.size());
+    return 0 == parallel_count(count, [&](std::int64_t vertex) {
+               const VertexLocation& location = elements_.vertices[vertex];
+               if (location.element == VertexLocation::kNoElement) return false;
+               if (elements_.vertex_constrained[vertex] != 0) return false;
+               return !boxes_[component_of_[location.element]].contains(
+                   position(displacement, static_cast<std::int32_t>(vertex)));
+           });
+}
+
+Eigen::Vector3d Confinement::position(const Coefficients& displacement, std::int32_t vertex) const {
+    const VertexLocation& location = elements_.vertices[vertex];
+    const Cell cell = cell_at(elements_.finest().cells[location.element]);
+    return cell.cast<double>() + location.local +
+           evaluate_vertex(elements_, displacement, location);
+}
+
+}  // namespace tracked_mcf

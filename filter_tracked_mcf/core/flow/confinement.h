@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <vector>
+
+#include "filter_tracked_mcf/core/elements/tracked_elements.h"
+
+namespace tracked_mcf {
+
+/// Where a step may take the surface. Both flows obey a maximum principle for each coordinate: a
+/// connected component stays within its bounding box. Steps of greater order, and the error of the
+/// grid, take it out by a little. A step that takes it further has failed.
+class Confinement {
+public:
+    /// A step may leave the box by this fraction of the diagonal of the whole initial surface, and
+    /// this part of a cell, because the grid's functions obey the principle only nearly. One of
+    /// order 2 or more may also leave it by this fraction of the length of the waves that it
+    /// halves, but not more than this fraction of the diagonal.
+    static constexpr double kMarginInDiagonals = 0.01, kMarginInCells = 0.1, kMarginInDetail = 0.1;
+
+    /// Confines each component to its initial box. `component_of` is what components_of() returns;
+    /// it and the elements must outlive the confinement. `detail_size` is the length of these
+    /// waves, in grid units, or 0 if the steps have order 1.
+    Confinement(const TrackedElements& elements, const std::vector<std::int32_t>& component_of,
+                double detail_size);
+
+    /// Confines each component to the box that it has now.
+    void move_to(const Coefficients& displacement);
+
+    /// Returns whether all vertices are within the boxes of their components.
+    bool holds(const Coefficients& displacement) const;
+
+private:
+    /// Returns the position of a vertex that has an element, in grid units.
+    Eigen::Vector3d position(const Coefficients& displacement, std::int32_t vertex) const;
+
+    const TrackedElements& elements_;
+    const std::vector<std::int32_t>& component_of_;
+    std::vector<Eigen::AlignedBox3d> boxes_;  ///< per component, grid units, with the margin
+    double margin_ = 0;
+};
+
+}  // namespace tracked_mcf

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "filter_tracked_mcf/core/flow/drift.h"
+
+#include "filter_tracked_mcf/core/elements/components.h"
+
+namespace tracked_mcf {
+
+void remove_drift(const TrackedElements& elements, const std::vector<std::int32_t>& component_of,
+                  const MatrixBlocks& masses, const std::vector<std::uint8_t>& constrained,
+                  Coefficients& step) {
+    std::vector<double> mass(constrained.size(), 0);
+    std::vector<Eigen::RowVector3d> drift(constrained.size(), Eigen::RowVector3d::Zero());
+    for (std::int32_t element = 0; element < elements.finest().element_count(); ++element) {
+        const std::int32_t component = component_of[element];
+        const ElementMatrix matrix = masses.of(element);
+        for (int column = 0; column < 8; ++column) {
+            double share = 0;
+            for (int row = 0; row < 8; ++row) share += matrix.entry[row][column];
+            mass[component] += share;
+            drift[component] += share * step.row(elements.finest().unknowns[element][column]);
+        }
+    }
+    for_each_unknown(elements, component_of, [&](std::int32_t unknown, std::int32_t component) {
+        if (constrained[component] != 0 || !(mass[component] > 0)) return;
+        step.row(unknown) -= drift[component] / mass[component];
+    });
+}
+
+}  // namespace tracked_mcf

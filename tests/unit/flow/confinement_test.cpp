@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// No step takes the surface where it cannot be: outside the box that it was in.
+
+#include "filter_tracked_mcf/core/flow/confinement.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "filter_tracked_mcf/core/elements/components.h"
+#include "filter_tracked_mcf/core/flow/flow.h"
+#include "filter_tracked_mcf/core/mesh/measures.h"
+#include "tests/support/shapes.h"
+#include "tests/unit/flows.h"
+
+namespace tracked_mcf {
+namespace {
+
+Eigen::AlignedBox3d box_of(const TriangleMesh& mesh) {
+    Eigen::AlignedBox3d box;
+    for (const Eigen::Vector3d& position : mesh.positions) box.extend(position);
+    return box;
+}
+
+/// Returns how far the flow takes a vertex out of the initial box, in diagonals of the box.
+double outside(const TriangleMesh& mesh, const FlowParameters& p) {
+    const Eigen::AlignedBox3d box = box_of(mesh);
+    double farthest = 0;
+    for (const Eigen::Vector3d& position : evolved(mesh, p).positions) {
+        farthest = std::max(farthest, box.exteriorDistance(position));
+    }
+    return farthest / box.diagonal().norm();
+}
+
+TriangleMesh scaled(const TriangleMesh& mesh, double x, double y, double z) {
+    return shapes::transformed(mesh, Eigen::Affine3d(Eigen::Scaling(x, y, z)));
+}
+
+/// A sphere at a corner of a triangle that is larger by this factor.
+TriangleMesh sphere_at_corner(double factor) {
+    TriangleMesh triangle;
+    triangle.positions = {{0, 0, 0}, {factor, 0, 0}, {0, factor, 0}};
+    triangle.triangles = {{0, 1, 2}};
+    return shapes::merged(shapes::geodesic_sphere(4), triangle);
+}
+
+TEST(Confinement, AllowsAHundredthOfTheDiagonalAndATenthOfACell) {
+    const TriangleMesh mesh = shapes::geodesic_sphere(8);
+    const Flow flow(mesh, parameters(4, 1e-4, 1));
+    const std::vector<std::int32_t> component_of = components_of(flow.elements());
+    const double diagonal = box_of(mesh).diagonal().norm() / flow.report().cell_size;
+    const auto holds = [&](double detail_size, double distance) {
+        Coefficients displacement = flow.displacement();
+        displacement.col(0).array() += distance;
+        return Confinement(flow.elements(), component_of, detail_size).holds(displacement);
+    };
+    const double margin = 0.01 * diagonal + 0.1;
+    EXPECT_TRUE(holds(0, 0.99 * margin));
+    EXPECT_FALSE(holds(0, 1.01 * margin));
+    EXPECT_FALSE(holds(0, std::nan("")));
+    // A tenth of the detail size more, and at most of the diagonal.
+    EXPECT_TRUE(holds(0.1 * diagonal, 0.99 * (margin + 0.01 * diagonal)));
+    EXPECT_FALSE(holds(0.1 * diagonal, 1.01 * (margin + 0.01 * diagonal)));
+    EXPECT_TRUE(holds(1e9, 0.99 * (margin + 0.1 * diagonal)));
+    EXPECT_FALSE(holds(1e9, 1.01 * (margin + 0.1 * diagonal)));
+}
+
+TEST(Confinement, HoldsASphereBesideATriangleAnyTimesLarger) {
+    for (const double factor : {1e3, 1e6, 1e12}) {
+        for (const BoundaryCondition boundary :
+             {BoundaryCondition::Locked, BoundaryCondition::Free}) {
+            FlowParameters p = parameters(5, 1e-4, 10);
+            p.boundary = boundary;
+            EXPECT_LE(outside(sphere_at_corner(factor), p), 0.01) << factor;
+        }
+    }
+}
+
+TEST(Confinement, HoldsAtTheLargestSteps) {
+    for (const Solver solver : {Solver::Converged, Solver::OneWCycle}) {
+        for (const double stabilization : {0.0, 0.01, 1e3}) {
+            FlowParameters p = parameters(5, 1e9, 6);
+            p.solver = solver;
+            p.stabilization = stabilization;
+            EXPECT_LE(outside(shapes::bumpy_sphere(12), p), 0.01) << stabilization;
+            p.flow = FlowKind::Conformalized;
+            EXPECT_LE(outside(shapes::torus(40, 20, 1, 0.4), p), 0.01) << stabilization;
+            p.order = 4;
+            EXPECT_LE(outside(shapes::torus(40, 20, 1, 0.4), p), 0.11) << stabilization;
+        }
+    }
+}
+
+TEST(Confinement, AFlowThatIsThinnerThanItsCellsLosesArea) {
+    const TriangleMesh mesh = scaled(shapes::geodesic_sphere(9), 1, 1, 1e6);
+    for (const double step_size : {1e-5, 1e-4, 1e-3}) {
+        TriangleMesh flowing = mesh;
+        const FlowReport report = evolve(flowing, parameters(6, step_size, 1));
+        EXPECT_LE(report.area_after, report.area_before) << step_size;
+        EXPECT_TRUE(report.steps.front().reached_tolerance);
+    }
+}
+
+TEST(Confinement, AComponentThatWouldBlowUpDoesNotEndTheFlowOfOthers) {
+    // A strip without the force of a boundary shrinks to a line, whose area cannot be restored.
+    const TriangleMesh sphere = shapes::geodesic_sphere(10);
+    const TriangleMesh strip = shapes::transformed(scaled(shapes::square(8), 1, 0.02, 1),
+                                                   Eigen::Affine3d(Eigen::Translation3d(2, 0, 0)));
+    FlowParameters p = parameters(6, 1e-2, 20);
+    p.boundary = BoundaryCondition::Free;
+    p.preserve = Preserve::Area;
+    TriangleMesh both = shapes::merged(sphere, strip);
+    const FlowReport report = evolve(both, p);
+    EXPECT_EQ(report.stop, Stop::None);
+    const TriangleMesh alone = {
+        {both.positions.begin(),
+         both.positions.begin() + static_cast<std::ptrdiff_t>(sphere.positions.size())},
+        sphere.triangles};
+    EXPECT_NEAR(surface_area(alone), surface_area(sphere), 1e-6 * surface_area(sphere));
+    // The strip stays in a cube of four times its length.
+    for (std::size_t i = sphere.positions.size(); i < both.positions.size(); ++i) {
+        EXPECT_LE((both.positions[i] - Eigen::Vector3d(2.5, 0.01, 0)).cwiseAbs().maxCoeff(), 2);
+    }
+}
+
+}  // namespace
+}  // namespace tracked_mcf
