@@ -11,6 +11,7 @@
 namespace tracked_mcf {
 namespace {
 
+using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
@@ -52,6 +53,11 @@ const std::vector<BadFile> kBadFiles = {
     {"TruncatedAsciiStl", "a.stl",
      "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n", "endsolid"},
     {"OneLineStl", "a.stl", "solid facet endsolid", "it is a single line"},
+    {"ListForCoordinatePly", "a.ply",
+     "ply\nformat ascii 1.0\nelement vertex 1\nproperty list uchar float x\nproperty float y\n"
+     "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+     "1 0 0 0\n3 0 0 0\n",
+     "its vertices lack a number x, y or z"},
     {"HugeCountPly", "a.ply",
      "ply\nformat ascii 1.0\nelement vertex 2000000000\nproperty float x\nproperty float y\n"
      "property float z\nend_header\n0 0 0\n",
@@ -130,6 +136,28 @@ TEST(BadInput, MissingFileIsNamed) {
     EXPECT_EQ(run.errors,
               "tracked_mcf: cannot read missing.ply: No such file or directory; check the name and "
               "the permissions.\n");
+}
+
+TEST(BadInput, LinksThatLeadToThemselvesAndLongNamesAreNamed) {
+    const TemporaryFolder folder;
+    std::filesystem::create_symlink("loop.ply", folder / "loop.ply");
+    const std::string long_name = std::string(300, 'a') + ".ply";
+    for (const auto& [name, why] :
+         {std::pair<std::string, std::string>{"loop.ply", "Too many levels of symbolic links"},
+          {long_name, "File name too long"}}) {
+        const ProgramRun run = run_program(folder, name + " out.ply");
+        EXPECT_EQ(run.exit_code, 1);
+        EXPECT_THAT(run.errors, StartsWith("tracked_mcf: cannot read " + name));
+        EXPECT_THAT(run.errors, EndsWith(": " + why + "; check the name and the permissions.\n"));
+    }
+}
+
+TEST(BadInput, DeviceIsNotRead) {
+    const TemporaryFolder folder;
+    std::filesystem::create_symlink("/dev/null", folder / "a.ply");
+    const ProgramRun run = run_program(folder, "a.ply out.ply");
+    EXPECT_EQ(run.exit_code, 1);
+    EXPECT_EQ(run.errors, "tracked_mcf: a.ply is a device; give a mesh file.\n");
 }
 
 TEST(BadInput, FolderIsNotRead) {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstring>
 #include <fstream>
-#include <sstream>
+#include <system_error>
 
 #include "filter_tracked_mcf/tool/file_error.h"
 
@@ -21,20 +21,35 @@ constexpr std::array<Format, 4> kFormats = {{{".ply", parse_ply, convert_to_ply,
                                              {".off", parse_off, convert_to_off, true},
                                              {".stl", parse_stl, convert_to_stl, false}}};
 
+[[noreturn]] void fail_to_read(const fs::path& path, const std::string& why) {
+    throw UnreadableFile("cannot read " + path.string() + ": " + why +
+                         "; check the name and the permissions.");
+}
+
+/// Reads a file or a pipe from beginning to end, once.
 std::string read_whole_file(const fs::path& path) {
-    if (fs::is_directory(path)) {
+    std::error_code error;
+    const fs::file_status status = fs::status(path, error);
+    if (error) fail_to_read(path, error.message());
+    if (fs::is_directory(status)) {
         throw UnreadableFile(path.string() + " is a folder; give a mesh file.");
     }
+    // A device such as /dev/zero may have no end.
+    if (fs::is_character_file(status) || fs::is_block_file(status)) {
+        throw UnreadableFile(path.string() + " is a device; give a mesh file.");
+    }
+    std::string content;
+    const auto size = fs::file_size(path, error);
+    if (!error) content.reserve(size);
     errno = 0;
     std::ifstream file(path, std::ios::binary);
-    std::ostringstream content;
-    // Inserting an empty file would set the fail bit.
-    if (file && file.peek() != std::ifstream::traits_type::eof()) content << file.rdbuf();
-    if (!file.is_open() || file.bad() || !content) {
-        throw UnreadableFile("cannot read " + path.string() + ": " + std::strerror(errno) +
-                             "; check the name and the permissions.");
+    std::vector<char> part(1 << 16);
+    while (file) {
+        file.read(part.data(), static_cast<std::streamsize>(part.size()));
+        content.append(part.data(), static_cast<std::size_t>(file.gcount()));
     }
-    return content.str();
+    if (!file.eof()) fail_to_read(path, std::strerror(errno));
+    return content;
 }
 
 void check_corner_counts(const Polygons& polygons) {

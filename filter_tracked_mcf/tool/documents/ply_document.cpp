@@ -69,7 +69,7 @@ Points read_positions(const PlyElement& vertices) {
     Points positions(vertices.count);
     for (int axis = 0; axis < 3; ++axis) {
         const auto numbers = vertices.numbers(kCoordinates[static_cast<std::size_t>(axis)]);
-        if (numbers.empty()) throw UnreadableFile("its vertices lack x, y or z");
+        if (numbers.empty()) throw UnreadableFile("its vertices lack a number x, y or z");
         for (std::size_t i = 0; i < numbers.size(); ++i) positions[i][axis] = numbers[i];
     }
     return positions;
