@@ -94,6 +94,16 @@ TEST(Conversion, ReadsColoursOfObjFilesUpToOneOrUpTo255) {
               rgba(51, 102, 255) + rgba(51, 102, 255) + rgba(255, 255, 255));
 }
 
+TEST(Conversion, ColoursOutOfRangeBecomeTheNearestInRange) {
+    EXPECT_EQ(
+        colors("v 0 0 0 -500 1e9 nan\nv 1 0 0 -1 0.5 1\nv 0 1 0 inf 256 51\nf 1 2 3\n", "obj"),
+        rgba(0, 255, 0) + rgba(0, 128, 255) + rgba(255, 255, 51));
+    EXPECT_EQ(colors("COFF\n3 1 0\n0 0 0 -500 1000000000 nan\n1 0 0 -1 51 255\n"
+                     "0 1 0 inf 256 51\n3 0 1 2\n",
+                     "off"),
+              rgba(0, 255, 0) + rgba(0, 51, 255) + rgba(255, 255, 51));
+}
+
 TEST(Conversion, ReadsColoursOfOffFilesAsFractionsIfTheyHaveAPoint) {
     EXPECT_EQ(colors("COFF\n3 1 0\n0 0 0 0.2 0.4 1.0 0.6\n1 0 0 1 0 1\n0 1 0\n3 0 1 2\n", "off"),
               rgba(51, 102, 255, 153) + rgba(1, 0, 1) + rgba(255, 255, 255));

@@ -105,5 +105,12 @@ TEST(Obj, MaterialLibrariesFollowTheFile) {
               "mtllib ../a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
 }
 
+TEST(Obj, LinesAreTextWhateverTheirIndices) {
+    const std::string content = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nl 1 0\nl 1 2/3 -9 99 x\n";
+    std::string expected = content;
+    expected.replace(expected.find("1 0 0"), 1, "2");
+    EXPECT_EQ(written_with_x_doubled(content), expected);
+}
+
 }  // namespace
 }  // namespace tracked_mcf

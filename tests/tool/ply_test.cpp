@@ -100,6 +100,25 @@ TEST(Ply, EveryPropertyElementAndCommentIsKept) {
     EXPECT_EQ(written_with_x_doubled(content), expected);
 }
 
+TEST(Ply, AListNamedLikeACoordinateIsKeptBesideIt) {
+    const std::string head = "ply\nformat binary_little_endian 1.0\nelement vertex 3\n";
+    const std::string rest =
+        "property list uchar double x\nelement face 1\nproperty list uchar int vertex_indices\n"
+        "end_header\n";
+    const std::string face = packed(std::uint8_t{3}, 0, 1, 2);
+    const std::string empty_list = packed(std::uint8_t{0});
+    const std::string long_list = packed(std::uint8_t{2}, 7., 8.);
+    const auto lists = [&](auto zero, auto x, auto one) {
+        return packed(zero, zero, zero) + empty_list + packed(x, zero, zero) + long_list +
+               packed(zero, one, zero) + empty_list;
+    };
+    EXPECT_EQ(
+        written_with_x_doubled(head + "property float x\nproperty float y\nproperty float z\n" +
+                               rest + lists(0.f, 1.f, 1.f) + face),
+        head + "property double x\nproperty double y\nproperty double z\n" + rest +
+            lists(0., 2., 1.) + face);
+}
+
 TEST(Ply, PolygonsStayWhole) {
     const std::string faces = packed(std::uint8_t{4}, 0, 1, 2, 3) +
                               packed(std::uint8_t{3}, 0, 2, 1) +

@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <sstream>
 
@@ -325,6 +326,37 @@ TEST_F(Program, NamesOfOtherFilesFollowTheOutputIntoItsFolder) {
     EXPECT_THAT(read_file(folder_ / "out/b.obj"), StartsWith("mtllib ../m.mtl\nv "));
     ASSERT_EQ(run("a.obj b.obj --depth 3").exit_code, 0);
     EXPECT_THAT(read_file(folder_ / "b.obj"), StartsWith("mtllib m.mtl\nv "));
+}
+
+TEST_F(Program, MaterialsAreNotOpened) {
+    const std::string rest = "\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    ASSERT_EQ(mkfifo((folder_ / "pipe.mtl").c_str(), 0600), 0);
+    // Both would be read without end.
+    for (const char* material : {"/dev/zero", "pipe.mtl"}) {
+        write_file(folder_ / "a.obj", "mtllib " + std::string(material) + rest);
+        const ProgramRun result = run_program(folder_, "a.obj b.obj --depth 3", "timeout 60");
+        EXPECT_EQ(result.exit_code, 0) << result.errors;
+        EXPECT_THAT(read_file(folder_ / "b.obj"),
+                    StartsWith("mtllib " + std::string(material) + "\nv "));
+    }
+}
+
+TEST_F(Program, PipesAreReadInEveryFormat) {
+    for (const std::string extension : {"ply", "obj", "off", "stl"}) {
+        const std::string file = "a." + extension, pipe = "pipe." + extension;
+        if (extension != "off") {
+            ASSERT_EQ(run("a.off " + file + " --depth 3").exit_code, 0);
+        }
+        std::filesystem::create_symlink("/dev/stdin", folder_ / pipe);
+        ASSERT_EQ(run(file + " b.off --depth 3").exit_code, 0);
+        const ProgramRun result =
+            run_program(folder_, pipe + " c.off --depth 3", "cat " + file + " | timeout 60");
+        EXPECT_EQ(result.exit_code, 0) << result.errors;
+        EXPECT_EQ(read_file(folder_ / "c.off"), read_file(folder_ / "b.off")) << extension;
+    }
+    const ProgramRun result = run_program(folder_, "/dev/stdin c.off", "cat a.off | timeout 60");
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_THAT(result.errors, HasSubstr("/dev/stdin: the extension tells the format"));
 }
 
 TEST_F(Program, HelpAndVersionSucceed) {
