@@ -150,15 +150,13 @@ void add_choices(CLI::App& app, CommandLine& line) {
     FlowParameters& parameters = line.parameters;
     add_choice(app, "--flow", parameters.flow, kFlows, shared_help("flow"));
     add_choice(app, "--boundary", parameters.boundary, kBoundaries, shared_help("boundary"));
-    const auto check_name = [](const std::string& name) { return name.empty() ? "no name" : ""; };
     app.add_option("--selected", line.selected,
                    help_of("Only selected faces move; vertices of other faces keep their "
                            "positions. PROPERTY is the name of a number that the faces of a PLY "
                            "file have, or else its vertices. A face is selected if its number is "
                            "not 0, or if the numbers of all its vertices are not 0. 'flags' is "
                            "where MeshLab saves a selection: only its bit 32 counts."))
-        ->type_name("PROPERTY")
-        ->check(CLI::Validator(check_name, ""));
+        ->type_name("PROPERTY");
     add_choice(app, "--preserve", parameters.preserve, kPreserves, shared_help("preserve"));
     add_choice(app, "--quality", parameters.quality, kQualities,
                help_of(tooltip_of("quality") +
@@ -224,6 +222,12 @@ void add_files(CLI::App& app, CommandLine& line) {
                  help_of("No summary and no progress bar; errors and warnings only."));
 }
 
+/// An empty value is a mistake, such as a variable of a script that is not set.
+void refuse_empty_values(CLI::App& app) {
+    const auto check = [](const std::string& value) { return value.empty() ? "no value" : ""; };
+    for (CLI::Option* option : app.get_options()) option->check(CLI::Validator(check, ""));
+}
+
 fs::path resolved(const fs::path& path) {
     return fs::weakly_canonical(fs::absolute(path));
 }
@@ -262,6 +266,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     add_solver_numerics(app, line.parameters);
     add_numerics(app, line.parameters);
     add_files(app, line);
+    refuse_empty_values(app);
     try {
         app.parse(argc, argv);
     } catch (const CLI::CallForHelp&) {

@@ -95,7 +95,10 @@ int main(int argc, char** argv) {
         if (line.answer.empty())
             run(line);
         else
-            std::cout << line.answer;
+            std::cout << line.answer << std::flush;
+        if (!std::cout) {
+            throw UnwritableFile("cannot write to the standard output; the disk may be full.");
+        }
         return Done;
     } catch (const InvalidParameter& error) {
         return fail(BadUsage, error.what());

@@ -16,6 +16,7 @@ namespace tracked_mcf {
 namespace {
 
 using ::testing::DoubleNear;
+using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
@@ -364,6 +365,28 @@ TEST_F(Program, HelpAndVersionSucceed) {
     EXPECT_EQ(run("--version").output, "tracked_mcf " TRACKED_MCF_VERSION "\n");
 }
 
+TEST_F(Program, AFullStandardOutputExitsWith3) {
+    for (const char* arguments : {"--help", "--version", "a.off b.ply --depth 3"}) {
+        const ProgramRun result = run(std::string(arguments) + " >/dev/full");
+        EXPECT_EQ(result.exit_code, 3) << arguments;
+        EXPECT_THAT(
+            result.errors,
+            EndsWith("tracked_mcf: cannot write to the standard output; the disk may be full.\n"));
+    }
+}
+
+TEST_F(Program, EmptyValuesAreRefused) {
+    for (const char* option :
+         {"--detail-size", "--order", "--depth", "--step-size", "--iterations", "--flow",
+          "--boundary", "--selected", "--preserve", "--quality", "--separate-sheets", "--solver",
+          "--tolerance", "--stabilization", "--cycles", "--cubature", "--threads", "--report"}) {
+        const ProgramRun result = run("a.off b.ply " + std::string(option) + " ''");
+        EXPECT_EQ(result.exit_code, 2) << option;
+        EXPECT_THAT(result.errors, HasSubstr(option));
+        EXPECT_FALSE(std::filesystem::exists(folder_ / "b.ply")) << option;
+    }
+}
+
 TEST_F(Program, WrongUseExitsWith2) {
     for (const char* arguments : {"",
                                   "a.off",
@@ -376,7 +399,6 @@ TEST_F(Program, WrongUseExitsWith2) {
                                   "a.off b.ply --detail-size %",
                                   "a.off b.ply --detail-size nan",
                                   "a.off b.ply --detail-size inf%",
-                                  "a.off b.ply --detail-size ''",
                                   "a.off b.ply --detail-size",
                                   "a.off b.ply --order 0",
                                   "a.off b.ply --order 5",
@@ -403,7 +425,8 @@ TEST_F(Program, WrongUseExitsWith2) {
                                   "a.off b.ply --stabilization -0.1",
                                   "a.off b.ply --stabilization nan",
                                   "a.off b.ply --stabilization inf",
-                                  "a.off b.xyz"}) {
+                                  "a.off b.xyz",
+                                  "a.off ''"}) {
         const ProgramRun result = run(arguments);
         EXPECT_EQ(result.exit_code, 2) << arguments;
         EXPECT_EQ(result.errors.substr(0, 13), "tracked_mcf: ") << arguments;
