@@ -8,6 +8,7 @@
 #include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/parameters/parameter_table.h"
 #include "filter_tracked_mcf/tool/documents/file_document.h"
+#include "filter_tracked_mcf/tool/output_file.h"
 
 namespace tracked_mcf {
 
@@ -228,8 +229,9 @@ void refuse_empty_values(CLI::App& app) {
     for (CLI::Option* option : app.get_options()) option->check(CLI::Validator(check, ""));
 }
 
-fs::path resolved(const fs::path& path) {
-    return fs::weakly_canonical(fs::absolute(path));
+bool is_same_file(const fs::path& a, const fs::path& b) {
+    std::error_code ignored;
+    return fs::equivalent(a, b, ignored) || follow_links(a, ignored) == follow_links(b, ignored);
 }
 
 void check_paths(const CommandLine& line) {
@@ -247,7 +249,7 @@ void check_paths(const CommandLine& line) {
     }
     if (line.report.empty()) return;
     for (const fs::path& path : {line.input, line.output}) {
-        if (resolved(line.report) != resolved(path)) continue;
+        if (!is_same_file(line.report, path)) continue;
         throw InvalidParameter("--report would overwrite the mesh " + path.string() +
                                "; give it another name.");
     }

@@ -388,6 +388,7 @@ TEST_F(Program, EmptyValuesAreRefused) {
 }
 
 TEST_F(Program, WrongUseExitsWith2) {
+    std::filesystem::create_symlink("b.ply", folder_ / "link.ply");
     for (const char* arguments : {"",
                                   "a.off",
                                   "a.off b.ply --depth 99",
@@ -426,7 +427,8 @@ TEST_F(Program, WrongUseExitsWith2) {
                                   "a.off b.ply --stabilization nan",
                                   "a.off b.ply --stabilization inf",
                                   "a.off b.xyz",
-                                  "a.off ''"}) {
+                                  "a.off ''",
+                                  "a.off b.ply --report link.ply"}) {
         const ProgramRun result = run(arguments);
         EXPECT_EQ(result.exit_code, 2) << arguments;
         EXPECT_EQ(result.errors.substr(0, 13), "tracked_mcf: ") << arguments;
@@ -440,8 +442,12 @@ TEST_F(Program, WrongUseExitsWith2) {
 }
 
 TEST_F(Program, UnwritableResultsExitWith3BeforeTheWork) {
-    for (const char* arguments : {"a.off missing/b.ply", "a.off b.ply --report missing/r.json",
-                                  "a.off b.ply --report /dev/full", "a.off /proc/b.ply"}) {
+    std::filesystem::create_symlink("loop.ply", folder_ / "loop.ply");
+    const std::string long_name = "a.off b.ply --report " + std::string(300, 'r') + ".json";
+    for (const char* arguments :
+         {"a.off missing/b.ply", "a.off b.ply --report missing/r.json",
+          "a.off b.ply --report /dev/full", "a.off /proc/b.ply", "a.off loop.ply",
+          "a.off b.ply --report loop.ply", long_name.c_str()}) {
         // An endless job: the test would time out if it were begun.
         const ProgramRun result = run(std::string(arguments) + " --iterations 1000000 --depth 9");
         EXPECT_EQ(result.exit_code, 3) << arguments;
