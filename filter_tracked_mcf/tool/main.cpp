@@ -15,6 +15,7 @@
 #include "filter_tracked_mcf/core/evolve.h"
 #include "filter_tracked_mcf/tool/command_line.h"
 #include "filter_tracked_mcf/tool/file_error.h"
+#include "filter_tracked_mcf/tool/interrupts.h"
 #include "filter_tracked_mcf/tool/mesh_file.h"
 #include "filter_tracked_mcf/tool/output_file.h"
 #include "filter_tracked_mcf/tool/progress_bar.h"
@@ -34,14 +35,16 @@ double in_mesh_units(const Length& length, const TriangleMesh& mesh) {
     return mesh.positions.empty() ? 0 : 0.01 * length.value * box.diagonal().norm();
 }
 
+/// Shows a progress bar on a terminal. An interrupt cancels the flow and wipes the bar.
 FlowReport evolve_with_progress(TriangleMesh& mesh, const Selection& selection,
                                 const CommandLine& line) {
-    if (line.quiet || !isatty(STDERR_FILENO)) return evolve(mesh, selection, line.parameters);
-    ProgressBar bar(std::cerr);
+    const InterruptHold hold;
+    std::optional<ProgressBar> bar;
+    if (!line.quiet && isatty(STDERR_FILENO)) bar.emplace(std::cerr);
     return evolve(mesh, selection, line.parameters,
                   [&bar](double fraction, std::string_view phase) {
-                      bar.show(fraction, phase);
-                      return true;
+                      if (bar) bar->show(fraction, phase);
+                      return !interrupted();
                   });
 }
 
@@ -71,6 +74,7 @@ void run(CommandLine line) {
     file.set_quality(report.quality);
     file.write(mesh, output.stage(), output.folder());
     if (report_file) report_file->stage_text(report_json(line, report));
+    if (interrupted()) return;  // the end of the last temporary folder ends the program
     output.commit();
     if (report_file) report_file->commit();
     if (!line.quiet) std::cout << summary(line, report) << std::flush;
@@ -90,6 +94,7 @@ int fail(ExitCode code, std::string message) {
 int main(int argc, char** argv) {
     // A file that grows beyond a limit then fails with a message instead of a silent end.
     std::signal(SIGXFSZ, SIG_IGN);
+    handle_interrupts();
     try {
         const CommandLine line = parse_command_line(argc, argv);
         if (line.answer.empty())

@@ -6,6 +6,8 @@
 #include <string>
 #include <system_error>
 
+#include "filter_tracked_mcf/tool/interrupts.h"
+
 namespace tracked_mcf {
 
 /// Returns the file that `path` leads to through symbolic links, even if it does not exist. If the
@@ -37,7 +39,7 @@ public:
     void commit();
 
 private:
-    /// A new folder beside the final file.
+    /// A new folder beside the final file. No interrupt ends the program while it exists.
     class StagingFolder {
     public:
         /// A failure is reported for `for_file`.
@@ -49,6 +51,7 @@ private:
         const std::filesystem::path& path() const { return path_; }
 
     private:
+        InterruptHold hold_;
         std::filesystem::path path_;
     };
 
