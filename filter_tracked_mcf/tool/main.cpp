@@ -114,7 +114,10 @@ int main(int argc, char** argv) {
     } catch (const Error& error) {
         return fail(BadMesh, error.what());
     } catch (const std::bad_alloc&) {
-        return fail(BadMesh, "there is not enough memory; choose a smaller --depth or mesh.");
+        // If a smaller depth can help, NotEnoughMemory has said so.
+        return fail(BadMesh,
+                    "there is not enough memory; simplify the mesh, free memory, or raise the "
+                    "limit that ulimit -v shows.");
     } catch (const std::exception& error) {
         return fail(BadMesh, std::string("unexpected error: ") + error.what() + ".");
     }

@@ -485,6 +485,16 @@ TEST_F(Program, TooLittleMemoryExitsWith1BeforeTheWork) {
     EXPECT_FALSE(std::filesystem::exists(folder_ / "r.json"));
 }
 
+TEST_F(Program, TooLittleMemoryToReadDoesNotBlameTheDepth) {
+    if (TRACKED_MCF_SANITIZED) GTEST_SKIP() << "sanitizers need the whole address space";
+    write_file(folder_ / "grid.off", grid(500));
+    const ProgramRun result = run_program(folder_, "grid.off b.ply", "ulimit -v 60000;");
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_EQ(result.errors,
+              "tracked_mcf: there is not enough memory; simplify the mesh, free memory, or raise "
+              "the limit that ulimit -v shows.\n");
+}
+
 TEST_F(Program, GermanLocaleChangesNoNumber) {
     ASSERT_EQ(run("a.off plain.off --depth 3 --step-size 1.5e-5").exit_code, 0);
     const ProgramRun german =
