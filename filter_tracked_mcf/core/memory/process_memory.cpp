@@ -124,6 +124,9 @@ std::int64_t available_memory_bytes() {
 }
 
 std::int64_t peak_memory_bytes() {
+    // The peak that getrusage() reports may be that of the program that started this one.
+    if (const auto peak = number_in("/proc/self/status", "VmHWM:"))
+        return std::int64_t{1024} * *peak;
 #if __has_include(<sys/resource.h>)
     rusage usage{};
     if (getrusage(RUSAGE_SELF, &usage) != 0) return 0;
