@@ -155,6 +155,7 @@ FlowReport evolve(TriangleMesh& mesh, const Selection& selection, const FlowPara
     if (progress) meter.emplace(progress);
     validate(parameters);
     const ThreadCountScope threads(parameters.threads);
+    const std::int64_t memory_before = resident_memory_bytes();
     Run run;
 
     const Stopwatch setup;
@@ -180,6 +181,7 @@ FlowReport evolve(TriangleMesh& mesh, const Selection& selection, const FlowPara
     report.oriented_consistently = run.oriented_consistently;
     compare(mesh, positions, selection, report);
     report.quality = measure_quality(parameters.quality, *run.flow, mesh, positions, selection);
+    report.estimated_memory_bytes += memory_before;
     report.peak_memory_bytes = peak_memory_bytes();
     enter_phase(1, "Done");
     // Nothing can fail from here on.

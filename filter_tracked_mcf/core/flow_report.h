@@ -68,8 +68,10 @@ struct FlowReport {
     double setup_seconds = 0;
     std::vector<StepReport> steps;  ///< one per step made
     Stop stop = Stop::None;
-    std::int64_t estimated_memory_bytes = 0;  ///< estimated for the flow before it began
-    std::int64_t peak_memory_bytes = 0;       ///< of the whole process; 0 if unknown
+    /// The peak of the process that was expected before the flow began: the estimate for the flow,
+    /// and what the process already had, such as the mesh.
+    std::int64_t estimated_memory_bytes = 0;
+    std::int64_t peak_memory_bytes = 0;  ///< of the whole process; 0 if unknown
 };
 
 }  // namespace tracked_mcf

@@ -123,6 +123,10 @@ std::int64_t available_memory_bytes() {
     return known_or_zero(std::min(by_files == 0 ? kUnlimited : by_files, free_in_process()));
 }
 
+std::int64_t resident_memory_bytes() {
+    return std::int64_t{1024} * number_in("/proc/self/status", "VmRSS:").value_or(0);
+}
+
 std::int64_t peak_memory_bytes() {
     // The peak that getrusage() reports may be that of the program that started this one.
     if (const auto peak = number_in("/proc/self/status", "VmHWM:"))

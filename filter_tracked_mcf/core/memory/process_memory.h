@@ -15,6 +15,9 @@ std::int64_t available_memory_bytes();
 /// "".
 std::int64_t available_memory_by_files(const std::string& root);
 
+/// Returns the resident memory of this process in bytes, or 0 if the system does not report it.
+std::int64_t resident_memory_bytes();
+
 /// Returns the largest resident memory of this process so far, in bytes, or 0 if the system does
 /// not report it.
 std::int64_t peak_memory_bytes();

@@ -70,7 +70,7 @@ Measurement measure(const Flow& flow) {
     const ExpectedCounts counts = expected_counts(size, grid, flow.parameters);
     result.quantities << 1, size.vertices, counts.fragments, counts.samples, counts.all_unknowns,
         counts.all_elements;
-    result.estimate = static_cast<double>(report.estimated_memory_bytes);
+    result.estimate = static_cast<double>(report.estimated_memory_bytes) - before;
     result.clipping_estimate = estimate_clip_bytes(size, grid, flow.parameters);
     return result;
 }
