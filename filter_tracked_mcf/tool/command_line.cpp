@@ -47,9 +47,10 @@ const char* const kExamples =
     "only after everything has succeeded.\n"
     "\n"
     "Exit codes: 0 done; 1 the mesh cannot be read or smoothed; 2 wrong use of options; 3 a\n"
-    "result cannot be written. An error is one line on the error output. So is a warning, also\n"
-    "with --quiet: the flow stopped before its last step, the solver stopped before its\n"
-    "tolerance, or OUTPUT does not keep everything of INPUT. Warnings leave the exit code 0.\n"
+    "result cannot be written; 129, 130 or 143 the program was interrupted. An error is one line\n"
+    "on the error output. So is a warning, also with --quiet: the flow stopped before its last\n"
+    "step, the solver stopped before its tolerance, or OUTPUT does not keep everything of INPUT.\n"
+    "Warnings leave the exit code 0.\n"
     "\n"
     "The method is that of M. Chuang and M. Kazhdan, Fast Mean-Curvature Flow via\n"
     "Finite-Elements Tracking, 2011.\n";
