@@ -6,6 +6,7 @@
 #include <optional>
 #include <ostream>
 
+#include "filter_tracked_mcf/tool/documents/text.h"
 #include "filter_tracked_mcf/tool/file_error.h"
 
 namespace tracked_mcf {
@@ -80,8 +81,8 @@ std::int32_t checked_index(double index, std::size_t vertex_count, std::size_t f
         return static_cast<std::int32_t>(index);
     }
     throw UnreadableFile("face " + std::to_string(face) + " refers to vertex " +
-                         std::to_string(static_cast<std::int64_t>(index)) + " of " +
-                         std::to_string(vertex_count) + " (counted from 0)");
+                         format_number(index) + " of " + std::to_string(vertex_count) +
+                         " (counted from 0)");
 }
 
 /// Returns the property of the faces that lists their vertices, or null.
