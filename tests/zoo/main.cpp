@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Smooths random bad meshes with random parameters and checks what must hold for all of them.
+
+#include <CLI/CLI.hpp>
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <exception>
+#include <iomanip>
+#include <iostream>
+#include <map>
+#include <string>
+
+#include "tests/zoo/properties.h"
+#include "tests/zoo/zoo_case.h"
+
+namespace tracked_mcf::zoo {
+namespace {
+
+struct Options {
+    std::uint64_t seed = 1;
+    std::int64_t cases = 1000;
+    double seconds = 0;
+    std::int64_t one_case = -1;
+    std::string file;
+};
+
+/// What happened to the cases of one kind of mesh.
+struct Counts {
+    int cases = 0;
+    int refused = 0;
+    std::array<int, kPropertyNames.size()> failed{};
+};
+
+class Zoo {
+public:
+    explicit Zoo(const Options& options) : options_(options) {}
+
+    /// Runs all cases. Returns whether all properties held.
+    bool run() {
+        if (options_.one_case >= 0) {
+            run_case(options_.one_case, true);
+        } else {
+            run_many();
+        }
+        print_table();
+        return failures_ == 0;
+    }
+
+private:
+    void run_many();
+    void run_case(std::int64_t number, bool is_only);
+    void print_table() const;
+
+    const Options& options_;
+    std::map<std::string, Counts> counts_;
+    int failures_ = 0;
+};
+
+void Zoo::run_many() {
+    using Clock = std::chrono::steady_clock;
+    const auto start = Clock::now();
+    const auto runs_on = [&](std::int64_t done) {
+        if (options_.seconds <= 0) return done < options_.cases;
+        return std::chrono::duration<double>(Clock::now() - start).count() < options_.seconds;
+    };
+    for (std::int64_t done = 0; runs_on(done); ++done) run_case(done, false);
+}
+
+void Zoo::run_case(std::int64_t number, bool is_only) {
+    const Case made = case_of(options_.seed, number);
+    if (!options_.file.empty()) write_ply(made, options_.file);
+    // The additional runs of every fourth case take as long as all other runs.
+    Random random(options_.seed, ~static_cast<std::uint64_t>(number));
+    const bool all_properties = is_only || number % 4 == 0;
+    const Outcome outcome = check(made, all_properties, random);
+    Counts& counts = counts_[made.kind];
+    ++counts.cases;
+    if (!outcome.refusal.empty()) ++counts.refused;
+    for (const Failure& failure : outcome.failures) {
+        const auto property = static_cast<std::size_t>(failure.property);
+        ++counts.failed[property];
+        ++failures_;
+        std::cout << "--seed " << options_.seed << " --case " << number << ": " << made.kind << ": "
+                  << kPropertyNames[property] << ": " << failure.what << "; " << options_of(made)
+                  << std::endl;
+    }
+    if (is_only && !outcome.refusal.empty()) std::cout << "refused: " << outcome.refusal << '\n';
+    if (is_only) std::cout << options_of(made) << '\n';
+}
+
+void Zoo::print_table() const {
+    constexpr int name_columns = 22, columns = 12;
+    std::cout << std::left << std::setw(name_columns) << "kind" << std::right << std::setw(columns)
+              << "cases" << std::setw(columns) << "refused";
+    for (const char* name : kPropertyNames) std::cout << std::setw(columns) << name;
+    std::cout << '\n';
+    Counts all;
+    const auto print = [&](const std::string& name, const Counts& counts) {
+        std::cout << std::left << std::setw(name_columns) << name << std::right
+                  << std::setw(columns) << counts.cases << std::setw(columns) << counts.refused;
+        for (const int failed : counts.failed) std::cout << std::setw(columns) << failed;
+        std::cout << '\n';
+    };
+    for (const auto& [kind, counts] : counts_) {
+        print(kind, counts);
+        all.cases += counts.cases;
+        all.refused += counts.refused;
+        for (std::size_t i = 0; i < all.failed.size(); ++i) all.failed[i] += counts.failed[i];
+    }
+    print("all", all);
+}
+
+}  // namespace
+}  // namespace tracked_mcf::zoo
+
+int main(int argc, char** argv) {
+    using namespace tracked_mcf::zoo;
+    CLI::App app("Smooths random bad meshes and checks what must hold for all of them.");
+    Options options;
+    app.add_option("--seed", options.seed, "Seed of the cases")->capture_default_str();
+    app.add_option("--cases", options.cases, "Number of cases")->capture_default_str();
+    app.add_option("--seconds", options.seconds, "Run for this time instead");
+    app.add_option("--case", options.one_case, "Run only this case, and check all properties");
+    app.add_option("--write", options.file, "With --case: write its mesh to this PLY file")
+        ->needs("--case");
+    try {
+        app.parse(argc, argv);
+        return Zoo(options).run() ? 0 : 1;
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error);
+    } catch (const std::exception& error) {
+        std::cerr << "tracked_mcf_zoo: " << error.what() << '\n';
+        return 2;
+    }
+}

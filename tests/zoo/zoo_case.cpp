@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tests/zoo/zoo_case.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <sstream>
+#include <stdexcept>
+
+#include "filter_tracked_mcf/tool/command_line.h"
+#include "tests/zoo/bad_meshes.h"
+
+namespace tracked_mcf::zoo {
+
+namespace {
+
+// With these, a case takes 0.05 s on average.
+constexpr double kMostFragments = 20000;
+constexpr double kMostWork = 100000;  ///< fragments times solves
+
+bool is_selected(const Selection& selection, std::size_t triangle) {
+    return selection.empty() || selection[triangle] != 0;
+}
+
+Eigen::AlignedBox3d box_of(const TriangleMesh& mesh, const Selection& selection) {
+    Eigen::AlignedBox3d box;
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        if (!is_selected(selection, i)) continue;
+        for (const std::int32_t vertex : mesh.triangles[i]) box.extend(mesh.positions[vertex]);
+    }
+    return box;
+}
+
+/// The triangles on one side of a plane, or random ones.
+Selection random_selection(const TriangleMesh& mesh, Random& random) {
+    Selection selection;
+    const Eigen::Vector3d normal = random.direction();
+    const bool is_random = random.chance(0.3);
+    for (const Triangle& t : mesh.triangles) {
+        const bool above = normal.dot(mesh.positions[t[0]]) > 0;
+        selection.push_back((is_random ? random.chance(0.5) : above) ? 1 : 0);
+    }
+    return selection;
+}
+
+void set_step_size(FlowParameters& parameters, double side, Random& random) {
+    switch (random.below(4)) {
+        case 0:
+            break;  // the default detail size
+        case 1:
+            parameters.detail_size = side * random.log_between(1e-6, 1e3);
+            break;
+        case 2:
+            parameters.step_size = random.log_between(1e-12, 1e6);
+            break;
+        default:
+            parameters.step_size = side * side * random.log_between(1e-12, 1e6);
+            parameters.absolute = true;
+    }
+    // The size of a mesh that is not finite, or of 1e150, is none that parameters may have.
+    if (!std::isfinite(parameters.detail_size)) parameters.detail_size = 0;
+    if (!std::isfinite(parameters.step_size)) parameters.step_size = 0;
+}
+
+/// Parameters that change the discretisation or the solver. Most cases have the defaults.
+void set_numerics(FlowParameters& parameters, Random& random) {
+    if (random.chance(0.3)) parameters.solver = Solver::OneWCycle;
+    if (random.chance(0.2)) parameters.separate_sheets = false;
+    if (random.chance(0.2)) parameters.tolerance = random.pick({0.5, 1e-1, 1e-6});
+    if (random.chance(0.2)) parameters.stabilization = random.pick({0.0, 1e-4, 1.0, 1e3});
+    if (random.chance(0.2)) parameters.cycles = random.integer(2, 5);
+    if (random.chance(0.2)) {
+        parameters.cubature = random.pick({Cubature::OnePoint, Cubature::Degree6});
+    }
+}
+
+FlowParameters random_parameters(double side, Random& random) {
+    FlowParameters parameters;
+    parameters.depth = random.integer(0, 9);
+    set_step_size(parameters, side, random);
+    parameters.iterations = random.chance(0.3) ? random.integer(4, 50) : random.integer(1, 3);
+    if (random.chance(0.3)) parameters.order = random.integer(2, kMaximumOrder);
+    parameters.flow = random.pick({FlowKind::MeanCurvature, FlowKind::Conformalized});
+    parameters.boundary = random.pick(
+        {BoundaryCondition::Locked, BoundaryCondition::LockedCells, BoundaryCondition::Free});
+    if (random.chance(0.4)) parameters.preserve = random.pick({Preserve::Area, Preserve::Volume});
+    // Scaling needs a free boundary; most of the other cases would only be refused.
+    if (parameters.preserve != Preserve::None && random.chance(0.7)) {
+        parameters.boundary = BoundaryCondition::Free;
+    }
+    if (random.chance(0.3)) parameters.quality = Quality::Displacement;
+    if (random.chance(0.3) && parameters.flow == FlowKind::MeanCurvature) {
+        parameters.quality = Quality::MeanCurvature;
+    }
+    set_numerics(parameters, random);
+    return parameters;
+}
+
+/// Returns the shortest text that is read as this number.
+std::string exact(double value) {
+    std::array<char, 32> text{};
+    const auto end = std::to_chars(text.begin(), text.end(), value).ptr;
+    return {text.begin(), end};
+}
+
+}  // namespace
+
+double fragments_at(const TriangleMesh& mesh, const Selection& selection, int depth) {
+    const double side = box_of(mesh, selection).sizes().maxCoeff();
+    if (!(side > 0) || !std::isfinite(side)) return 0;
+    const double cells_per_unit = std::ldexp(1.0, depth) / (1.1 * side);
+    double fragments = 0;
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        if (!is_selected(selection, i)) continue;
+        const Triangle& t = mesh.triangles[i];
+        const Eigen::Vector3d u = cells_per_unit * (mesh.positions[t[1]] - mesh.positions[t[0]]);
+        const Eigen::Vector3d v = cells_per_unit * (mesh.positions[t[2]] - mesh.positions[t[0]]);
+        // On average over positions, a triangle meets about as many cells as this, see
+        // core/memory/memory_estimate.h.
+        fragments += 1 + u.lpNorm<1>() + v.lpNorm<1>() + u.cross(v).lpNorm<1>();
+    }
+    return fragments;
+}
+
+void limit_work(Case& limited) {
+    FlowParameters& parameters = limited.parameters;
+    const auto fragments = [&](int depth) {
+        return fragments_at(limited.mesh, limited.selection, depth);
+    };
+    while (parameters.depth > 1 && fragments(parameters.depth) > kMostFragments) --parameters.depth;
+    // The automatic depth is hardly ever deeper than this for meshes of a few thousand vertices.
+    constexpr int automatic = 5;
+    const int depth = parameters.depth == 0 ? automatic : parameters.depth;
+    const double solves = kMostWork / std::max(1.0, fragments(depth)) / parameters.order;
+    const int most = static_cast<int>(std::clamp(solves, 1.0, 50.0));
+    parameters.iterations = std::min(parameters.iterations, most);
+}
+
+Case case_of(std::uint64_t seed, std::int64_t number) {
+    Random random(seed, static_cast<std::uint64_t>(number));
+    Case made;
+    const Kind& kind = kinds()[random.below(static_cast<int>(kinds().size()))];
+    made.kind = kind.name;
+    made.mesh = kind.make(random);
+    if (random.chance(0.1)) made.selection = random_selection(made.mesh, random);
+    made.parameters =
+        random_parameters(box_of(made.mesh, made.selection).sizes().maxCoeff(), random);
+    limit_work(made);
+    return made;
+}
+
+std::string options_of(const Case& described) {
+    const FlowParameters& p = described.parameters;
+    std::ostringstream text;
+    text << "--depth " << p.depth << " --iterations " << p.iterations;
+    if (p.detail_size > 0) text << " --detail-size " << exact(p.detail_size);
+    if (p.step_size > 0) text << " --step-size " << exact(p.step_size);
+    if (p.absolute) text << " --absolute";
+    if (p.order != 1) text << " --order " << p.order;
+    text << " --flow " << name_of(kFlows, p.flow);
+    text << " --boundary " << name_of(kBoundaries, p.boundary);
+    if (p.preserve != Preserve::None) text << " --preserve " << name_of(kPreserves, p.preserve);
+    if (p.quality != Quality::None) text << " --quality " << name_of(kQualities, p.quality);
+    if (!p.separate_sheets) text << " --separate-sheets off";
+    if (p.solver == Solver::OneWCycle) text << " --solver w-cycle --cycles " << p.cycles;
+    if (p.solver == Solver::Converged) text << " --tolerance " << exact(p.tolerance);
+    if (p.stabilization) text << " --stabilization " << exact(*p.stabilization);
+    if (p.cubature != Cubature::ThreePoints)
+        text << " --cubature " << name_of(kCubatures, p.cubature);
+    if (!described.selection.empty()) text << " --selected selected";
+    return text.str();
+}
+
+void write_ply(const Case& written, const std::string& path) {
+    std::ofstream file(path);
+    file.precision(std::numeric_limits<double>::max_digits10);
+    const bool has_selection = !written.selection.empty();
+    file << "ply\nformat ascii 1.0\nelement vertex " << written.mesh.positions.size()
+         << "\nproperty double x\nproperty double y\nproperty double z\nelement face "
+         << written.mesh.triangles.size() << "\nproperty list uchar int vertex_indices\n"
+         << (has_selection ? "property uchar selected\n" : "") << "end_header\n";
+    for (const Eigen::Vector3d& p : written.mesh.positions) {
+        file << p[0] << ' ' << p[1] << ' ' << p[2] << '\n';
+    }
+    for (std::size_t i = 0; i < written.mesh.triangles.size(); ++i) {
+        const Triangle& t = written.mesh.triangles[i];
+        file << "3 " << t[0] << ' ' << t[1] << ' ' << t[2];
+        if (has_selection) file << ' ' << static_cast<int>(written.selection[i]);
+        file << '\n';
+    }
+    file.close();
+    if (!file) throw std::runtime_error("cannot write " + path);
+}
+
+}  // namespace tracked_mcf::zoo

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "filter_tracked_mcf/core/flow_parameters.h"
+#include "filter_tracked_mcf/core/triangle_mesh.h"
+#include "tests/zoo/random.h"
+
+namespace tracked_mcf::zoo {
+
+/// A mesh, which of its triangles flow, and the parameters of the flow.
+struct Case {
+    std::string kind;  ///< of bad_meshes.h
+    TriangleMesh mesh;
+    Selection selection;
+    FlowParameters parameters;
+};
+
+/// Returns a case of a seed; the same one every time.
+Case case_of(std::uint64_t seed, std::int64_t number);
+
+/// Returns about how many fragments (pieces of a triangle in one cell) a flow at this depth has. 0
+/// if the mesh has no finite size.
+double fragments_at(const TriangleMesh& mesh, const Selection& selection, int depth);
+
+/// Lowers the depth and the number of steps until the flow takes about a second at most.
+void limit_work(Case& limited);
+
+/// Returns the parameters as options of the program tracked_mcf.
+std::string options_of(const Case& described);
+
+/// Writes the mesh as an ASCII PLY file; its faces have the property `selected` if the case has a
+/// selection. Throws std::runtime_error if it cannot.
+void write_ply(const Case& written, const std::string& path);
+
+}  // namespace tracked_mcf::zoo
