@@ -83,7 +83,8 @@ void Zoo::run_case(std::int64_t number, bool is_only) {
         ++failures_;
         std::cout << "--seed " << options_.seed << " --case " << number << ": " << made.kind << ": "
                   << kPropertyNames[property] << ": " << failure.what << "; " << options_of(made)
-                  << std::endl;
+                  << '\n'
+                  << std::flush;
     }
     if (is_only && !outcome.refusal.empty()) std::cout << "refused: " << outcome.refusal << '\n';
     if (is_only) std::cout << options_of(made) << '\n';

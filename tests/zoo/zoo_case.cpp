@@ -18,9 +18,8 @@ namespace tracked_mcf::zoo {
 
 namespace {
 
-// With these, a case takes 0.05 s on average.
+/// With these, a case takes 0.05 s on average.
 constexpr double kMostFragments = 20000;
-constexpr double kMostWork = 100000;  ///< fragments times solves
 
 bool is_selected(const Selection& selection, std::size_t triangle) {
     return selection.empty() || selection[triangle] != 0;
@@ -126,16 +125,16 @@ double fragments_at(const TriangleMesh& mesh, const Selection& selection, int de
     return fragments;
 }
 
-void limit_work(Case& limited) {
+void limit_work(Case& limited, double most_fragments) {
     FlowParameters& parameters = limited.parameters;
     const auto fragments = [&](int depth) {
         return fragments_at(limited.mesh, limited.selection, depth);
     };
-    while (parameters.depth > 1 && fragments(parameters.depth) > kMostFragments) --parameters.depth;
+    while (parameters.depth > 1 && fragments(parameters.depth) > most_fragments) --parameters.depth;
     // The automatic depth is hardly ever deeper than this for meshes of a few thousand vertices.
     constexpr int automatic = 5;
     const int depth = parameters.depth == 0 ? automatic : parameters.depth;
-    const double solves = kMostWork / std::max(1.0, fragments(depth)) / parameters.order;
+    const double solves = 5 * most_fragments / std::max(1.0, fragments(depth)) / parameters.order;
     const int most = static_cast<int>(std::clamp(solves, 1.0, 50.0));
     parameters.iterations = std::min(parameters.iterations, most);
 }
@@ -149,7 +148,7 @@ Case case_of(std::uint64_t seed, std::int64_t number) {
     if (random.chance(0.1)) made.selection = random_selection(made.mesh, random);
     made.parameters =
         random_parameters(box_of(made.mesh, made.selection).sizes().maxCoeff(), random);
-    limit_work(made);
+    limit_work(made, kMostFragments);
     return made;
 }
 

@@ -25,8 +25,9 @@ Case case_of(std::uint64_t seed, std::int64_t number);
 /// if the mesh has no finite size.
 double fragments_at(const TriangleMesh& mesh, const Selection& selection, int depth);
 
-/// Lowers the depth and the number of steps until the flow takes about a second at most.
-void limit_work(Case& limited);
+/// Lowers the depth until there are at most about this many fragments, and the number of steps
+/// until all solves together meet five times as many.
+void limit_work(Case& limited, double most_fragments);
 
 /// Returns the parameters as options of the program tracked_mcf.
 std::string options_of(const Case& described);

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Reads bytes as a file of the format TRACKED_MCF_FORMAT. A file that is not refused is written in
+// all formats, and the program reads each result again.
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <iostream>
+#include <memory>
+#include <sstream>
+#include <string>
+#include <utility>
+
+#include "filter_tracked_mcf/tool/documents/file_document.h"
+#include "filter_tracked_mcf/tool/file_error.h"
+
+namespace tracked_mcf {
+namespace {
+
+void require(bool holds, const std::string& what) {
+    if (holds) return;
+    std::cerr << "failed: " << what << '\n';
+    std::abort();
+}
+
+/// Returns a document for a file's content, or null if it is refused, as open_document() does.
+std::unique_ptr<FileDocument> parsed(const Format& format, std::string content) {
+    try {
+        auto document = format.parse(std::move(content));
+        const Polygons& polygons = document->polygons();
+        for (std::size_t i = 0; i < polygons.size(); ++i) {
+            if (polygons.corner_count(i) < 3) return nullptr;
+        }
+        return document;
+    } catch (const UnreadableFile&) {
+        return nullptr;
+    }
+}
+
+void check_result(const Format& format, const std::string& content, const FileDocument& source) {
+    const auto result = parsed(format, content);
+    require(result != nullptr, std::string("the result is refused: ") + format.extension);
+    require(result->polygons().size() >= source.polygons().size(), "polygons are missing");
+}
+
+bool is_finite(const Points& positions) {
+    for (const auto& position : positions) {
+        if (!position.allFinite()) return false;
+    }
+    return true;
+}
+
+void fuzz(const std::string& content) {
+    const Format& format = *format_of("a" TRACKED_MCF_FORMAT);
+    const auto document = parsed(format, content);
+    if (!document) return;
+    const auto vertex_count = static_cast<std::int64_t>(document->positions().size());
+    for (const Triangle& triangle : document->triangles()) {
+        for (const std::int32_t vertex : triangle) {
+            require(vertex >= 0 && vertex < vertex_count, "an index is out of range");
+        }
+    }
+    const std::size_t color_count = document->vertex_colors().size();
+    require(color_count == 0 || color_count == document->positions().size(), "colours are missing");
+    document->extras();
+    // The program does not write a mesh that evolve() refuses.
+    if (!is_finite(document->positions())) return;
+
+    std::ostringstream same;
+    document->write(same, document->positions(), {"/from", "/to"});
+    check_result(format, same.str(), *document);
+    for (const char* name : {"a.ply", "a.obj", "a.off", "a.stl"}) {
+        const Format& other = *format_of(name);
+        std::ostringstream converted;
+        other.convert(converted, *document, document->positions());
+        check_result(other, converted.str(), *document);
+    }
+}
+
+}  // namespace
+}  // namespace tracked_mcf
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    if (size == 0) return 0;  // open_document() refuses empty files
+    tracked_mcf::fuzz({reinterpret_cast<const char*>(data), size});
+    return 0;
+}

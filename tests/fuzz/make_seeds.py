@@ -1,0 +1,84 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Writes a few small files of each format for the fuzzers to start from: make_seeds.py FOLDER
+
+The files of a format go to FOLDER/FORMAT, where FORMAT is ply, obj, off, stl or evolve.
+"""
+
+import pathlib
+import random
+import struct
+import sys
+
+POINTS = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
+FACES = [(0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)]
+
+
+def lines(*texts):
+    return "".join(text + "\n" for text in texts).encode()
+
+
+def ply_header(form, extra_vertex=(), extra_face=()):
+    return lines("ply", f"format {form} 1.0", "comment a tetrahedron", "element vertex 4",
+                 "property float x", "property float y", "property float z", *extra_vertex,
+                 "element face 4", "property list uchar int vertex_indices", *extra_face,
+                 "end_header")
+
+
+def ply_files():
+    points = [" ".join(map(str, point)) for point in POINTS]
+    faces = ["3 " + " ".join(map(str, face)) for face in FACES]
+    yield ply_header("ascii") + lines(*points, *faces)
+    colours = [f"property uchar {name}" for name in ("red", "green", "blue")]
+    texture = ["property list uchar float texcoord", "property int flags"]
+    yield (ply_header("ascii", colours, texture) + lines(*(p + " 255 0 7" for p in points))
+           + lines(*(f + " 6 0 0 1 0 0 1 32" for f in faces)))
+    for form, order in ("binary_little_endian", "<"), ("binary_big_endian", ">"):
+        yield (ply_header(form) + b"".join(struct.pack(order + "3f", *p) for p in POINTS)
+               + b"".join(struct.pack(order + "B3i", 3, *f) for f in FACES))
+
+
+def obj_files():
+    points = ["v " + " ".join(map(str, point)) for point in POINTS]
+    faces = ["f " + " ".join(str(i + 1) for i in face) for face in FACES]
+    yield lines("# a tetrahedron", *points, *faces)
+    yield lines("mtllib a.mtl", *(p + " 1 0 0.5" for p in points), "vt 0 0", "vn 0 0 1", "g part",
+                "usemtl red", "f 1/1/1 3/1/1 2/1/1", "f 1//1 2//1 4//1", "f -3 -2 -1", "l 1 2 3", "s off")
+
+
+def off_files():
+    points = [" ".join(map(str, point)) for point in POINTS]
+    faces = ["3 " + " ".join(map(str, face)) for face in FACES]
+    yield lines("OFF", "4 4 6", *points, *faces)
+    yield lines("COFF", "4 2 0", *(p + " 255 0 0 255" for p in points), "4 0 1 2 3 0.5 0.5 0.5",
+                "3 0 1 2 9")
+
+
+def stl_files():
+    facet = ["facet normal 0 0 1", "outer loop", "vertex 0 0 0", "vertex 1 0 0", "vertex 0 1 0",
+             "endloop", "endfacet"]
+    yield lines("solid a", *facet, *facet, "endsolid a")
+    facets = [[c for i in face for c in POINTS[i]] for face in FACES]
+    yield (b"binary".ljust(80) + struct.pack("<I", len(facets))
+           + b"".join(struct.pack("<12fH", 0, 0, 0, *facet, 0) for facet in facets))
+
+
+def evolve_files():
+    generator = random.Random(1)
+    for size in (100, 300, 1000, 2000):
+        yield generator.randbytes(size)
+
+
+def main():
+    if len(sys.argv) != 2:
+        sys.exit(__doc__)
+    for name, files in (("ply", ply_files()), ("obj", obj_files()), ("off", off_files()),
+                        ("stl", stl_files()), ("evolve", evolve_files())):
+        folder = pathlib.Path(sys.argv[1]) / name
+        folder.mkdir(parents=True, exist_ok=True)
+        for number, content in enumerate(files):
+            (folder / f"seed{number}").write_bytes(content)
+
+
+if __name__ == "__main__":
+    main()
