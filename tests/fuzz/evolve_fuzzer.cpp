@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Makes a mesh, a selection and parameters of bytes, and smooths the mesh.
 
-#include <fuzzer/FuzzedDataProvider.h>
-
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <cstring>
+#include <initializer_list>
 #include <iostream>
 
 #include "filter_tracked_mcf/core/errors.h"
@@ -16,62 +16,91 @@
 namespace tracked_mcf {
 namespace {
 
-using Bytes = FuzzedDataProvider;
-
 constexpr int kMostVertices = 64, kMostTriangles = 128;
 /// Under sanitizers, a flow takes about a tenth of a second with these.
 constexpr double kMostFragments = 1000;
 
+/// Takes numbers from the bytes, and zeros after their end.
+class Bytes {
+public:
+    Bytes(const std::uint8_t* data, std::size_t size) : next_(data), end_(data + size) {}
+
+    bool empty() const { return next_ == end_; }
+    /// Returns an integer in [low, high], which are less than 256 apart.
+    int integer(int low, int high) { return low + byte() % (high - low + 1); }
+    bool flag() { return integer(0, 1) == 1; }
+    /// Returns any double.
+    double number() {
+        std::uint64_t bits = 0;
+        for (std::size_t i = 0; i < sizeof(bits); ++i) bits = bits << 8U | byte();
+        double result = 0;
+        std::memcpy(&result, &bits, sizeof(bits));
+        return result;
+    }
+    template <class Value>
+    Value pick(std::initializer_list<Value> values) {
+        return values.begin()[integer(0, static_cast<int>(values.size()) - 1)];
+    }
+
+private:
+    std::uint8_t byte() { return empty() ? std::uint8_t{0} : *next_++; }
+
+    const std::uint8_t *next_, *end_;
+};
+
 /// Any double, or one of few, so that points, lines and planes coincide.
 double coordinate(Bytes& bytes) {
-    if (bytes.ConsumeIntegralInRange(0, 15) == 0) return bytes.ConsumeFloatingPoint<double>();
-    return bytes.ConsumeIntegralInRange(-8, 8) / 8.0;
+    if (bytes.integer(0, 15) == 15) return bytes.number();
+    return bytes.integer(-8, 8) / 8.0;
 }
 
+/// Parameters in their ranges, and just outside.
 FlowParameters parameters_of(Bytes& bytes) {
     FlowParameters p;
-    p.depth = bytes.ConsumeIntegralInRange(-1, kMaximumDepth + 1);
-    p.iterations = bytes.ConsumeIntegralInRange(0, 5);
-    p.order = bytes.ConsumeIntegralInRange(0, kMaximumOrder + 1);
-    p.absolute = bytes.ConsumeBool();
-    if (bytes.ConsumeBool()) p.detail_size = bytes.ConsumeFloatingPoint<double>();
-    if (bytes.ConsumeBool()) p.step_size = bytes.ConsumeFloatingPoint<double>();
-    p.flow = bytes.PickValueInArray({FlowKind::MeanCurvature, FlowKind::Conformalized});
-    p.boundary = bytes.PickValueInArray(
+    p.depth = bytes.integer(-1, kMaximumDepth + 1);
+    p.iterations = bytes.integer(0, 5);
+    p.order = bytes.integer(0, kMaximumOrder + 1);
+    p.absolute = bytes.flag();
+    if (bytes.flag()) p.detail_size = bytes.number();
+    if (bytes.flag()) p.step_size = bytes.number();
+    p.flow = bytes.pick({FlowKind::MeanCurvature, FlowKind::Conformalized});
+    p.boundary = bytes.pick(
         {BoundaryCondition::Locked, BoundaryCondition::LockedCells, BoundaryCondition::Free});
-    p.preserve = bytes.PickValueInArray({Preserve::None, Preserve::Area, Preserve::Volume});
-    p.quality =
-        bytes.PickValueInArray({Quality::None, Quality::Displacement, Quality::MeanCurvature});
-    p.cubature =
-        bytes.PickValueInArray({Cubature::OnePoint, Cubature::ThreePoints, Cubature::Degree6});
-    p.separate_sheets = bytes.ConsumeBool();
-    p.solver = bytes.PickValueInArray({Solver::Converged, Solver::OneWCycle});
-    p.cycles = bytes.ConsumeIntegralInRange(0, 3);
-    if (bytes.ConsumeBool()) p.tolerance = bytes.ConsumeFloatingPoint<double>();
-    if (bytes.ConsumeBool()) p.stabilization = bytes.ConsumeFloatingPoint<double>();
-    if (bytes.ConsumeBool()) p.boundary_penalty = bytes.ConsumeFloatingPoint<double>();
-    p.constrain_pinches = bytes.ConsumeBool();
-    p.update_boundary_multipliers = bytes.ConsumeBool();
+    p.preserve = bytes.pick({Preserve::None, Preserve::Area, Preserve::Volume});
+    p.quality = bytes.pick({Quality::None, Quality::Displacement, Quality::MeanCurvature});
+    p.cubature = bytes.pick({Cubature::ThreePoints, Cubature::OnePoint, Cubature::Degree6});
+    p.separate_sheets = bytes.flag();
+    p.solver = bytes.pick({Solver::Converged, Solver::OneWCycle});
+    p.cycles = bytes.integer(0, 3);
+    if (bytes.flag()) p.tolerance = bytes.number();
+    if (bytes.flag()) p.stabilization = bytes.number();
+    if (bytes.flag()) p.boundary_penalty = bytes.number();
+    p.constrain_pinches = bytes.flag();
+    p.update_boundary_multipliers = bytes.flag();
     return p;
+}
+
+/// Returns the index of a vertex, or seldom one that is out of range.
+int index(Bytes& bytes, int vertex_count) {
+    const int taken = bytes.integer(-1, 254);
+    return taken < 250 && vertex_count > 0 ? std::abs(taken) % vertex_count : taken;
 }
 
 zoo::Case case_of(Bytes& bytes) {
     zoo::Case made;
     made.kind = "bytes";
     made.parameters = parameters_of(bytes);
-    const bool is_selection = bytes.ConsumeBool();
-    const int vertex_count = bytes.ConsumeIntegralInRange(0, kMostVertices);
+    const bool has_selection = bytes.flag();
+    const int vertex_count = bytes.integer(0, kMostVertices);
     for (int i = 0; i < vertex_count; ++i) {
         const double x = coordinate(bytes), y = coordinate(bytes), z = coordinate(bytes);
         made.mesh.positions.emplace_back(x, y, z);
     }
-    while (bytes.remaining_bytes() > 0 && made.mesh.triangles.size() < kMostTriangles) {
+    while (!bytes.empty() && made.mesh.triangles.size() < kMostTriangles) {
         Triangle triangle{};
-        // An index may be the first one out of range.
-        for (std::int32_t& vertex : triangle)
-            vertex = bytes.ConsumeIntegralInRange(-1, vertex_count);
+        for (std::int32_t& vertex : triangle) vertex = index(bytes, vertex_count);
         made.mesh.triangles.push_back(triangle);
-        if (is_selection) made.selection.push_back(bytes.ConsumeBool() ? 1 : 0);
+        if (has_selection) made.selection.push_back(bytes.flag() ? 1 : 0);
     }
     return made;
 }
@@ -112,6 +141,7 @@ void fuzz(zoo::Case fuzzed) {
 }  // namespace
 }  // namespace tracked_mcf
 
+// NOLINTNEXTLINE(readability-identifier-naming): libFuzzer gives the name
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     tracked_mcf::Bytes bytes(data, size);
     tracked_mcf::fuzz(tracked_mcf::case_of(bytes));

@@ -80,6 +80,7 @@ void fuzz(const std::string& content) {
 }  // namespace
 }  // namespace tracked_mcf
 
+// NOLINTNEXTLINE(readability-identifier-naming): libFuzzer gives the name
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     if (size == 0) return 0;  // open_document() refuses empty files
     tracked_mcf::fuzz({reinterpret_cast<const char*>(data), size});

@@ -5,8 +5,8 @@
 The files of a format go to FOLDER/FORMAT, where FORMAT is ply, obj, off, stl or evolve.
 """
 
+import itertools
 import pathlib
-import random
 import struct
 import sys
 
@@ -64,9 +64,16 @@ def stl_files():
 
 
 def evolve_files():
-    generator = random.Random(1)
-    for size in (100, 300, 1000, 2000):
-        yield generator.randbytes(size)
+    """Meshes and parameters in the bytes of evolve_fuzzer.cpp, with some flows, boundaries and solvers."""
+    tetrahedron = [len(POINTS)]
+    tetrahedron += [byte for point in POINTS for x in point for byte in (0, 8 + 8 * x)]
+    tetrahedron += [i + 1 for face in FACES for i in face]
+    depth, iterations, order = 5, 2, 1
+    for flow, boundary, solver in itertools.product((0, 1), (0, 1, 2), (0, 1)):
+        parameters = [depth, iterations, order, 0, 0, 0, flow, boundary, 0, 0, 0, 1, solver, 1, 0, 0, 0,
+                      1, 1]
+        no_selection = [0]
+        yield bytes(parameters + no_selection + tetrahedron)
 
 
 def main():
