@@ -10,6 +10,7 @@
 #include <sstream>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "filter_tracked_mcf/tool/documents/file_document.h"
 #include "filter_tracked_mcf/tool/file_error.h"
@@ -66,9 +67,14 @@ void fuzz(const std::string& content) {
     // The program does not write a mesh that evolve() refuses.
     if (!is_finite(document->positions())) return;
 
-    std::ostringstream same;
-    document->write(same, document->positions(), {"/from", "/to"});
-    check_result(format, same.str(), *document);
+    const auto write_in_same_format = [&] {
+        std::ostringstream out;
+        document->write(out, document->positions(), {"/from", "/to"});
+        check_result(format, out.str(), *document);
+    };
+    write_in_same_format();
+    document->set_quality(std::vector<double>(document->positions().size(), 0.5));
+    write_in_same_format();
     for (const char* name : {"a.ply", "a.obj", "a.off", "a.stl"}) {
         const Format& other = *format_of(name);
         std::ostringstream converted;
