@@ -122,9 +122,9 @@ std::vector<double> measure_quality(Quality quality, const Flow& flow, const Tri
     return along_normals(vectors, {after, before.triangles}, selection);
 }
 
-/// Returns whether the area has grown, which the exact flow does not do. The tolerance is relative
-/// to the displacement of the whole surface, so the grid may displace parts that are much thinner
-/// than its cells by more than their width.
+/// Returns whether a mean-curvature flow has made the area grow, which the exact one does not. The
+/// tolerance is relative to the displacement of the whole surface, so the grid may displace parts
+/// that are much thinner than its cells by more than their width.
 bool has_gone_wrong(const FlowParameters& parameters, const FlowReport& report) {
     const bool may_grow = parameters.flow != FlowKind::MeanCurvature || parameters.order > 1 ||
                           parameters.preserve != Preserve::None;
