@@ -270,6 +270,16 @@ TEST(Evolve, ReachesATightToleranceOrReportsThatItDidNot) {
     }
 }
 
+TEST(Evolve, ReachesTheToleranceInStepsTooSmallToSee) {
+    FlowParameters p = parameters(4, 1e-8, 3);
+    p.absolute = true;
+    TriangleMesh mesh =
+        shapes::transformed(shapes::bumpy_sphere(10), Eigen::Affine3d(Eigen::Scaling(1e7)));
+    const FlowReport report = evolve(mesh, p);
+    EXPECT_EQ(report.stop, Stop::None);
+    for (const StepReport& step : report.steps) EXPECT_TRUE(step.reached_tolerance);
+}
+
 TEST(Evolve, ReachesTheToleranceAmongManySmallHoles) {
     // Small pieces between holes have functions with much energy, for which the V-cycle overshoots.
     TriangleMesh mesh = shapes::bumpy_sphere(12);

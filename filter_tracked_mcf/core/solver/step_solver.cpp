@@ -25,6 +25,13 @@ void add_solve(int iterations, double residual_before, double residual_after, St
     report.residual_after = std::hypot(report.residual_after, residual_after);
 }
 
+/// Returns a power of two by which a right-hand side of this norm is divided. Conjugate gradients
+/// square numbers, and single precision loses the squares of very small ones.
+double unit_for(double norm) {
+    constexpr double very_small = 1e-12;
+    return 0 < norm && norm < very_small ? std::exp2(std::ilogb(norm)) : 1;
+}
+
 /// Implements Solver::Converged.
 class ConvergedSolver : public StepSolver {
 public:
@@ -51,6 +58,10 @@ public:
     void solve(const std::vector<ElementVector>& right_sides, double tolerance, Solution& solution,
                StepReport& report) override {
         multigrid_.assemble(right_sides, right_side_);
+        const double size = norm(right_side_);
+        const double unit = unit_for(size);
+        right_side_ *= static_cast<float>(1 / unit);
+        solution.x /= unit;
         Convergence convergence;
         int made = 0;
         for (int tries = 1;; ++tries) {
@@ -66,7 +77,8 @@ public:
             effort_ = Effort::Thorough;
             multigrid_.refresh(*matrices_, stiffness_to_mass_, effort_);
         }
-        add_solve(made, norm(right_side_), convergence.residual, report);
+        solution.x *= unit;
+        add_solve(made, size, unit * convergence.residual, report);
         // Written so that a NaN is kept.
         if (!(convergence.error_estimate <= report.error_estimate)) {
             report.error_estimate = convergence.error_estimate;
