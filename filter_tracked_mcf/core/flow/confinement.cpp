@@ -21,9 +21,11 @@ Confinement::Confinement(const TrackedElements& elements,
     for (Eigen::AlignedBox3d& box : boxes_) {
         box = {box.min().array() - margin_, box.max().array() + margin_};
     }
+    moved_ = false;
 }
 
 void Confinement::move_to(const Coefficients& displacement) {
+    moved_ = true;
     boxes_.assign(static_cast<std::size_t>(component_count(elements_)), {});
     for (std::size_t vertex = 0; vertex < elements_.vertices.size(); ++vertex) {
         const std::int32_t element = elements_.vertices[vertex].element;
@@ -37,6 +39,9 @@ void Confinement::move_to(const Coefficients& displacement) {
 }
 
 bool Confinement::holds(const Coefficients& displacement) const {
+    // The displacement of a vertex is a mean of coefficients.
+    const double largest = displacement.cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
+    if (!moved_ && largest <= margin_) return true;
     const auto count = static_cast<std::int64_t>(elements_.vertices.size());
     return 0 == parallel_count(count, [&](std::int64_t vertex) {
                const VertexLocation& location = elements_.vertices[vertex];

@@ -40,6 +40,7 @@ private:
     const std::vector<std::int32_t>& component_of_;
     std::vector<Eigen::AlignedBox3d> boxes_;  ///< per component, grid units, with the margin
     double margin_ = 0;
+    bool moved_ = false;  ///< whether the boxes are not the initial ones
 };
 
 }  // namespace tracked_mcf

@@ -170,7 +170,7 @@ bool Flow::repeat(int parts, StepReport& report) {
     displacement_ = previous_;
     prediction_ = {};  // that of the whole step
     solutions_.assign(solutions_.size(), {});
-    report.error_estimate = 0;
+    report.residual_before = report.residual_after = report.error_estimate = 0;
     report.reached_tolerance = true;
     tolerance_ = std::min(parameters_.tolerance, kCarefulTolerance);
     const std::vector<std::uint8_t> constrained = constrained_components();

@@ -28,8 +28,8 @@ void add_solve(int iterations, double residual_before, double residual_after, St
 /// Returns a power of two by which a right-hand side of this norm is divided. Conjugate gradients
 /// square numbers, and single precision loses the squares of very small ones.
 double unit_for(double norm) {
-    constexpr double very_small = 1e-12;
-    return 0 < norm && norm < very_small ? std::exp2(std::ilogb(norm)) : 1;
+    constexpr double very_small = 1e-12, least = 1e-30;  // its inverse fits in a float
+    return 0 < norm && norm < very_small ? std::exp2(std::ilogb(std::max(norm, least))) : 1;
 }
 
 /// Implements Solver::Converged.
