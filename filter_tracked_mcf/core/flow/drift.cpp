@@ -15,7 +15,7 @@ void remove_drift(const TrackedElements& elements, const std::vector<std::int32_
         const ElementMatrix matrix = masses.of(element);
         for (int column = 0; column < 8; ++column) {
             double share = 0;
-            for (int row = 0; row < 8; ++row) share += matrix.entry[row][column];
+            for (const auto& row : matrix.entry) share += row[column];
             mass[component] += share;
             drift[component] += share * step.row(elements.finest().unknowns[element][column]);
         }

@@ -127,7 +127,7 @@ private:
     Flow(const Domain& domain, const FlowParameters& parameters, Start start);
 
     /// Assembles the system of a step of this size, in squared sides of a cell.
-    void prepare(double step_size_in_cells);
+    void prepare(double delta);
     /// Makes the last step again, in parts, to a smaller tolerance and without drift (drift.h).
     /// Returns whether it succeeded.
     bool repeat(int parts, StepReport& report);
