@@ -125,7 +125,7 @@ std::vector<double> measure_quality(Quality quality, const Flow& flow, const Tri
 /// Returns whether a mean-curvature flow has made the area grow, which the exact one does not. The
 /// tolerance is relative to the displacement of the whole surface, so the grid may displace parts
 /// that are much thinner than its cells by more than their width.
-bool has_gone_wrong(const FlowParameters& parameters, const FlowReport& report) {
+bool area_has_grown(const FlowParameters& parameters, const FlowReport& report) {
     const bool may_grow = parameters.flow != FlowKind::MeanCurvature || parameters.order > 1 ||
                           parameters.preserve != Preserve::None;
     return !may_grow && report.area_after > (1 + kGrowth) * report.area_before;
@@ -174,7 +174,7 @@ FlowReport evolve(TriangleMesh& mesh, const Selection& selection, const FlowPara
     report.setup_seconds = setup_seconds;
     report.area_before = area_before;
     report.area_after = surface_area({positions, mesh.triangles}, selection);
-    if (parameters.tolerance > kCarefulTolerance && has_gone_wrong(parameters, report)) {
+    if (parameters.tolerance > kCarefulTolerance && area_has_grown(parameters, report)) {
         run.flow.reset();
         return evolve_carefully(mesh, selection, parameters, progress);
     }

@@ -145,9 +145,6 @@ struct FlowParameters {
     int threads = 0;
 };
 
-/// The tolerance at which a flow that has gone wrong is repeated.
-inline constexpr double kCarefulTolerance = 1e-6;
-
 /// Returns the step size δ at which `iterations` steps of this order halve the amplitude of waves
 /// of length `detail_size` on a plane; in the squared unit of the detail size. A step multiplies
 /// the amplitude of waves of length λ by 1 - hᵐ, where h = δk² / (1 + δk²) and k = 2π/λ.

@@ -16,6 +16,7 @@
 #include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/evolve.h"
 #include "filter_tracked_mcf/core/flow/confinement.h"
+#include "filter_tracked_mcf/core/flow/preserving.h"
 
 namespace tracked_mcf::zoo {
 
@@ -254,7 +255,9 @@ void Checker::check_box() {
                      Confinement::kMarginInCells * base_.report.cell_size;
     if (parameters.order > 1) allowed += Confinement::kMarginInDetail * diagonal;
     if (parameters.preserve != Preserve::None) {
-        const double growth = parameters.flow == FlowKind::Conformalized ? 16 : 4;
+        const double growth = parameters.flow == FlowKind::Conformalized
+                                  ? kLargestConformalizedGrowth
+                                  : kLargestGrowth;
         const double sphere = std::sqrt(base_.report.area_before / std::acos(-1.0));
         allowed += growth / 2 * std::max(box_.sizes().maxCoeff(), sphere);
     }

@@ -38,7 +38,7 @@ std::vector<double> triangle_densities(const Domain& domain) {
     densities.reserve(domain.topology().triangles.size());
     for (const auto& [a, b, c] : domain.topology().triangles) {
         const double local = (lengths[a] + lengths[b] + lengths[c]) / 3;
-        const double ratio = std::clamp(local / mean, 1 / kMostDetailSizes, kMostDetailSizes);
+        const double ratio = std::clamp(local / mean, 1 / kLargestDetailRatio, kLargestDetailRatio);
         densities.push_back(1 / (ratio * ratio));
     }
     return densities;

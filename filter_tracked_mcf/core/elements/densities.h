@@ -9,14 +9,14 @@
 
 namespace tracked_mcf {
 
-/// A detail size that follows the local edge length is at most this many times the usual one, and
-/// at least one over it.
-inline constexpr double kMostDetailSizes = 10;
+/// The largest ratio of the detail size at one place to FlowParameters::detail_size, and of the
+/// latter to the former.
+inline constexpr double kLargestDetailRatio = 10;
 
 /// Returns the mass density of each finest element, with 1 at triangles of mean edge length, for a
 /// detail size that follows the local edge length. In equation 2, a density ρ acts like a time step
 /// δ / ρ, so it is 1 / r² where the detail size is r times the usual one. `fragments` are those of
-/// the elements. Readable beyond the end like ElementSystems, in whole blocks.
+/// the elements. kElementBatch more numbers follow, because kernels read whole vectors.
 std::vector<float> element_densities(const TrackedElements& elements, const Domain& domain,
                                      const RawVector<FragmentEntry>& fragments);
 

@@ -24,6 +24,9 @@ namespace tracked_mcf {
 /// A surface whose area is at most this fraction of its initial area has vanished.
 inline constexpr double kVanishedArea = 1e-3;
 
+/// The tolerance, at most, to which a step or a flow that has failed is made again.
+inline constexpr double kCarefulTolerance = 1e-6;
+
 /// A scaling about a point, in mesh units.
 struct Scaling {
     Eigen::Vector3d centre = Eigen::Vector3d::Zero();

@@ -20,12 +20,6 @@ namespace {
 /// fraction of a sphere is 0.09.
 constexpr double kFlat = 1e-9;
 
-/// The size of a component's bounds, in longest sides of its initial box or in diameters of the
-/// sphere that it may become. The flow makes no surface longer, but thin threads and flat ends that
-/// have pinched do not shrink with the rest, and so preserving would make them grow without bound.
-/// Long shapes become longer in a conformalized flow before they become round.
-constexpr double kLargestGrowth = 4, kLargestConformalizedGrowth = 16;
-
 /// The flow ends if components of more than this share of the area would blow up.
 constexpr double kMostBlownUp = 0.5;
 

@@ -11,6 +11,12 @@
 
 namespace tracked_mcf {
 
+/// The size of a component's bounds, in longest sides of its initial box or in diameters of the
+/// sphere that it may become. The flow makes no surface longer, but thin threads and flat ends that
+/// have pinched do not shrink with the rest, and so preserving would make them grow without bound.
+/// Long shapes become longer in a conformalized flow before they become round.
+inline constexpr double kLargestGrowth = 4, kLargestConformalizedGrowth = 16;
+
 /// Throws InvalidParameter or InvalidMesh if the flow cannot preserve what the parameters ask for;
 /// see FlowParameters::preserve.
 void check_preservable(const Domain& domain, const FlowParameters& parameters);

@@ -88,13 +88,13 @@ TEST(LocalDetailSize, IsATenthToTenTimesTheDetailSize) {
     const TriangleMesh coarse = shapes::square(1), fine = shapes::square(60);
     const TriangleMesh mesh = shapes::merged(
         coarse, shapes::transformed(fine, Eigen::Affine3d(Eigen::Translation3d(0, 0, 1))));
-    ASSERT_GT(mean_edge_length(coarse), 2 * kMostDetailSizes * mean_edge_length(mesh));
+    ASSERT_GT(mean_edge_length(coarse), 2 * kLargestDetailRatio * mean_edge_length(mesh));
     FlowParameters p = following_edges();
     p.depth = 4;
     const Flow flow(mesh, p);
     const std::vector<float>& densities = flow.elements().densities;
     const auto [least, most] = std::minmax_element(densities.begin(), densities.end());
-    EXPECT_NEAR(*least, 1 / (kMostDetailSizes * kMostDetailSizes), 1e-8);
+    EXPECT_NEAR(*least, 1 / (kLargestDetailRatio * kLargestDetailRatio), 1e-8);
     EXPECT_GT(*most, 1);
     // The limit holds where the step is largest.
     p.step_size = 1e9;
