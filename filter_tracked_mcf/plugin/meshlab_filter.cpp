@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "filter_tracked_mcf/plugin/meshlab_filter.h"
 
+#include <QPointer>
 #include <optional>
 
+#include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/parameters/parameter_table.h"
 #include "filter_tracked_mcf/plugin/parameter_values.h"
 
@@ -99,6 +101,42 @@ ParameterValues read_values(const RichParameterList& list) {
     return values;
 }
 
+/// Marks that this thread runs the filter. Throws Error if it does already: MeshLab's callback
+/// processes events, so a user can apply the filter while it runs.
+class Run {
+public:
+    Run() {
+        if (runs) {
+            throw Error(
+                "The filter is already running. Wait until it is done, then apply it again.");
+        }
+        runs = true;
+    }
+    ~Run() { runs = false; }
+    Run(const Run&) = delete;
+    Run& operator=(const Run&) = delete;
+
+private:
+    static thread_local bool runs;
+};
+
+thread_local bool Run::runs = false;
+
+/// Wraps the host's callback, which may be null. Stops if a user has deleted the layer meanwhile,
+/// or closed its document.
+Progress watched_progress(MeshDocument& document, const MeshModel& layer,
+                          vcg::CallBackPos* callback) {
+    if (callback == nullptr) return {};
+    return [report = as_progress(callback), pointer = QPointer<MeshDocument>(&document),
+            id = layer.id()](double fraction, std::string_view phase) {
+        const bool goes_on = report(fraction, phase);
+        if (pointer.isNull() || pointer->getMesh(id) == nullptr) {
+            throw InvalidMesh("The layer was deleted while the filter ran, so the filter stopped.");
+        }
+        return goes_on;
+    };
+}
+
 }  // namespace
 
 RichParameterList rich_parameters(const MeshModel* layer) {
@@ -112,10 +150,12 @@ RichParameterList rich_parameters(const MeshModel* layer) {
 FilterOutcome smooth_current_layer(MeshDocument& document, const RichParameterList& parameters,
                                    vcg::CallBackPos* callback) {
     return guard([&] {
+        const Run run;
         MeshModel* const layer = document.mm();
         if (layer == nullptr) throw InvalidMesh("There is no layer to smooth; open a mesh first.");
         const ParameterValues values = read_values(parameters);
-        FilterOutcome outcome = run_filter(layer->cm, values, callback);
+        FilterOutcome outcome =
+            run_filter(layer->cm, values, watched_progress(document, *layer, callback));
         update_box_and_normals(*layer);
         if (flow_parameters(values).quality != Quality::None) {
             layer->updateDataMask(MeshModel::MM_VERTQUALITY);

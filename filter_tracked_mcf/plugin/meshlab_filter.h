@@ -12,6 +12,9 @@ RichParameterList rich_parameters(const MeshModel* layer);
 
 /// Runs the filter on the document's current layer and updates the layer's normals and bounding
 /// box, and its mask if it has got a quality. Never throws. A failure leaves the layer as it was.
+///
+/// Fails if this thread runs the filter already, or if `callback`, in which hosts process the
+/// user's events, changes or deletes the layer.
 FilterOutcome smooth_current_layer(MeshDocument& document, const RichParameterList& parameters,
                                    vcg::CallBackPos* callback);
 

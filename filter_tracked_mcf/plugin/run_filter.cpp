@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "filter_tracked_mcf/plugin/run_filter.h"
 
+#include <cstring>
 #include <exception>
 #include <new>
 #include <numeric>
@@ -43,6 +44,13 @@ FilterOutcome guard(const std::function<FilterOutcome()>& work) {
     }
 }
 
+Progress as_progress(HostCallback* callback) {
+    if (callback == nullptr) return {};
+    return [callback](double fraction, std::string_view phase) {
+        return callback(static_cast<int>(100 * fraction), std::string(phase).c_str());
+    };
+}
+
 namespace run_filter_detail {
 
 namespace {
@@ -73,11 +81,19 @@ double default_detail_size_or_zero(const TriangleMesh& mesh, const Selection& se
     }
 }
 
-Progress as_progress(HostCallback* callback) {
-    if (callback == nullptr) return {};
-    return [callback](double fraction, std::string_view phase) {
-        return callback(static_cast<int>(100 * fraction), std::string(phase).c_str());
+std::uint64_t checksum(const TriangleMesh& mesh) {
+    std::uint64_t sum = 0;
+    const auto add = [&sum](const auto& vector) {
+        for (const auto number : vector) {
+            std::uint64_t bits = 0;
+            std::memcpy(&bits, &number, sizeof number);
+            sum = (sum ^ bits) * 0x9e3779b97f4a7c15;  // odd, so no bit is lost
+            sum ^= sum >> 32;
+        }
     };
+    for (const Eigen::Vector3d& position : mesh.positions) add(position);
+    for (const Triangle& triangle : mesh.triangles) add(triangle);
+    return sum;
 }
 
 std::string summary(const FlowParameters& parameters, const FlowReport& report) {

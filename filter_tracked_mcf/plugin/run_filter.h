@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <string>
@@ -29,10 +30,13 @@ struct FilterOutcome {
 /// know ends its program. The message about a parameter says its label in the dialog, too.
 FilterOutcome guard(const std::function<FilterOutcome()>& work);
 
-namespace run_filter_detail {
-
 /// Wraps a host's callback, which may be null, for the core.
 Progress as_progress(HostCallback* callback);
+
+namespace run_filter_detail {
+
+/// Returns a checksum of the bits of all positions and triangles.
+std::uint64_t checksum(const TriangleMesh& mesh);
 
 /// Describes the report in a few sentences.
 std::string summary(const FlowParameters& parameters, const FlowReport& report);
@@ -60,16 +64,23 @@ double default_detail_size_of(const VcgMesh& mesh) {
 }
 
 /// Flows a mesh of any vcglib type and returns the message for the user. It throws what the core
-/// throws, so call it under guard(). It writes nothing but positions and, if asked for, the
-/// vertices' quality, and writes them last: a failure or a cancelled run leaves the mesh as it was.
-/// The host updates normals and bounding box.
+/// and `progress` throw, so call it under guard(). It writes nothing but positions and, if asked
+/// for, the vertices' quality, and writes them last: a failure or a cancelled run leaves the mesh
+/// as it was. Throws InvalidMesh if `progress` has changed a position or a face: a user may apply
+/// other filters meanwhile. The host updates normals and bounding box.
 template <class VcgMesh>
-FilterOutcome run_filter(VcgMesh& mesh, const ParameterValues& values, HostCallback* callback) {
+FilterOutcome run_filter(VcgMesh& mesh, const ParameterValues& values, const Progress& progress) {
     using namespace run_filter_detail;
     const FlowParameters parameters = flow_parameters(values);
     const Selection selection = selected_only(values) ? selected_faces(mesh) : Selection();
     TriangleMesh moved = to_triangle_mesh(mesh);
-    const FlowReport report = evolve(moved, selection, parameters, as_progress(callback));
+    const std::uint64_t before = checksum(moved);
+    const FlowReport report = evolve(moved, selection, parameters, progress);
+    if (checksum(to_triangle_mesh(mesh)) != before) {
+        throw InvalidMesh(
+            "The layer changed while the filter ran, so the result was not written. Apply the "
+            "filter again.");
+    }
     write_positions(moved, mesh);
     if (!report.quality.empty()) write_quality(report.quality, mesh);
     return {true, summary(parameters, report), outputs_of(parameters, report)};

@@ -371,8 +371,8 @@ TEST(Guard, TurnsEveryExceptionIntoAMessage) {
 }
 
 TEST(Progress, IsInPercentAndStopsWhenTheHostAsks) {
-    EXPECT_FALSE(run_filter_detail::as_progress(nullptr));
-    const Progress progress = run_filter_detail::as_progress(
+    EXPECT_FALSE(as_progress(nullptr));
+    const Progress progress = as_progress(
         +[](int percent, const char* phase) { return percent == 50 && phase == std::string("x"); });
     EXPECT_TRUE(progress(0.5, std::string_view("xyz").substr(0, 1)));
     EXPECT_FALSE(progress(1.0, "x"));

@@ -57,6 +57,9 @@ private:
 /// Adds an empty layer and makes it the current one.
 MeshModel& add_layer(MeshDocument& document, const char* label);
 
+/// Deletes a layer. As in MeshLab, the first of the others becomes the current one.
+void delete_layer(MeshDocument& document, MeshModel& layer);
+
 void hide(MeshModel& layer);
 
 /// Enables the attributes of a vcg::tri::io::Mask in the layer.

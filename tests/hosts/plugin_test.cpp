@@ -12,44 +12,11 @@
 #include "filter_tracked_mcf/core/flow_parameters.h"
 #include "filter_tracked_mcf/parameters/parameter_table.h"
 #include "filter_tracked_mcf/plugin/parameter_values.h"
-#include "tests/hosts/host.h"
-#include "tests/hosts/layer.h"
+#include "tests/hosts/plugin_fixture.h"
 
 namespace tracked_mcf {
 
 namespace {
-
-const host::Filter& filter() {
-    static const host::Filter filter(TRACKED_MCF_PLUGIN_FILE);
-    return filter;
-}
-
-/// A document with one layer, and the plugin's parameters with the dialog's defaults.
-class Plugin : public testing::Test {
-protected:
-    Plugin() : layer(host::add_layer(document, "layer")) {
-        make_layer(layer);
-        parameters = filter().parameters(document);
-        parameters.setValue("iterations", IntValue(2));
-        parameters.setValue("depth", IntValue(4));
-        // Some faces of the layer are selected.
-        parameters.setValue("selected", BoolValue(false));
-    }
-
-    bool apply(vcg::CallBackPos* callback = nullptr) {
-        outcome = filter().apply(document, parameters, callback);
-        return outcome.succeeded;
-    }
-
-    MeshDocument document;
-    MeshModel& layer;
-    RichParameterList parameters;
-    host::Outcome outcome{};
-};
-
-bool contains(const std::string& text, const std::string& word) {
-    return text.find(word) != std::string::npos;
-}
 
 TEST_F(Plugin, DeclaresItselfAsAPreviewableSmoother) {
     const host::Declaration declaration = filter().declaration();
@@ -350,13 +317,6 @@ TEST_F(Plugin, DeletedElementsAreIgnored) {
     ASSERT_TRUE(apply());
     const auto with_deleted = position_bits(layer);
     EXPECT_EQ(std::vector(with_deleted.begin() + 1, with_deleted.end()), position_bits(compact));
-}
-
-TEST_F(Plugin, OnlyTheCurrentLayerMoves) {
-    make_layer(host::add_layer(document, "other"));
-    const auto before = position_bits(layer);
-    ASSERT_TRUE(apply());
-    EXPECT_EQ(position_bits(layer), before);
 }
 
 int last_percent = 0;

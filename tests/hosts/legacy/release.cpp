@@ -28,6 +28,10 @@ MeshModel& add_layer(MeshDocument& document, const char* label) {
     return *document.addNewMesh("", label, true);
 }
 
+void delete_layer(MeshDocument& document, MeshModel& layer) {
+    document.delMesh(&layer);
+}
+
 void hide(MeshModel& layer) {
     layer.visible = false;
 }

@@ -50,6 +50,10 @@ MeshModel& add_layer(MeshDocument& document, const char* label) {
     return *document.addNewMesh(QString(), label, true);
 }
 
+void delete_layer(MeshDocument& document, MeshModel& layer) {
+    document.delMesh(static_cast<unsigned int>(layer.id()));
+}
+
 void hide(MeshModel& layer) {
     layer.setVisible(false);
 }
