@@ -6,6 +6,9 @@
 
 namespace tracked_mcf {
 
+/// Which build this is: for the filter's help and its lines in MeshLab's log.
+inline constexpr const char* kBuild = "Filter Tracked MCF " TRACKED_MCF_VERSION;
+
 /// Returns parameter_table() for MeshLab's dialogs and scripts. `selected` is on if `layer`, which
 /// may be null, has selected faces.
 RichParameterList rich_parameters(const MeshModel* layer);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Tests the filter in a document with two layers.
 
+#include <limits>
+
 #include "tests/hosts/plugin_fixture.h"
 
 namespace tracked_mcf {

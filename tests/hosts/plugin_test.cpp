@@ -22,12 +22,19 @@ TEST_F(Plugin, DeclaresItselfAsAPreviewableSmoother) {
     const host::Declaration declaration = filter().declaration();
     EXPECT_EQ(filter().filters_in_plugin(), 1);
     EXPECT_EQ(declaration.name, kFilterName);
-    EXPECT_EQ(declaration.help, kFilterHelp);
+    EXPECT_TRUE(contains(declaration.help, kFilterHelp));
     EXPECT_TRUE(declaration.smooths);
     EXPECT_TRUE(declaration.takes_one_layer);
     EXPECT_EQ(declaration.requirements, MeshModel::MM_NONE);
     EXPECT_EQ(declaration.post_condition, MeshModel::MM_VERTCOORD | MeshModel::MM_VERTNORMAL |
                                               MeshModel::MM_FACENORMAL | MeshModel::MM_VERTQUALITY);
+}
+
+TEST_F(Plugin, NamesItsVersionInTheHelpAndTheLog) {
+    const std::string build = "Filter Tracked MCF " TRACKED_MCF_VERSION;
+    EXPECT_TRUE(contains(filter().declaration().help, build));
+    ASSERT_TRUE(apply()) << outcome.message;
+    EXPECT_TRUE(contains(outcome.log, build + ": Smoothed ")) << outcome.log;
 }
 
 TEST_F(Plugin, IsApplicableToFacesOnly) {

@@ -2,6 +2,7 @@
 // Tests what a user can do while the filter runs: MeshLab's progress callback processes events.
 
 #include <functional>
+#include <memory>
 #include <thread>
 #include <utility>
 

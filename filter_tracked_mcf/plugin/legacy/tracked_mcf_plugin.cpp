@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "filter_tracked_mcf/plugin/legacy/tracked_mcf_plugin.h"
 
-#include "filter_tracked_mcf/plugin/meshlab_filter.h"
-
 namespace tracked_mcf {
 
 void TrackedMcfPlugin::initParameterSet(QAction*, MeshDocument& document,
@@ -15,7 +13,8 @@ bool TrackedMcfPlugin::applyFilter(QAction*, MeshDocument& document,
                                    vcg::CallBackPos* callback) {
     const FilterOutcome outcome = smooth_current_layer(document, parameters, callback);
     if (!outcome.succeeded) errorMessage = QString::fromStdString(outcome.message);
-    Log(outcome.message);  // of failures, too: meshlabserver does not print errorMessage
+    // Of failures, too: meshlabserver does not print errorMessage.
+    Log(kBuild + (": " + outcome.message));
     return outcome.succeeded;
 }
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "filter_tracked_mcf/parameters/parameter_table.h"
-#include "meshlab_api.h"
+#include "filter_tracked_mcf/plugin/meshlab_filter.h"
 
 namespace tracked_mcf {
 
@@ -20,7 +20,9 @@ public:
 
     QString pluginName() const override { return "FilterTrackedMcf"; }
     QString filterName(FilterIDType) const override { return kFilterName; }
-    QString filterInfo(FilterIDType) const override { return kFilterHelp; }
+    QString filterInfo(FilterIDType) const override {
+        return QString(kFilterHelp) + "<br>" + kBuild + ".";
+    }
     FilterClass getClass(QAction*) override { return Smoothing; }
     FILTER_ARITY filterArity(QAction*) const override { return SINGLE_MESH; }
     int getPreConditions(QAction*) const override { return MeshModel::MM_FACENUMBER; }

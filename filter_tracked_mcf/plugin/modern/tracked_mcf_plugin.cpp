@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "filter_tracked_mcf/plugin/modern/tracked_mcf_plugin.h"
 
-#include "filter_tracked_mcf/plugin/meshlab_filter.h"
-
 namespace tracked_mcf {
 
 RichParameterList TrackedMcfPlugin::initParameterList(const QAction*,
@@ -18,7 +16,7 @@ std::map<std::string, QVariant> TrackedMcfPlugin::applyFilter(const QAction*,
     const FilterOutcome outcome = smooth_current_layer(document, parameters, callback);
     // MLException is the only exception that hosts expect.
     if (!outcome.succeeded) throw MLException(QString::fromStdString(outcome.message));
-    log(outcome.message);
+    log(kBuild + (": " + outcome.message));
     post_condition_mask = static_cast<unsigned int>(postCondition(nullptr));
     std::map<std::string, QVariant> outputs;
     for (const auto& [name, output] : outcome.outputs) {

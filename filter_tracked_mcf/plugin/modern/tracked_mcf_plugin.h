@@ -2,7 +2,7 @@
 #pragma once
 
 #include "filter_tracked_mcf/parameters/parameter_table.h"
-#include "meshlab_api.h"
+#include "filter_tracked_mcf/plugin/meshlab_filter.h"
 
 namespace tracked_mcf {
 
@@ -23,7 +23,9 @@ public:
     QString vendor() const override { return "Filter Tracked MCF"; }
     QString filterName(ActionIDType) const override { return kFilterName; }
     QString pythonFilterName(ActionIDType) const override { return kPythonFilterName; }
-    QString filterInfo(ActionIDType) const override { return kFilterHelp; }
+    QString filterInfo(ActionIDType) const override {
+        return QString(kFilterHelp) + "<br>" + kBuild + ".";
+    }
     FilterClass getClass(const QAction*) const override { return Smoothing; }
     FilterArity filterArity(const QAction*) const override { return SINGLE_MESH; }
     int getPreConditions(const QAction*) const override { return MeshModel::MM_FACENUMBER; }
