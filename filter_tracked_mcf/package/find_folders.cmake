@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # cmake --install runs this first. Sets tracked_mcf_plugin_dir, the folder for the plugin, or empties
-# it if there is none. For a user's own installation, also sets CMAKE_INSTALL_PREFIX to ~/.local, unless
+# it if there is none, and tracked_mcf_user_plugin_dir, where MeshLab 2022.02 and later look for a
+# user's own plugins. For a user's own installation, also sets CMAKE_INSTALL_PREFIX to ~/.local, unless
 # a prefix other than CMake's default was given.
 #
 # A plugin goes to the MeshLab that it was linked with. Without one, from 2022.02 on, it goes to the
@@ -13,6 +14,9 @@ if(NOT tracked_mcf_user_data)
   set(tracked_mcf_user_data "$ENV{HOME}/.local/share")
 endif()
 
+set(tracked_mcf_user_plugin_dir "${tracked_mcf_user_data}/VCG/MeshLab_64bit_fp/MeshLabExtraPlugins")
+string(APPEND tracked_mcf_user_plugin_dir "/${TRACKED_MCF_HOST_RELEASE}")
+
 set(tracked_mcf_for_user ${TRACKED_MCF_USER_INSTALL})
 if(TRACKED_MCF_PLUGIN_DIR)
   set(tracked_mcf_plugin_dir "${TRACKED_MCF_PLUGIN_DIR}")
@@ -22,8 +26,7 @@ elseif(MESHLAB_LIBRARY_DIR AND NOT TRACKED_MCF_USER_INSTALL)
   set(tracked_mcf_plugin_dir "${MESHLAB_LIBRARY_DIR}/plugins")
 elseif(TRACKED_MCF_HOST_RELEASE VERSION_GREATER_EQUAL 2022.02)
   set(tracked_mcf_for_user ON)
-  set(tracked_mcf_plugin_dir "${tracked_mcf_user_data}/VCG/MeshLab_64bit_fp/MeshLabExtraPlugins")
-  string(APPEND tracked_mcf_plugin_dir "/${TRACKED_MCF_HOST_RELEASE}")
+  set(tracked_mcf_plugin_dir "${tracked_mcf_user_plugin_dir}")
 else()
   set(tracked_mcf_plugin_dir "")
 endif()

@@ -17,6 +17,22 @@ endif()
 file(INSTALL "${tracked_mcf_plugin_file}" DESTINATION "${tracked_mcf_plugin_dir}")
 
 get_filename_component(name "${tracked_mcf_plugin_file}" NAME)
+
+# Of two builds, MeshLab runs the one that it loads last: it loads the user's plugins after its own, and
+# each folder by name.
+set(folders "${tracked_mcf_plugin_dir}" "${tracked_mcf_user_plugin_dir}")
+if(MESHLAB_LIBRARY_DIR)
+  list(APPEND folders "${MESHLAB_LIBRARY_DIR}/plugins")
+endif()
+list(REMOVE_DUPLICATES folders)
+foreach(folder IN LISTS folders)
+  file(GLOB builds "$ENV{DESTDIR}${folder}/*tracked_mcf*.so")
+  list(REMOVE_ITEM builds "$ENV{DESTDIR}${tracked_mcf_plugin_dir}/${name}")
+  foreach(build IN LISTS builds)
+    message(WARNING "MeshLab may run another build of the plugin. Remove it: ${build}")
+  endforeach()
+endforeach()
+
 if(TRACKED_MCF_HOST STREQUAL PyMeshLab)
   message(STATUS "PyMeshLab ${TRACKED_MCF_HOST_RELEASE} loads it with "
                  "pymeshlab.load_plugin('${tracked_mcf_plugin_dir}/${name}')")

@@ -49,7 +49,8 @@ string(STRIP "${needs}" needs)
 string(PREPEND needs "    ")
 cmake_host_system_information(RESULT system QUERY DISTRIB_PRETTY_NAME)
 
-set(menu "The filter is in the menu Filters > Smoothing, Fairing and Deformation > Mean Curvature Flow.\n")
+set(menu "Remove other builds of the plugin: MeshLab loads all that it finds, and runs one of them.
+The filter is in the menu Filters > Smoothing, Fairing and Deformation > Mean Curvature Flow.\n")
 if(host STREQUAL PyMeshLab)
   set(steps "Put it into any folder. In Python:
 

@@ -15,7 +15,7 @@ rm -rf "$work"
 mkdir -p "$work"
 
 # Installs as cmake --install does. The component's name keeps the build folder's list of installed
-# files that of the real installation.
+# files that of the real installation. If $beside is set, a file of that name is there already.
 run_install() { # NAME=VALUE...: other settings, or XDG_... in the environment
     local settings=(-DCMAKE_INSTALL_COMPONENT=Unspecified -DCMAKE_INSTALL_PREFIX=/usr/local
         -DTRACKED_MCF_USER_INSTALL=OFF -DTRACKED_MCF_PLUGIN_DIR=) setting
@@ -27,6 +27,7 @@ run_install() { # NAME=VALUE...: other settings, or XDG_... in the environment
         esac
     done
     rm -rf "$work/root"
+    [ -z "${beside:-}" ] || install -D "$0" "$work/root/$beside"
     env "${environment[@]}" cmake "${settings[@]}" -P "$build/cmake_install.cmake" \
         > "$work/log.txt" 2>&1
 }
@@ -61,6 +62,14 @@ is_refused() { # MESSAGE NAME=VALUE...
         fail "not refused with '$1': ${*:2}"
     else
         echo "${*:2}: refused, as expected"
+    fi
+}
+warns_of() { # FILE NAME=VALUE...
+    local beside=$1
+    if run_install "${@:2}" && tr -d '\n ' < "$work/log.txt" | grep -qF "Removeit:$work/root$1"; then
+        echo "${*:2}: warns of $1, as expected"
+    else
+        fail "no warning of $1: ${*:2}"
     fi
 }
 
@@ -101,4 +110,14 @@ for host in "${old[*]}" "${new[*]}" "${python[*]}"; do
     read -ra host <<< "$host"
     goes_to /plugins /usr/local/bin "${host[@]}" $elsewhere TRACKED_MCF_PLUGIN_DIR=/plugins
 done
+
+echo "== Beside another build"
+for where in /opt/meshlab/plugins "$home/.local/share/$user_plugins/2022.02"; do
+    warns_of "$where/libfilter_tracked_mcf-0.9.so" "${new[@]}" $here
+    warns_of "$where/libfilter_tracked_mcf-0.9.so" "${new[@]}" $here $for_user
+done
+warns_of "/opt/meshlab/plugins/$plugin" "${new[@]}" $here $for_user
+warns_of /plugins/libfilter_tracked_mcf-0.9.so "${old[@]}" $elsewhere TRACKED_MCF_PLUGIN_DIR=/plugins
+beside=/opt/meshlab/plugins/$plugin run_install "${old[@]}" $here
+! grep "another build" "$work/log.txt" || fail "a warning of the file that is replaced"
 exit "$((failures > 0))"
