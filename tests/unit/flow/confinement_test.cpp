@@ -102,6 +102,20 @@ TEST(Confinement, AFlowThatIsThinnerThanItsCellsLosesArea) {
     }
 }
 
+TEST(Confinement, AStepThatFailsIsMadeAgainWithMoreCare) {
+    // A wavy strip that is narrower than 1e-5 cells: its system is nearly singular.
+    TriangleMesh strip = scaled(shapes::square(19), 1, 1e-7, 1);
+    for (Eigen::Vector3d& position : strip.positions) {
+        position[2] = 1e-3 * std::sin(9 * position[0]);
+    }
+    FlowParameters p = parameters(8, 1e-3, 7);
+    p.flow = FlowKind::Conformalized;
+    EXPECT_LE(outside(strip, p), 0.01);
+    const FlowReport report = evolve(strip, p);
+    EXPECT_EQ(report.stop, Stop::None);
+    EXPECT_EQ(report.steps.size(), 7U);
+}
+
 TEST(Confinement, AComponentThatWouldBlowUpDoesNotEndTheFlowOfOthers) {
     // A strip without the force of a boundary shrinks to a line, whose area cannot be restored.
     const TriangleMesh sphere = shapes::geodesic_sphere(10);

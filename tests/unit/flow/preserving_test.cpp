@@ -102,6 +102,15 @@ TEST(PreservingVolume, KeepsItOverFiftySteps) {
     }
 }
 
+TEST(PreservingVolume, EndsBeforeAStepThatIsTooLargeForIt) {
+    const TriangleMesh mesh = shapes::bumpy_sphere(12);
+    TriangleMesh flowing = mesh;
+    const FlowReport report = evolve(flowing, preserving(Preserve::Volume, 1, 10));
+    EXPECT_EQ(report.stop, Stop::NotPreserved);
+    EXPECT_EQ(report.steps.size(), 0U);
+    EXPECT_EQ(flowing.positions, mesh.positions);
+}
+
 TEST(PreservingArea, KeepsItOverFiftySteps) {
     for (const FlowKind flow : {FlowKind::MeanCurvature, FlowKind::Conformalized}) {
         const TriangleMesh mesh = shapes::bumpy_sphere(20);
