@@ -40,7 +40,7 @@ struct Run {
     bool oriented_consistently = true;
 };
 
-void set_up(const TriangleMesh& mesh, const Selection& selection, const FlowParameters& parameters,
+void set_up(const TriangleMesh& mesh, const Selection& selection, FlowParameters parameters,
             Run& run) {
     enter_setup_phase(kCheckMesh);
     validate(mesh);
@@ -49,6 +49,11 @@ void set_up(const TriangleMesh& mesh, const Selection& selection, const FlowPara
     enter_setup_phase(kMeasureSurface);
     check_preservable(domain, parameters);
     run.oriented_consistently = is_oriented_consistently(domain.topology());
+    if (domain.constrains_all_vertices()) {
+        // Nothing can move. The cheapest set-up is enough to say so.
+        parameters.depth = 1;
+        parameters.separate_sheets = false;
+    }
     run.flow.emplace(domain, parameters);
     if (parameters.preserve != Preserve::None) {
         run.preserver.emplace(domain, parameters, *run.flow);

@@ -44,11 +44,11 @@ struct FlowReport {
     double detail_size = 0;  ///< length of the waves whose amplitude all steps halve, mesh units
     double step_size = 0;    ///< δ, mesh units²
     double asked_step_size = 0;  ///< larger if δ was limited, see FlowParameters::step_size
-    int depth = 0;
-    double cell_size = 0;                   ///< side of a finest cell, mesh units
-    std::int64_t cells = 0;                 ///< occupied cells of the finest level
-    std::int64_t elements = 0;              ///< elements of the finest level
-    std::int64_t unknowns = 0;              ///< unknowns of the finest level
+    int depth = 0;               ///< 1 if all vertices are constrained
+    double cell_size = 0;        ///< side of a finest cell, mesh units
+    std::int64_t cells = 0;      ///< occupied cells of the finest level
+    std::int64_t elements = 0;   ///< elements of the finest level
+    std::int64_t unknowns = 0;   ///< unknowns of the finest level
     std::int64_t constrained_unknowns = 0;  ///< of these, constrained by a boundary of locked cells
     std::int64_t fragments = 0;             ///< non-empty intersections of triangles and cells
     std::int64_t split_triangles = 0;       ///< triangles of the fragments' fans

@@ -62,10 +62,11 @@ std::string limited_step_size(const FlowReport& report) {
     return text.str();
 }
 
-/// Empty unless the grid is too coarse for the detail. A caller who gives a step size knows the
-/// grid.
+/// Empty unless the grid is too coarse for the detail of a surface that moves. A caller who gives a
+/// step size knows the grid.
 std::string unresolved_detail(const FlowParameters& parameters, const FlowReport& report) {
     if (parameters.step_size > 0 || report.detail_size >= report.cell_size) return {};
+    if (report.stop == Stop::NothingMoves) return {};
     std::ostringstream text;
     text.precision(3);
     text << "The detail size " << report.detail_size << " is smaller than a cell of the grid, "

@@ -131,7 +131,8 @@ TEST_F(Program, SeparateSheetsHaveMoreUnknowns) {
     }
     write_file(folder_ / "two.off", two + "3 0 1 2\n3 0 2 3\n3 4 5 6\n3 4 6 7\n");
     const auto unknowns = [&](const std::string& option) {
-        const ProgramRun result = run("two.off b.off --depth 3 --report r.json " + option);
+        const ProgramRun result =
+            run("two.off b.off --depth 3 --boundary free --report r.json " + option);
         EXPECT_EQ(result.exit_code, 0) << result.errors;
         const std::string report = read_file(folder_ / "r.json");
         return std::stoi(report.substr(report.find("\"unknowns\": ") + 12));

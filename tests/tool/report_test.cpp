@@ -236,6 +236,16 @@ TEST(Warnings, SayThatTheFlowStopped) {
               "The flow stopped after step 4 of 10: everything that could move has pinched.");
 }
 
+TEST(Warnings, DoNotBlameTheGridIfNothingMoves) {
+    FlowReport report;
+    report.cell_size = 1;
+    report.detail_size = 0.1;
+    EXPECT_EQ(warnings({}, report).size(), 1U);
+    report.stop = Stop::NothingMoves;
+    EXPECT_EQ(warnings({}, report).size(), 1U);
+    EXPECT_EQ(warnings({}, report).at(0).substr(0, 18), "Nothing has moved:");
+}
+
 TEST(Report, IsJsonWhateverTheFileNames) {
     CommandLine line;
     line.input = "\xff\"\n.ply";

@@ -71,6 +71,24 @@ TEST(Stop, NothingMovesIfAllVerticesAreConstrained) {
     EXPECT_TRUE(same_bits(mesh, triangle));
 }
 
+TEST(Stop, IsFoundOnTheCoarsestGridIfAllVerticesAreConstrained) {
+    const TriangleMesh triangles = shapes::separate_triangles(100);
+    Selection one_face(shapes::geodesic_sphere(4).triangles.size(), 0);
+    one_face[0] = 1;
+    for (const auto boundary : {BoundaryCondition::Locked, BoundaryCondition::LockedCells}) {
+        FlowParameters p = parameters(12, 1e-2, 5);  // takes too long
+        p.boundary = boundary;
+        TriangleMesh mesh = triangles;
+        const FlowReport report = evolve(mesh, p);
+        EXPECT_EQ(report.stop, Stop::NothingMoves);
+        EXPECT_EQ(report.constrained_vertices, 300);
+        EXPECT_EQ(report.depth, 1);
+        EXPECT_TRUE(same_bits(mesh, triangles));
+        mesh = shapes::geodesic_sphere(4);
+        EXPECT_EQ(evolve(mesh, one_face, p).depth, 1) << "all vertices are on the seam";
+    }
+}
+
 TEST(Stop, FlowsWithFreeVerticesMakeAllSteps) {
     TriangleMesh mesh = bumpy_cap(15);
     const FlowReport report = evolve(mesh, parameters(5, 1, 30));
