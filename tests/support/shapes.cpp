@@ -242,6 +242,26 @@ TriangleMesh soup(const TriangleMesh& mesh) {
     return loose;
 }
 
+TriangleMesh fan(int triangles) {
+    TriangleMesh mesh;
+    mesh.positions.emplace_back(Vector3d::Zero());
+    for (std::int32_t i = 0; i < triangles; ++i) {
+        const double u = 2 * std::acos(-1.0) * i / triangles;
+        mesh.positions.emplace_back(std::cos(u), std::sin(u), 0.1 * std::sin(5 * u));
+        mesh.triangles.push_back({0, i + 1, (i + 1) % triangles + 1});
+    }
+    return mesh;
+}
+
+TriangleMesh stack(const TriangleMesh& sheet, int count, double distance) {
+    TriangleMesh mesh;
+    for (int i = 0; i < count; ++i) {
+        const Eigen::Translation3d shift(0, 0, i * distance);
+        mesh = merged(std::move(mesh), transformed(sheet, Eigen::Affine3d(shift)));
+    }
+    return mesh;
+}
+
 TriangleMesh separate_triangles(int count) {
     std::mt19937 random(7);
     std::uniform_real_distribution<double> uniform(0, 1);

@@ -42,6 +42,12 @@ TriangleMesh merged(TriangleMesh first, const TriangleMesh& second);
 /// Gives every triangle three vertices of its own.
 TriangleMesh soup(const TriangleMesh& mesh);
 
+/// A fan of long thin triangles around the origin, with a wavy rim near the unit circle.
+TriangleMesh fan(int triangles);
+
+/// Copies of a sheet at this distance from each other along z. They coincide if it is 0.
+TriangleMesh stack(const TriangleMesh& sheet, int count, double distance);
+
 /// Small unconnected triangles at random positions in the unit cube.
 TriangleMesh separate_triangles(int count);
 

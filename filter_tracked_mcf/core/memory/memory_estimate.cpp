@@ -2,12 +2,13 @@
 #include "filter_tracked_mcf/core/memory/memory_estimate.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <vector>
 
 #include "filter_tracked_mcf/core/cells/cubature.h"
 #include "filter_tracked_mcf/core/mesh/measures.h"
 #include "filter_tracked_mcf/core/mesh/mesh_topology.h"
-#include "filter_tracked_mcf/core/parallel/marks.h"
 #include "filter_tracked_mcf/core/parallel/parallel.h"
 
 namespace tracked_mcf {
@@ -45,50 +46,84 @@ double box_sides(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen
     return (a.cwiseMax(b).cwiseMax(c) - a.cwiseMin(b).cwiseMin(c)).sum();
 }
 
-std::int64_t count_edges(const MeshTopology& topology) {
-    Marks used(topology.edge_count);
-    parallel_for_items(topology.edges, [&](const auto& edges) {
-        for (const std::int32_t edge : edges) {
-            if (edge != MeshTopology::kNoEdge) used.set(edge);
+/// The number of the surface's edges, and the total length of the sides of their bounding boxes.
+using Edges = Eigen::Vector2d;
+
+Edges edges_of(const Domain& domain) {
+    const MeshTopology& topology = domain.topology();
+    const std::vector<Eigen::Vector3d>& positions = domain.surface().positions;
+    // 0 at the edges of unselected triangles. All triangles of an edge store the same number.
+    std::vector<std::atomic<double>> extents(static_cast<std::size_t>(topology.edge_count));
+    parallel_for_rows(static_cast<std::int64_t>(topology.edges.size()), [&](std::int32_t triangle) {
+        const Triangle& t = topology.triangles[triangle];
+        for (int side = 0; side < 3; ++side) {
+            const std::int32_t edge = topology.edges[triangle][side];
+            if (edge == MeshTopology::kNoEdge) continue;
+            const Eigen::Vector3d sides = positions[t[(side + 1) % 3]] - positions[t[side]];
+            extents[edge].store(sides.lpNorm<1>(), std::memory_order_relaxed);
         }
     });
-    return used.count();
+    return parallel_sum(topology.edge_count, Edges(0, 0),
+                        [&](std::int64_t begin, std::int64_t end) {
+                            Edges sum(0, 0);
+                            for (std::int64_t i = begin; i < end; ++i) {
+                                const double extent = extents[i].load(std::memory_order_relaxed);
+                                if (extent > 0) sum += Edges(1, extent);
+                            }
+                            return sum;
+                        });
 }
 
-/// Sets the rim and the characteristic.
-void set_topology(const MeshTopology& topology, SurfaceSize& size) {
+/// Sets the rim, the copies and the characteristic.
+///
+/// A grid plane cuts the surface into curves. Inside a curve, it crosses as many edges as
+/// triangles; where a curve ends, at the rim, it crosses half an edge more. If it crosses more
+/// triangles than edges, the edges have more than two triangles: copies of each other.
+void set_topology(const Domain& domain, SurfaceSize& size) {
+    const MeshTopology& topology = domain.topology();
     const auto triangles = static_cast<std::int64_t>(topology.triangles.size());
     const auto has_area = [&](std::int64_t i) {
         const auto& edges = topology.edges[i];
         return std::count(edges.begin(), edges.end(), MeshTopology::kNoEdge) == 0;
     };
     const auto faces = static_cast<double>(parallel_count(triangles, has_area));
-    const auto edges = static_cast<double>(count_edges(topology));
     const auto vertices = static_cast<double>(count_vertices(topology));
-    size.characteristic = std::max(0.0, vertices - edges + faces);
-    // An interior edge has two sides and a boundary edge has one. The rim takes the boundary edges
-    // to be as long as the others.
-    const double rim_edges = std::max(0.0, 2 * edges - 3 * faces);
-    const double mean_extents = 2 * size.extents / (3 * size.triangles);
-    size.rim = rim_edges * mean_extents;
+    const Edges edges = edges_of(domain);
+    if (size.extents > edges[1] && edges[1] > 0) size.copies = size.extents / edges[1];
+    size.rim = 2 * std::max(0.0, edges[1] - size.extents);
+    // Without copies, an edge has two triangles at most.
+    size.characteristic = vertices - edges[0] + std::min(faces, 2 * edges[0] / 3);
 }
 
 struct LevelCounts {
     double elements, unknowns;
 };
 
+/// Returns the expected number of fragments that meet no side of their triangle. The sides cross
+/// grid planes twice as often as the triangle does, and each crossing leads to another cell. Small
+/// triangles have no such fragments.
+double inner_fragments(const SurfaceSize& size, double cell) {
+    const double extents = size.extents / cell;
+    if (extents < 2 * size.triangles) return 0;
+    return std::max(0.0, size.triangles - extents + size.shadows / (cell * cell));
+}
+
 /// Returns the expected counts of a level with cells of side `cell`.
 ///
 /// The expected number of pieces of a surface in the cells is its characteristic, plus half the
 /// number of its rim's crossings with grid planes, plus the number of its crossings with grid
 /// lines. The supports of the unknowns are the cells of eight shifted grids with sides twice as
-/// long.
+/// long. Copies of triangles are connected where a cell meets their sides; elsewhere each copy is a
+/// piece. Handles and holes smaller than a cell leave a piece whole.
 LevelCounts level_counts(const SurfaceSize& size, double cell, int depth, double fragments,
                          bool separate_sheets) {
     const double rim = size.rim / cell;
-    const double shadows = size.shadows / (cell * cell);
-    LevelCounts counts{size.characteristic + rim / 2 + shadows,
-                       8 * size.characteristic + 2 * rim + 2 * shadows};
+    const double shadows = size.shadows / size.copies / (cell * cell);
+    LevelCounts counts{std::max(0.0, size.characteristic + rim / 2) + shadows,
+                       std::max(0.0, 8 * size.characteristic + 2 * rim) + 2 * shadows};
+    const double others = 1 - 1 / size.copies;  // all copies but one
+    counts.elements += others * inner_fragments(size, cell);
+    counts.unknowns += others * 8 * inner_fragments(size, 2 * cell);
     counts.elements = std::clamp(counts.elements, 1.0, fragments);
     if (!separate_sheets) {
         counts.elements = std::min(counts.elements, std::ldexp(1.0, 3 * depth));
@@ -119,7 +154,7 @@ SurfaceSize size_of(const Domain& domain) {
     size.triangles = static_cast<double>(triangles);
     size.extents = extents_and_shadows[0];
     size.shadows = extents_and_shadows[1];
-    set_topology(domain.topology(), size);
+    set_topology(domain, size);
     return size;
 }
 

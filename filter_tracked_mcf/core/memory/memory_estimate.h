@@ -15,8 +15,11 @@ struct SurfaceSize {
     double extents = 0;    ///< total length of the sides of the triangles' bounding boxes
     double shadows = 0;    ///< total area of the triangles' projections along the three axes
     double rim = 0;        ///< total length of the sides of the boundary edges' bounding boxes
-    /// Euler characteristic, coincident vertices counting as one; at least 0. It is 2 for a closed
-    /// component without handles and 1 for a disk.
+    /// Mean number of copies of each triangle; at least 1. The copies have the same edges, so they
+    /// belong to the same elements.
+    double copies = 1;
+    /// Euler characteristic, coincident vertices and copies of triangles counting as one. It is 2
+    /// for a closed component and 1 for a disk, less 2 for each handle and 1 for each hole.
     double characteristic = 0;
 };
 

@@ -214,6 +214,10 @@ int main(int count, char** arguments) {
         {"bumpy sphere", [] { return shapes::bumpy_sphere(60); }},
         {"tube", [] { return shapes::tube(450, 150, 2); }},
         {"soup", [] { return shapes::soup(shapes::geodesic_sphere(60)); }},
+        {"fan", [] { return shapes::fan(5000); }},
+        {"needles", [] { return shapes::tube(4000, 1, 2); }},
+        {"copies", [] { return shapes::stack(shapes::geodesic_sphere(40), 10, 0); }},
+        {"stack", [] { return shapes::stack(shapes::square(9), 500, 1e-6); }},
         {"separate triangles", [] { return shapes::separate_triangles(20000); }},
         {"box, long triangles", [] {
              return shapes::box(40, {1, 0.02, 0.02});
