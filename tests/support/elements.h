@@ -2,6 +2,7 @@
 #pragma once
 
 #include "filter_tracked_mcf/core/elements/tracked_elements.h"
+#include "filter_tracked_mcf/core/memory/memory_check.h"
 #include "filter_tracked_mcf/core/octree/automatic_depth.h"
 
 namespace tracked_mcf {
@@ -24,9 +25,16 @@ inline TrackedElements build_tracked_elements(const TriangleMesh& mesh, const Gr
 }
 
 /// Returns the automatic depth of a whole mesh.
-inline int automatic_depth(const TriangleMesh& mesh) {
-    const std::int64_t vertices = count_vertices(topology_of(mesh));
-    return clip_at_automatic_depth(mesh, enclosing_grid(mesh, 0), vertices, [](int) {}).grid.depth;
+inline int automatic_depth(const TriangleMesh& mesh, bool separate_sheets = true) {
+    FlowParameters parameters;
+    parameters.separate_sheets = separate_sheets;
+    const Domain domain(mesh, BoundaryCondition::Free);
+    const Grid cube = enclosing_grid(mesh, 0);
+    const MemoryCheck memory(size_of(domain), cube, parameters, 0);
+    const auto unknowns = [&](int depth) { return memory.separate_unknowns(depth); };
+    return clip_at_automatic_depth(mesh, cube, count_vertices(domain.topology()), unknowns,
+                                   [](int) {})
+        .grid.depth;
 }
 
 }  // namespace tracked_mcf

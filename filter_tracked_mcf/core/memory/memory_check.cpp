@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "filter_tracked_mcf/core/memory/memory_check.h"
 
+#include <algorithm>
 #include <iomanip>
 #include <locale>
 #include <sstream>
@@ -32,6 +33,13 @@ bool MemoryCheck::fits(double bytes) const {
 
 double MemoryCheck::flow_bytes(int depth) const {
     return estimate_flow_bytes(size_, with_depth(cube_, depth), parameters_);
+}
+
+double MemoryCheck::separate_unknowns(int depth) const {
+    // A component has eight unknowns or more at any depth, a separate triangle for instance.
+    const double least = 8 * std::max(0.0, size_.characteristic);
+    if (!parameters_.separate_sheets || least > size_.vertices) return 0;
+    return expected_counts(size_, with_depth(cube_, depth), parameters_).unknowns - least;
 }
 
 void MemoryCheck::before_flow(int depth) const {

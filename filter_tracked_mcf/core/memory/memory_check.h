@@ -28,6 +28,11 @@ public:
     /// Returns the expected bytes of a flow at this depth.
     double flow_bytes(int depth) const;
 
+    /// Returns the expected number of the finest level's unknowns at this depth, without the eight
+    /// that each component has at any depth. Returns 0 if the parameters do not separate sheets, or
+    /// if these eight alone are more than the vertices.
+    double separate_unknowns(int depth) const;
+
 private:
     bool fits(double bytes) const;
     [[noreturn]] void refuse(int depth) const;

@@ -20,6 +20,10 @@ namespace {
 /// A surface of area A, in squared sides of a cell, has about 3 A unknowns.
 constexpr double kUnknownsPerArea = 3;
 
+/// Separate sheets have much more unknowns than their cells' corners if they are expected to have
+/// this many times as many. The expected number of an ordinary surface is a few per cent off.
+constexpr double kMuchMore = 1.5;
+
 /// Returns the depth at which a surface of this area is expected to have as many unknowns as
 /// vertices. The area says little about a surface much thinner than its box, so at least the area
 /// of a flat square is assumed.
@@ -55,8 +59,12 @@ std::int64_t count_corners(const std::vector<MortonCode>& cells) {
 class UnknownCounter {
 public:
     UnknownCounter(const TriangleMesh& mesh, const Grid& cube, int depth,
+                   const std::function<double(int)>& separate_unknowns,
                    const std::function<void(int)>& before_clipping)
-        : mesh_(mesh), cube_(cube), before_clipping_(before_clipping) {
+        : mesh_(mesh),
+          cube_(cube),
+          separate_unknowns_(separate_unknowns),
+          before_clipping_(before_clipping) {
         clip(depth);
     }
 
@@ -64,7 +72,11 @@ public:
     /// grid are ancestors of those of a finer one.
     std::int64_t unknowns_at(int depth) {
         if (depth > clipped_->grid.depth) clip(depth);
-        return count_corners(ancestors(cells_, clipped_->grid.depth - depth));
+        const std::int64_t corners = count_corners(ancestors(cells_, clipped_->grid.depth - depth));
+        const double separate = separate_unknowns_(depth);
+        return separate > kMuchMore * static_cast<double>(corners)
+                   ? static_cast<std::int64_t>(separate)
+                   : corners;
     }
 
     ClippedSurface take(int depth) && {
@@ -82,6 +94,7 @@ private:
 
     const TriangleMesh& mesh_;
     const Grid& cube_;
+    const std::function<double(int)>& separate_unknowns_;
     const std::function<void(int)>& before_clipping_;
     std::optional<ClippedSurface> clipped_;
     std::vector<MortonCode> cells_;
@@ -118,12 +131,14 @@ int choose_depth(UnknownCounter& counter, int first_depth, std::int64_t vertices
 
 ClippedSurface clip_at_automatic_depth(const TriangleMesh& mesh, const Grid& cube,
                                        std::int64_t vertices,
+                                       const std::function<double(int)>& separate_unknowns,
                                        const std::function<void(int)>& before_clipping) {
     if (!has_area(mesh, cube)) return clip_to_grid(mesh, with_depth(cube, 1));
     // The search starts one depth below the expected one, but the mesh is clipped at the expected
     // one, since that is most often the result.
     const int expected = expected_depth(mesh, cube, vertices);
-    UnknownCounter counter(mesh, cube, std::clamp(expected, 1, kMaximumDepth), before_clipping);
+    UnknownCounter counter(mesh, cube, std::clamp(expected, 1, kMaximumDepth), separate_unknowns,
+                           before_clipping);
     const int depth = choose_depth(counter, std::clamp(expected - 1, 1, kMaximumDepth), vertices);
     enter_setup_phase(kClipTriangles);
     return std::move(counter).take(depth);

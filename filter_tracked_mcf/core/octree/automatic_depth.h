@@ -11,14 +11,16 @@
 namespace tracked_mcf {
 
 /// Clips the mesh to `cube` (a grid of depth 0) at the depth, 1 to kMaximumDepth, whose number of
-/// unknowns without separate sheets is nearest to `vertices`. The depth is 1 if all triangles are
-/// degenerate.
+/// unknowns is nearest to `vertices`. The depth is 1 if all triangles are degenerate.
 ///
-/// The unknowns are counted at the depths that can decide, assuming that each depth has at least
-/// twice as many as the one before. `before_clipping` is called with each depth about to be clipped
-/// at, and may throw. Throws what clip_to_grid throws.
+/// The unknowns without separate sheets are counted, at the depths that can decide, assuming that
+/// each depth has at least twice as many as the one before. `separate_unknowns` returns the
+/// expected number of unknowns with separate sheets at a depth, or 0 if they must not count.
+/// It replaces the count where it is much larger. `before_clipping` is called with each depth about
+/// to be clipped at, and may throw. Throws what clip_to_grid throws.
 ClippedSurface clip_at_automatic_depth(const TriangleMesh& mesh, const Grid& cube,
                                        std::int64_t vertices,
+                                       const std::function<double(int)>& separate_unknowns,
                                        const std::function<void(int)>& before_clipping);
 
 }  // namespace tracked_mcf

@@ -104,10 +104,11 @@ TEST(NotEnoughMemory, IsThrownBeforeTheAutomaticDepthClips) {
     const Grid cube = enclosing_grid(mesh, 0);
     std::vector<int> depths;
     const auto note = [&](int depth) { depths.push_back(depth); };
-    const int chosen = clip_at_automatic_depth(mesh, cube, 4002, note).grid.depth;
+    const auto not_separated = [](int) { return 0.0; };
+    const int chosen = clip_at_automatic_depth(mesh, cube, 4002, not_separated, note).grid.depth;
     EXPECT_THAT(depths, ::testing::Contains(chosen));
     const auto refuse = [](int) { throw NotEnoughMemory(""); };
-    EXPECT_THROW(clip_at_automatic_depth(mesh, cube, 4002, refuse), NotEnoughMemory);
+    EXPECT_THROW(clip_at_automatic_depth(mesh, cube, 4002, not_separated, refuse), NotEnoughMemory);
 }
 
 /// Writes files that stand for those of a system.

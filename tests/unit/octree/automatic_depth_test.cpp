@@ -20,6 +20,18 @@ TEST(AutomaticDepth, OfASoupIsThatOfItsMesh) {
     EXPECT_EQ(automatic_depth(shapes::soup(mesh)), automatic_depth(mesh));
 }
 
+TEST(AutomaticDepth, OfAStackIsThatOfItsSheet) {
+    const TriangleMesh sheet = shapes::square(9);
+    const TriangleMesh stack = shapes::stack(sheet, 50, 1e-6);
+    EXPECT_EQ(automatic_depth(stack), automatic_depth(sheet));
+    EXPECT_GT(automatic_depth(stack, false), automatic_depth(sheet));
+}
+
+TEST(AutomaticDepth, OfSeparateTrianglesDoesNotCountTheirSheets) {
+    const TriangleMesh triangles = shapes::separate_triangles(2000);
+    EXPECT_EQ(automatic_depth(triangles), automatic_depth(triangles, false));
+}
+
 TEST(AutomaticDepth, EndsForNeedlesAndIsOneForDegenerateTriangles) {
     TriangleMesh needles;
     TriangleMesh lines;
