@@ -20,7 +20,7 @@ namespace {
 /// A surface of area A, in squared sides of a cell, has about 3 A unknowns.
 constexpr double kUnknownsPerArea = 3;
 
-/// Separate sheets have much more unknowns than their cells' corners if they are expected to have
+/// Separate sheets have many more unknowns than their cells' corners if they are expected to have
 /// this many times as many. The expected number of an ordinary surface is a few per cent off.
 constexpr double kMuchMore = 1.5;
 
