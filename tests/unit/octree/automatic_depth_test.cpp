@@ -28,7 +28,7 @@ TEST(AutomaticDepth, OfAStackIsThatOfItsSheet) {
 }
 
 TEST(AutomaticDepth, OfSeparateTrianglesDoesNotCountTheirSheets) {
-    const TriangleMesh triangles = shapes::separate_triangles(2000);
+    const TriangleMesh triangles = shapes::separate_triangles(5000);
     EXPECT_EQ(automatic_depth(triangles), automatic_depth(triangles, false));
 }
 
