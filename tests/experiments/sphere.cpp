@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+#include <memory>
 #include <string>
-#include <vector>
 
-#include "filter_tracked_mcf/core/evolve.h"
 #include "tests/experiments/csv.h"
 #include "tests/experiments/experiments.h"
+#include "tests/experiments/method.h"
 #include "tests/experiments/options.h"
-#include "tests/experiments/reference.h"
 #include "tests/support/shapes.h"
 
 namespace tracked_mcf::experiments {
@@ -15,56 +16,51 @@ namespace {
 
 struct SphereOptions : Options {
     int frequency = 128;
-    bool cotangent = false;
+    std::string method = "tracked";
 };
-
-/// r(t + δ) = r³ / (r² + 2δ)
-double exact_radius(const SphereOptions& options) {
-    double r = 1;
-    for (int step = 0; step < options.last_step(); ++step)
-        r = r * r * r / (r * r + 2 * options.step_size());
-    return r;
-}
 
 struct RadiusError {
     double mean = 0;   ///< of the mean radius, signed
+    double rms = 0;    ///< over the vertices
     double worst = 0;  ///< of a vertex
 };
 
-RadiusError radius_error(const TriangleMesh& mesh, const SphereOptions& options) {
-    const double exact = exact_radius(options);
+RadiusError radius_error(const TriangleMesh& mesh, double radius) {
+    const auto count = static_cast<double>(mesh.positions.size());
     RadiusError error;
+    double squares = 0;
     for (const Eigen::Vector3d& position : mesh.positions) {
-        const double difference = position.norm() - exact;
-        error.mean += difference / static_cast<double>(mesh.positions.size());
+        const double difference = position.norm() - radius;
+        error.mean += difference / count;
+        squares += difference * difference / count;
         error.worst = std::max(error.worst, std::abs(difference));
     }
+    error.rms = std::sqrt(squares);
     return error;
 }
 
-void measure(TriangleMesh mesh, const SphereOptions& options, int depth,
+void measure(const TriangleMesh& mesh, const SphereOptions& options, int depth,
              const std::string& configuration) {
     FlowParameters parameters = options.parameters(depth, configuration);
-    parameters.step_size /= 4;  // the longest side is 2
-    parameters.iterations = options.last_step();
-    const FlowReport report = evolve(mesh, parameters);
-    const RadiusError error = radius_error(mesh, options);
-    int iterations = 0;
-    for (const StepReport& step : report.steps) iterations += step.solver_iterations;
-    print_row(depth, configuration, report.cell_size, error.mean, error.worst, iterations);
-}
-
-/// Measures the error of the mesh alone, without a grid.
-void measure_cotangent_flow(const TriangleMesh& mesh, const SphereOptions& options) {
-    const auto references = cotangent_flow(mesh, options.step_size() / 4, options.steps);
-    const RadiusError error = radius_error(references.at(options.last_step()).mesh, options);
-    print_row(0, "cotangent", 0, error.mean, error.worst, 0);
+    parameters.absolute = true;
+    const std::unique_ptr<Method> method = make_method(options.method, mesh, parameters);
+    double radius = 1;
+    for (int step = 1; step <= options.last_step() && method->step(); ++step) {
+        radius = std::pow(radius, 3) / (radius * radius + 2 * options.step_size());
+        if (!options.measures_after(step)) continue;
+        TriangleMesh moved = mesh;
+        method->move(moved);
+        const RadiusError error = radius_error(moved, radius);
+        const MethodReport report = method->report();
+        print_row(depth, configuration, options.method, step, report.cell_size, error.mean,
+                  error.rms, error.worst, report.residual, report.iterations);
+    }
 }
 
 void run(const SphereOptions& options) {
-    print_row("depth", "configuration", "cell_size", "mean_error", "worst_vertex", "iterations");
+    print_row("depth", "configuration", "method", "steps", "cell_size", "mean_error", "rms",
+              "worst_vertex", "residual", "iterations");
     const TriangleMesh mesh = shapes::geodesic_sphere(options.frequency);
-    if (options.cotangent) return measure_cotangent_flow(mesh, options);
     options.for_each_case([&](int depth, const std::string& configuration) {
         measure(mesh, options, depth, configuration);
     });
@@ -75,11 +71,12 @@ void run(const SphereOptions& options) {
 void add_sphere(CLI::App& app) {
     const auto [command, options] = add_experiment(
         app, "sphere",
-        "Flows the unit sphere with absolute steps. Prints the signed error of the mean radius and "
-        "the largest error of a vertex, against the exact semi-implicit radius.",
+        "Flows the unit sphere with absolute steps. Prints errors of the radius against the exact "
+        "semi-implicit one, r(t + δ) = r³ / (r² + 2δ): of its mean (signed), RMS and largest of "
+        "the vertices.",
         run, with_defaults<SphereOptions>({100}, 1e-3));
     command->add_option("--frequency", options->frequency);
-    command->add_flag("--cotangent", options->cotangent, "measure the cotangent flow instead");
+    command->add_option("--method", options->method, "see method.h");
 }
 
 }  // namespace tracked_mcf::experiments

@@ -56,7 +56,8 @@ def print_table(experiment, lines):
 
 
 def print_mesh_error(experiment, frequency):
-    [row] = experiment.run("sphere", "--frequency", MESH_FREQUENCY, "--cotangent")
+    [row] = experiment.run("sphere", "--frequency", MESH_FREQUENCY, "--method",
+                           "cotangent")
     scale = (MESH_FREQUENCY / frequency) ** 2
     experiment.say(f"The mesh's own error, by the cotangent flow at frequency {MESH_FREQUENCY}, "
                    f"scaled to {frequency}: mean radius {row['mean_error'] * scale:.2g}, worst "

@@ -3,16 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <optional>
+#include <memory>
 #include <string>
 #include <vector>
 
-#include "filter_tracked_mcf/core/flow/flow.h"
-#include "filter_tracked_mcf/core/flow/preserving.h"
 #include "filter_tracked_mcf/core/mesh/measures.h"
 #include "filter_tracked_mcf/tool/mesh_file.h"
 #include "tests/experiments/csv.h"
 #include "tests/experiments/experiments.h"
+#include "tests/experiments/method.h"
 #include "tests/experiments/options.h"
 #include "tests/support/shapes.h"
 
@@ -21,6 +20,7 @@ namespace tracked_mcf::experiments {
 namespace {
 
 struct StageOptions : Options {
+    std::string method = "tracked";
     std::filesystem::path folder;
 };
 
@@ -91,31 +91,30 @@ private:
     }
 
     void flow(const FlowParameters& parameters, std::size_t index) {
-        const Domain domain(mesh_, parameters.boundary);
-        check_preservable(domain, parameters);
-        Flow flow(domain, parameters);
-        std::optional<Preserver> preserver;
-        if (parameters.preserve != Preserve::None) preserver.emplace(domain, parameters, flow);
+        const std::unique_ptr<Method> method = make_method(options_.method, mesh_, parameters);
+        int made = 0;
         bool goes_on = true;
         for (int step = 1; step <= options_.last_step(); ++step) {
-            goes_on = goes_on && flow.step() && (!preserver || preserver->restore(flow));
+            goes_on = goes_on && method->step();
+            if (goes_on) made = step;
             if (!options_.measures_after(step)) continue;
             TriangleMesh moved = mesh_;
-            flow.move_vertices(moved.positions);
-            print(options_.configurations[index], step, flow.report(), moved);
+            method->move(moved);
+            print(options_.configurations[index], step, made, method->report(), moved);
             save(moved, index, step);
         }
     }
 
-    void print(const std::string& configuration, int step, const FlowReport& report,
+    void print(const std::string& configuration, int step, int made, const MethodReport& report,
                const TriangleMesh& moved) const {
         const Roundness round = roundness(moved);
-        const StepReport last = report.steps.empty() ? StepReport() : report.steps.back();
-        print_row(report.depth, options_.step_size(), configuration, step,
-                  static_cast<int>(report.steps.size()), all_finite(moved) ? 1 : 0, round.by_area,
-                  round.by_vertex, round.worst, surface_area(moved) / surface_area(mesh_),
-                  static_cast<double>(last.collapsed_samples) / static_cast<double>(report.samples),
-                  last.solver_iterations, last.reached_tolerance ? 1 : 0);
+        print_row(report.depth, options_.step_size(), configuration, options_.method, step, made,
+                  all_finite(moved) ? 1 : 0, round.by_area, round.by_vertex, round.worst,
+                  surface_area(moved) / surface_area(mesh_),
+                  shapes::volume(moved) / shapes::volume(mesh_), report.collapsed,
+                  report.iterations, report.reached_tolerance ? 1 : 0, report.residual,
+                  report.unknowns, report.split_triangles, report.setup_seconds,
+                  report.assemble_seconds, report.solve_seconds);
     }
 
     void save(const TriangleMesh& moved, std::size_t index, int step) {
@@ -131,8 +130,10 @@ private:
 };
 
 void run(const StageOptions& options) {
-    print_row("depth", "step_size", "configuration", "steps", "steps_made", "finite", "by_area",
-              "by_vertex", "worst", "area", "collapsed", "iterations", "reached_tolerance");
+    print_row("depth", "step_size", "configuration", "method", "steps", "steps_made", "finite",
+              "by_area", "by_vertex", "worst", "area", "volume", "collapsed", "iterations",
+              "reached_tolerance", "residual", "unknowns", "split_triangles", "setup_seconds",
+              "assemble_seconds", "solve_seconds");
     Runner(options).run();
 }
 
@@ -141,12 +142,14 @@ void run(const StageOptions& options) {
 void add_stages(CLI::App& app) {
     const auto [command, options] = add_experiment(
         app, "stages",
-        "Prints stages of the flow of a file: the area relative to the start, and the surface's "
-        "difference from a sphere: the standard deviation of the radius about the surface's "
-        "centroid "
-        "relative to its mean, by area and by vertex, and the largest deviation. 'collapsed' is a "
-        "fraction of the samples. 'steps_made' is smaller than 'steps' if the flow stopped.",
+        "Prints stages of the flow of a file: the area and the enclosed volume relative to the "
+        "start, and the surface's difference from a sphere: the standard deviation of the radius "
+        "about the surface's centroid relative to its mean, by area and by vertex, and the "
+        "largest deviation. 'collapsed' is a fraction of the samples, the residual is that of the "
+        "last step, relative to its start; iterations and seconds are those of all steps. "
+        "'steps_made' is smaller than 'steps' if the flow stopped.",
         run, with_defaults<StageOptions>({1}, 1e-2));
+    command->add_option("--method", options->method, "see method.h");
     command->add_option(
         "--folder", options->folder,
         "write the surfaces there as INDEX_STEPS.ply, with the configuration's index");

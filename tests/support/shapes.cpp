@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/support/shapes.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
@@ -260,6 +261,27 @@ TriangleMesh stack(const TriangleMesh& sheet, int count, double distance) {
         mesh = merged(std::move(mesh), transformed(sheet, Eigen::Affine3d(shift)));
     }
     return mesh;
+}
+
+TriangleMesh split_in_four(const TriangleMesh& mesh) {
+    TriangleMesh split{mesh.positions, {}};
+    std::map<std::array<std::int32_t, 2>, std::int32_t> middles;
+    const auto middle = [&](std::int32_t a, std::int32_t b) {
+        const auto next = static_cast<std::int32_t>(split.positions.size());
+        const auto [entry, is_new] = middles.try_emplace({std::min(a, b), std::max(a, b)}, next);
+        if (is_new) {
+            split.positions.emplace_back((mesh.positions[a] + mesh.positions[b]) / 2);
+        }
+        return entry->second;
+    };
+    for (const auto& [a, b, c] : mesh.triangles) {
+        const std::int32_t ab = middle(a, b);
+        const std::int32_t bc = middle(b, c);
+        const std::int32_t ca = middle(c, a);
+        split.triangles.insert(split.triangles.end(),
+                               {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
+    }
+    return split;
 }
 
 TriangleMesh separate_triangles(int count) {

@@ -48,6 +48,9 @@ TriangleMesh fan(int triangles);
 /// Copies of a sheet at this distance from each other along z. They coincide if it is 0.
 TriangleMesh stack(const TriangleMesh& sheet, int count, double distance);
 
+/// Splits every triangle into four at the middles of its sides. New vertices follow the old ones.
+TriangleMesh split_in_four(const TriangleMesh& mesh);
+
 /// Small unconnected triangles at random positions in the unit cube.
 TriangleMesh separate_triangles(int count);
 

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tests/experiments/method.h"
+
+#include <optional>
+#include <stdexcept>
+
+#include "filter_tracked_mcf/core/cells/grid.h"
+#include "filter_tracked_mcf/core/flow/flow.h"
+#include "filter_tracked_mcf/core/flow/preserving.h"
+#include "filter_tracked_mcf/core/mesh/domain.h"
+#include "filter_tracked_mcf/core/parallel/stopwatch.h"
+#include "tests/support/cotangent_flow.h"
+#include "tests/support/shapes.h"
+
+namespace tracked_mcf::experiments {
+
+namespace {
+
+/// Returns δ for the mesh scaled so that the longest side of its bounding box is 1.
+double relative_step_size(const TriangleMesh& mesh, const FlowParameters& parameters) {
+    const double side = parameters.absolute ? longest_side(mesh) : 1;
+    return parameters.step_size / (side * side);
+}
+
+/// Takes the sizes and the last step of a flow.
+void add_step(const FlowReport& from, MethodReport& to) {
+    to.depth = from.depth;
+    to.cell_size = from.cell_size;
+    to.unknowns = from.unknowns;
+    to.split_triangles = from.split_triangles;
+    if (from.steps.empty()) return;
+    const StepReport& last = from.steps.back();
+    to.assemble_seconds += last.assemble_seconds;
+    to.solve_seconds += last.solve_seconds;
+    to.iterations += last.solver_iterations;
+    to.collapsed = static_cast<double>(last.collapsed_samples) / static_cast<double>(from.samples);
+    to.reached_tolerance = last.reached_tolerance;
+    to.residual = last.residual_before > 0 ? last.residual_after / last.residual_before : 0;
+}
+
+class Tracked : public Method {
+public:
+    Tracked(const TriangleMesh& mesh, const FlowParameters& parameters)
+        : domain_(mesh, parameters.boundary) {
+        check_preservable(domain_, parameters);
+        const Stopwatch stopwatch;
+        flow_.emplace(domain_, parameters);
+        if (parameters.preserve != Preserve::None) preserver_.emplace(domain_, parameters, *flow_);
+        report_.setup_seconds = stopwatch.seconds();
+    }
+
+    bool step() override {
+        if (!flow_->step() || (preserver_ && !preserver_->restore(*flow_))) return false;
+        add_step(flow_->report(), report_);
+        return true;
+    }
+
+    void move(TriangleMesh& mesh) const override { flow_->move_vertices(mesh.positions); }
+    MethodReport report() const override { return report_; }
+
+private:
+    Domain domain_;
+    std::optional<Flow> flow_;
+    std::optional<Preserver> preserver_;
+    MethodReport report_;
+};
+
+class Rebuilt : public Method {
+public:
+    Rebuilt(const TriangleMesh& mesh, const FlowParameters& parameters)
+        : mesh_(mesh), parameters_(parameters), cube_(enclosing_grid(mesh, 0)) {
+        const double side = longest_side(mesh);
+        parameters_.step_size = relative_step_size(mesh, parameters) * side * side;
+        parameters_.absolute = true;
+        if (parameters.depth > 0) return;
+        parameters_.depth = Flow(mesh, parameters).report().depth;
+    }
+
+    bool step() override {
+        const Stopwatch stopwatch;
+        Flow flow(mesh_, parameters_, with_depth(cube_, parameters_.depth));
+        report_.setup_seconds += stopwatch.seconds();
+        if (!flow.step()) return false;
+        flow.move_vertices(mesh_.positions);
+        add_step(flow.report(), report_);
+        return true;
+    }
+
+    /// The vertices of a mesh that was split come first.
+    void move(TriangleMesh& mesh) const override {
+        for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+            mesh.positions[i] = mesh_.positions[i];
+        }
+    }
+    MethodReport report() const override { return report_; }
+
+private:
+    TriangleMesh mesh_;
+    FlowParameters parameters_;
+    Grid cube_;
+    MethodReport report_;
+};
+
+class Cotangent : public Method {
+public:
+    Cotangent(const TriangleMesh& mesh, const FlowParameters& parameters)
+        : flow_(mesh, relative_step_size(mesh, parameters), parameters.boundary) {
+        report_.unknowns = static_cast<std::int64_t>(mesh.positions.size());
+    }
+
+    bool step() override {
+        const Stopwatch stopwatch;
+        flow_.step();
+        report_.solve_seconds += stopwatch.seconds();
+        report_.residual = flow_.relative_residual();
+        return true;
+    }
+
+    void move(TriangleMesh& mesh) const override { mesh.positions = flow_.mesh().positions; }
+    MethodReport report() const override { return report_; }
+
+private:
+    CotangentFlow flow_;
+    MethodReport report_;
+};
+
+}  // namespace
+
+std::unique_ptr<Method> make_method(const std::string& name, const TriangleMesh& mesh,
+                                    const FlowParameters& parameters) {
+    if (name == "tracked") return std::make_unique<Tracked>(mesh, parameters);
+    if (name == "rebuilt") return std::make_unique<Rebuilt>(mesh, parameters);
+    if (name == "rebuilt-split") {
+        return std::make_unique<Rebuilt>(shapes::split_in_four(mesh), parameters);
+    }
+    if (name == "cotangent") return std::make_unique<Cotangent>(mesh, parameters);
+    throw std::invalid_argument("there is no method '" + name + "'");
+}
+
+}  // namespace tracked_mcf::experiments
