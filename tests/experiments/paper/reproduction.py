@@ -1,0 +1,92 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Common code of the scripts that reproduce the paper's figures: flows, distances and pictures."""
+
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parent))
+
+from experiment import CONVERGED, PAPER, Experiment, skip  # noqa: E402
+
+METHODS = ["tracked", "rebuilt", "rebuilt-split", "cotangent"]
+
+
+class Reproduction(Experiment):
+    """One figure. Its files are figure_N*.png and figure_N*.csv in the output folder."""
+
+    def __init__(self, name, description, add_options=lambda parser: None):
+        super().__init__(name, description, add_options)
+        self.surfaces = self.options.build / "experiments" / "surfaces"
+
+    def flow(self, scan, step_size, steps, method="tracked", configuration=CONVERGED, depth=0,
+             boundary="free"):
+        """Flows a scan and writes its surface after each number of steps. Returns the driver's rows,
+        each with the surface's path as `surface`."""
+        words = f"{configuration},{boundary}"
+        folder = self.surfaces / "_".join([pathlib.Path(scan).stem, method, f"{step_size:g}",
+                                           str(depth), re.sub(r"\W", "_", words)])
+        rows = self.run("stages", scan, "--depth", depth, "--step-size", step_size, "--steps",
+                        *steps, "--configurations", words, "--method", method, "--folder", folder,
+                        mesh=pathlib.Path(scan).stem)
+        return [{**row, "surface": folder / f"0_{row['steps']}.ply"} for row in rows]
+
+    def distance(self, surface, reference):
+        """Returns the distances between two surfaces as MeshLab's filter "Hausdorff Distance" measures
+        them, from both to the other: the greater RMS, and the greater maximum, in diagonals of the
+        reference's bounding box."""
+        with tempfile.TemporaryDirectory() as folder:
+            script, log = pathlib.Path(folder, "distance.mlx"), pathlib.Path(folder, "log.txt")
+            script.write_text(distance_script(), encoding="utf-8")
+            subprocess.run(["xvfb-run", "--auto-servernum", "meshlabserver", "-i", str(reference),
+                            "-i", str(surface), "-s", str(script), "-l", str(log)], check=True,
+                           stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            return read_distance(log.read_text(encoding="utf-8", errors="replace"))
+
+    def draw(self, suffix, surfaces, labels, *words):
+        """Draws surfaces side by side with render.py, which also takes `words`."""
+        picture = self.output / f"{self.name}{suffix}.png"
+        subprocess.run([sys.executable, str(HERE.parent / "render.py"), *map(str, surfaces),
+                        "--labels", *map(str, labels), "--output", str(picture),
+                        *map(str, words)], check=True)
+        self.say(f"\n![{self.name}{suffix}]({picture.name})")
+
+
+def distance_script():
+    """Enlarges both meshes, because the filter prints six decimals. Samples all vertices and half a
+    million points of each, and looks for the nearest point of the other."""
+    scale = ('<filter name="Transform: Scale, Normalize">'
+             + "".join(f'<Param type="RichFloat" name="axis{axis}" value="10000"/>' for axis in "XYZ")
+             + '<Param type="RichBool" name="uniformFlag" value="true"/>'
+             '<Param type="RichEnum" name="scaleCenter" value="0" enum_cardinality="3" '
+             'enum_val0="origin" enum_val1="barycenter" enum_val2="custom point"/>'
+             '<Param type="RichPoint3f" name="customCenter" x="0" y="0" z="0"/>'
+             '<Param type="RichBool" name="unitFlag" value="false"/>'
+             '<Param type="RichBool" name="Freeze" value="true"/>'
+             '<Param type="RichBool" name="allLayers" value="true"/></filter>')
+    flags = {"SaveSample": "false", "SampleVert": "true", "SampleEdge": "false",
+             "SampleFauxEdge": "false", "SampleFace": "true"}
+    measure = "".join(
+        f'<filter name="Hausdorff Distance">'
+        f'<Param type="RichMesh" name="SampledMesh" value="{sampled}"/>'
+        f'<Param type="RichMesh" name="TargetMesh" value="{1 - sampled}"/>'
+        + "".join(f'<Param type="RichBool" name="{name}" value="{value}"/>'
+                  for name, value in flags.items())
+        + '<Param type="RichInt" name="SampleNum" value="500000"/>'
+        '<Param type="RichAbsPerc" name="MaxDist" value="1e9" min="0" max="1e9"/></filter>'
+        for sampled in (1, 0))
+    return f"<!DOCTYPE FilterScript><FilterScript>{scale}{measure}</FilterScript>"
+
+
+def read_distance(log):
+    """The log repeats the first of the two results. The second one has the reference's diagonal."""
+    found = re.findall(r"max (\S+)\s+mean : \S+\s+RMS : (\S+)\nValues w.r.t. BBox Diag \((\S+)\)",
+                       log)
+    if len(found) < 2:
+        sys.exit(f"MeshLab measured no distances:\n{log}")
+    diagonal = float(found[-1][2])
+    return {"rms": max(float(rms) for _, rms, _ in found) / diagonal,
+            "max": max(float(worst) for worst, _, _ in found) / diagonal}
