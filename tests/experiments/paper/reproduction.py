@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Common code of the scripts that reproduce the paper's figures: flows, distances and pictures."""
 
+import atexit
+import os
 import pathlib
 import re
 import subprocess
@@ -20,6 +22,7 @@ class Reproduction(Experiment):
 
     def __init__(self, name, description, add_options=lambda parser: None):
         super().__init__(name, description, add_options)
+        self._display = None
         self.surfaces = self.options.build / "experiments" / "surfaces"
 
     def flow(self, scan, step_size, steps, method="tracked", configuration=CONVERGED, depth=0,
@@ -41,23 +44,33 @@ class Reproduction(Experiment):
         with tempfile.TemporaryDirectory() as folder:
             script, log = pathlib.Path(folder, "distance.mlx"), pathlib.Path(folder, "log.txt")
             script.write_text(distance_script(), encoding="utf-8")
-            subprocess.run(["xvfb-run", "--auto-servernum", "meshlabserver", "-i", str(reference),
-                            "-i", str(surface), "-s", str(script), "-l", str(log)], check=True,
+            subprocess.run(["meshlabserver", "-i", str(reference), "-i", str(surface), "-s",
+                            str(script), "-l", str(log)], check=True, env=self.on_display(),
                            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
             return read_distance(log.read_text(encoding="utf-8", errors="replace"))
+
+    def on_display(self):
+        """Returns the environment with a virtual display. Two xvfb-run at a time may choose the same
+        one; Xvfb itself does not."""
+        if not self._display:
+            server = subprocess.Popen(["Xvfb", "-displayfd", "1", "-screen", "0", "1280x1024x24"],
+                                      stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+            atexit.register(server.kill)
+            self._display = f":{server.stdout.readline().strip()}"
+        return {**os.environ, "DISPLAY": self._display, "TRACKED_MCF_ON_VIRTUAL_DISPLAY": "1"}
 
     def draw(self, suffix, surfaces, labels, *words):
         """Draws surfaces side by side with render.py, which also takes `words`."""
         picture = self.output / f"{self.name}{suffix}.png"
         subprocess.run([sys.executable, str(HERE.parent / "render.py"), *map(str, surfaces),
                         "--labels", *map(str, labels), "--output", str(picture),
-                        *map(str, words)], check=True)
+                        *map(str, words)], check=True, env=self.on_display())
         self.say(f"\n![{self.name}{suffix}]({picture.name})")
 
 
 def distance_script():
-    """Enlarges both meshes, because the filter prints six decimals. Samples all vertices and half a
-    million points of each, and looks for the nearest point of the other."""
+    """Enlarges both meshes, because the filter prints six decimals. Samples all vertices and
+    200,000 points of each, and looks for the nearest point of the other."""
     scale = ('<filter name="Transform: Scale, Normalize">'
              + "".join(f'<Param type="RichFloat" name="axis{axis}" value="10000"/>' for axis in "XYZ")
              + '<Param type="RichBool" name="uniformFlag" value="true"/>'
@@ -75,7 +88,7 @@ def distance_script():
         f'<Param type="RichMesh" name="TargetMesh" value="{1 - sampled}"/>'
         + "".join(f'<Param type="RichBool" name="{name}" value="{value}"/>'
                   for name, value in flags.items())
-        + '<Param type="RichInt" name="SampleNum" value="500000"/>'
+        + '<Param type="RichInt" name="SampleNum" value="200000"/>'
         '<Param type="RichAbsPerc" name="MaxDist" value="1e9" min="0" max="1e9"/></filter>'
         for sampled in (1, 0))
     return f"<!DOCTYPE FilterScript><FilterScript>{scale}{measure}</FilterScript>"
@@ -90,3 +103,10 @@ def read_distance(log):
     diagonal = float(found[-1][2])
     return {"rms": max(float(rms) for _, rms, _ in found) / diagonal,
             "max": max(float(worst) for worst, _, _ in found) / diagonal}
+
+
+def main_scan(figure):
+    """Returns the path of the scan of figures 5 to 7, in place of the paper's Bimba, and a depth with
+    about as many unknowns as the scan has vertices."""
+    [path] = figure.scans(["nefertiti_50k.ply"], ["nefertiti.off"])
+    return path, 7
