@@ -33,7 +33,13 @@ const std::map<std::string, Change> kWords = {
     {"preserve-volume", [](FlowParameters& p) { p.preserve = Preserve::Volume; }},
 };
 
+Cubature cubature_of(double points) {
+    if (points == 1) return Cubature::OnePoint;
+    return points == 3 ? Cubature::ThreePoints : Cubature::Degree6;
+}
+
 const std::map<std::string, ChangeTo> kWordsWithValue = {
+    {"cubature", [](FlowParameters& p, double value) { p.cubature = cubature_of(value); }},
     {"kappa", [](FlowParameters& p, double value) { p.stabilization = value; }},
     {"tolerance", [](FlowParameters& p, double value) { p.tolerance = value; }},
     {"order", [](FlowParameters& p, double value) { p.order = static_cast<int>(value); }},

@@ -16,6 +16,7 @@ namespace tracked_mcf::experiments {
 ///   tolerance=X    tolerance of the converged solver
 ///   cycles=N       W-cycles of the paper's solver
 ///   order=N        order of a step
+///   cubature=N     quadrature points of a split triangle: 1, 3 or 12
 ///   separate       separate sheets
 ///   glued          sheets in one cell share functions
 ///   free-pinches   pinched functions are not constrained

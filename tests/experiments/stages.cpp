@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "filter_tracked_mcf/core/memory/process_memory.h"
 #include "filter_tracked_mcf/core/mesh/measures.h"
 #include "filter_tracked_mcf/tool/mesh_file.h"
 #include "tests/experiments/csv.h"
@@ -82,15 +83,15 @@ public:
         : options_(options), file_(options.mesh), mesh_(file_.triangle_mesh()) {}
 
     void run() {
-        for (std::size_t i = 0; i < options_.configurations.size(); ++i) run_configuration(i);
+        int index = 0;
+        options_.for_each_case([&](int depth, const std::string& configuration) {
+            flow(configuration, options_.parameters(depth, configuration), index++);
+        });
     }
 
 private:
-    void run_configuration(std::size_t index) {
-        flow(options_.parameters(options_.depths.front(), options_.configurations[index]), index);
-    }
-
-    void flow(const FlowParameters& parameters, std::size_t index) {
+    void flow(const std::string& configuration, const FlowParameters& parameters, int index) {
+        const std::int64_t resident = resident_memory_bytes();
         const std::unique_ptr<Method> method = make_method(options_.method, mesh_, parameters);
         int made = 0;
         bool goes_on = true;
@@ -100,24 +101,25 @@ private:
             if (!options_.measures_after(step)) continue;
             TriangleMesh moved = mesh_;
             method->move(moved);
-            print(options_.configurations[index], step, made, method->report(), moved);
+            print(configuration, step, made, method->report(), peak_memory_bytes() - resident,
+                  moved);
             save(moved, index, step);
         }
     }
 
     void print(const std::string& configuration, int step, int made, const MethodReport& report,
-               const TriangleMesh& moved) const {
+               std::int64_t memory, const TriangleMesh& moved) const {
         const Roundness round = roundness(moved);
         print_row(report.depth, options_.step_size(), configuration, options_.method, step, made,
                   all_finite(moved) ? 1 : 0, round.by_area, round.by_vertex, round.worst,
                   surface_area(moved) / surface_area(mesh_),
                   shapes::volume(moved) / shapes::volume(mesh_), report.collapsed,
                   report.iterations, report.reached_tolerance ? 1 : 0, report.residual,
-                  report.unknowns, report.split_triangles, report.setup_seconds,
-                  report.assemble_seconds, report.solve_seconds);
+                  report.unknowns, mesh_.positions.size(), report.split_triangles,
+                  report.setup_seconds, report.assemble_seconds, report.solve_seconds, memory);
     }
 
-    void save(const TriangleMesh& moved, std::size_t index, int step) {
+    void save(const TriangleMesh& moved, int index, int step) {
         if (options_.folder.empty()) return;
         std::filesystem::create_directories(options_.folder);
         const std::string name = std::to_string(index) + "_" + std::to_string(step) + ".ply";
@@ -132,8 +134,8 @@ private:
 void run(const StageOptions& options) {
     print_row("depth", "step_size", "configuration", "method", "steps", "steps_made", "finite",
               "by_area", "by_vertex", "worst", "area", "volume", "collapsed", "iterations",
-              "reached_tolerance", "residual", "unknowns", "split_triangles", "setup_seconds",
-              "assemble_seconds", "solve_seconds");
+              "reached_tolerance", "residual", "unknowns", "vertices", "split_triangles",
+              "setup_seconds", "assemble_seconds", "solve_seconds", "memory_bytes");
     Runner(options).run();
 }
 
@@ -146,13 +148,14 @@ void add_stages(CLI::App& app) {
         "start, and the surface's difference from a sphere: the standard deviation of the radius "
         "about the surface's centroid relative to its mean, by area and by vertex, and the "
         "largest deviation. 'collapsed' is a fraction of the samples, the residual is that of the "
-        "last step, relative to its start; iterations and seconds are those of all steps. "
+        "last step, relative to its start; iterations and seconds are those of all steps; the "
+        "memory is the process's peak, less what it had before the set-up. "
         "'steps_made' is smaller than 'steps' if the flow stopped.",
         run, with_defaults<StageOptions>({1}, 1e-2));
     command->add_option("--method", options->method, "see method.h");
     command->add_option(
         "--folder", options->folder,
-        "write the surfaces there as INDEX_STEPS.ply, with the configuration's index");
+        "write the surfaces there as INDEX_STEPS.ply, with the index of depth and configuration");
 }
 
 }  // namespace tracked_mcf::experiments

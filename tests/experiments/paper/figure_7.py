@@ -1,0 +1,91 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Figure 7: what the paper's W-cycles leave, over the octree's depth and their number.
+
+Left: the residual of a scan's step of 1e-5, relative to that before the solve. Right: the error of the
+sphere's radius, RMS, after a step of 1e-3. Both for the first step and after 50 steps. The paper's
+claims, of section 5.2: the residual falls with every cycle and does not rise with the depth; the error of
+a sphere on a coarse octree does not fall, since the functions limit it, not the solver.
+"""
+
+from reproduction import PAPER, Reproduction, main_scan
+
+CYCLES = [1, 2, 3, 4, 5]
+DEPTHS, SPHERE_DEPTHS = [5, 6, 7, 8], [4, 5, 6, 7]
+EARLY, LATE = 1, 50
+
+
+def configurations(cycles):
+    return [f"{PAPER},free,cycles={n}" for n in cycles]
+
+
+def measure(figure, depths, sphere_depths, steps, frequency):
+    scan, _ = main_scan(figure)
+    cycles = CYCLES[:3] if figure.options.quick else CYCLES
+    rows = figure.run("stages", scan, "--depths", *depths, "--step-size", 1e-5, "--steps", *steps,
+                      "--configurations", *configurations(cycles), mesh=scan.stem)
+    sphere = figure.run("sphere", "--frequency", frequency, "--depths", *sphere_depths,
+                        "--step-size", 1e-3, "--steps", *steps, "--configurations",
+                        *configurations(cycles), mesh="sphere")
+    return {"residual": rows, "rms": sphere}, cycles
+
+
+def lines(rows, step, quantity, cycles):
+    """Returns, by depth, the quantity for each number of cycles."""
+    of = {(row["depth"], row["configuration"]): row[quantity] for row in rows
+          if row["steps"] == step}
+    return {depth: [of[depth, name] for name in configurations(cycles)]
+            for depth in sorted({depth for depth, _ in of})}
+
+
+def plot(figure, measured, steps, cycles):
+    panels, axes = figure.figure(rows=len(steps), columns=2)
+    for row, step in zip(axes, steps):
+        for ax, (quantity, rows), title in zip(row, measured.items(), (
+                "residual of a scan's step", "error of the sphere's radius, RMS")):
+            for depth, values in lines(rows, step, quantity, cycles).items():
+                ax.semilogy(cycles, values, "o-", label=f"depth {depth}")
+            ax.set_title(f"{title} (step {step})", fontsize=9)
+            ax.set_xlabel("W-cycles")
+            ax.set_xticks(cycles)
+            ax.legend(fontsize=7)
+    figure.save(panels)
+
+
+def check(figure, measured, cycles):
+    for step in sorted({row["steps"] for row in measured["residual"]}):
+        residuals = lines(measured["residual"], step, "residual", cycles)
+        figure.check(f"step {step}: largest ratio of residuals, one cycle more over one less",
+                     max(after / before for values in residuals.values()
+                         for before, after in zip(values, values[1:])), at_most=1)
+        depths = sorted(residuals)
+        figure.check(f"step {step}: residual after one cycle, depth {depths[-1]} over {depths[0]}",
+                     residuals[depths[-1]][0] / residuals[depths[0]][0], at_most=2)
+    errors = lines(measured["rms"], EARLY, "rms", cycles)
+    coarsest, finest = min(errors), max(errors)
+    figure.check(f"sphere, depth {coarsest}: error after the last cycle over that after one",
+                 errors[coarsest][-1] / errors[coarsest][0], at_least=0.2)
+    figure.check("sphere: error at the greatest depth over that at the smallest, all cycles",
+                 errors[finest][-1] / errors[coarsest][-1], at_most=0.8)
+
+
+def main():
+    figure = Reproduction("figure_7", __doc__)
+    quick = figure.options.quick
+    steps = [EARLY] if quick else [EARLY, LATE]
+    measured, cycles = measure(figure, *(([5, 6], [4, 6], steps, 48) if quick
+                                         else (DEPTHS, SPHERE_DEPTHS, steps, 128)))
+    for quantity, rows in measured.items():
+        for step in steps:
+            figure.say(f"\n{rows[0]['mesh']}, step {step}: "
+                       f"{'residual' if quantity == 'residual' else 'error of the radius'}\n")
+            figure.table(["depth", *(f"{n} cycles" for n in cycles)],
+                         [[depth, *values] for depth, values
+                          in lines(rows, step, quantity, cycles).items()])
+    check(figure, measured, cycles)
+    plot(figure, measured, steps, cycles)
+    figure.finish()
+
+
+if __name__ == "__main__":
+    main()
