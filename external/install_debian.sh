@@ -25,6 +25,7 @@ packages_of() {
         tests) echo "$(packages_of plugin)" libgtest-dev libgmock-dev libboost-dev \
             xvfb xauth xdotool imagemagick python3 python3-matplotlib debootstrap ;;
         experiments) echo "$(packages_of program)" libgtest-dev libgmock-dev libboost-dev \
+            meshlab "$(libraries_recommended_by meshlab)" \
             python3-matplotlib python3-vtk9 python3-numpy xvfb xauth ;;
         benchmark) echo "$(packages_of program)" libgtest-dev libgmock-dev libboost-dev \
             libcgal-dev python3 ;;

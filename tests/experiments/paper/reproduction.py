@@ -22,6 +22,7 @@ class Reproduction(Experiment):
 
     def __init__(self, name, description, add_options=lambda parser: None):
         super().__init__(name, description, add_options)
+        self.say(description.strip().split("\n\n", 1)[1] + "\n")
         self._display = None
         self.surfaces = self.options.build / "experiments" / "surfaces"
 
@@ -108,5 +109,5 @@ def read_distance(log):
 def main_scan(figure):
     """Returns the path of the scan of figures 5 to 7, in place of the paper's Bimba, and a depth with
     about as many unknowns as the scan has vertices."""
-    [path] = figure.scans(["nefertiti_50k.ply"], ["nefertiti.off"])
-    return path, 7
+    [path] = figure.scans(["nefertiti_50k.ply"], ["mannequin-devil.off"])
+    return path, 7 if path.stem == "nefertiti_50k" else 6
