@@ -1,15 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/experiments/method.h"
 
+#include <numeric>
 #include <optional>
+#include <random>
 #include <stdexcept>
+#include <vector>
 
 #include "filter_tracked_mcf/core/cells/grid.h"
 #include "filter_tracked_mcf/core/flow/flow.h"
 #include "filter_tracked_mcf/core/flow/preserving.h"
 #include "filter_tracked_mcf/core/mesh/domain.h"
 #include "filter_tracked_mcf/core/parallel/stopwatch.h"
+#include "filter_tracked_mcf/core/solver/step_solver.h"
+#include "filter_tracked_mcf/core/system/element_matrices.h"
+#include "filter_tracked_mcf/core/system/stabilization.h"
 #include "tests/support/cotangent_flow.h"
+#include "tests/support/elements.h"
 #include "tests/support/shapes.h"
 
 namespace tracked_mcf::experiments {
@@ -101,6 +108,72 @@ private:
     MethodReport report_;
 };
 
+/// Replaces the samples of each element by `count` that are drawn with the probabilities of their
+/// weights. The others stay, with weight 0.
+void draw_samples(int count, TrackedElements& elements) {
+    std::mt19937 random(1);
+    for (std::size_t element = 0; element + 1 < elements.sample_begin.size(); ++element) {
+        const std::int64_t begin = elements.sample_begin[element];
+        const float* weights = elements.samples.weights() + begin;
+        const auto size = elements.sample_begin[element + 1] - begin;
+        const double area = std::accumulate(weights, weights + size, 0.0);
+        std::vector<int> drawn(static_cast<std::size_t>(size));
+        std::discrete_distribution<std::size_t> distribution(weights, weights + size);
+        for (int i = 0; i < count; ++i) ++drawn[distribution(random)];
+        for (std::int64_t i = 0; i < size; ++i) {
+            elements.samples.set(begin + i, elements.samples.local(begin + i),
+                                 area * drawn[static_cast<std::size_t>(i)] / count);
+        }
+    }
+}
+
+class MonteCarlo : public Method {
+public:
+    MonteCarlo(const TriangleMesh& mesh, const FlowParameters& parameters, int count)
+        : parameters_(parameters),
+          elements_(build_tracked_elements(Domain(mesh, BoundaryCondition::Free),
+                                           enclosing_grid(mesh, parameters.depth),
+                                           parameters.cubature, parameters.separate_sheets)),
+          stabilization_(elements_),
+          displacement_(Coefficients::Zero(elements_.finest().unknown_count(), 3)) {
+        draw_samples(count, elements_);
+        parameters_.boundary = BoundaryCondition::Free;
+        solver_ = make_step_solver(elements_, parameters_);
+        const double cells = longest_side(mesh) / elements_.grid.cell_size;
+        step_size_in_cells_ = relative_step_size(mesh, parameters) * cells * cells;
+    }
+
+    bool step() override {
+        assemble_elements(elements_, displacement_, {1, static_cast<float>(step_size_in_cells_)},
+                          systems_);
+        stabilization_.add(stabilization_of(parameters_), step_size_in_cells_, systems_.matrices);
+        solver_->take(systems_.matrices, systems_.area, step_size_in_cells_);
+        StepReport report;
+        solver_->solve(systems_.right_sides, parameters_.tolerance, solution_, report);
+        displacement_ += solution_.x;
+        return displacement_.allFinite();
+    }
+
+    void move(TriangleMesh& mesh) const override {
+        for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+            mesh.positions[i] += elements_.grid.cell_size *
+                                 evaluate_vertex(elements_, displacement_, elements_.vertices[i]);
+        }
+    }
+
+    MethodReport report() const override { return {}; }
+
+private:
+    FlowParameters parameters_;
+    TrackedElements elements_;
+    Stabilization stabilization_;
+    std::unique_ptr<StepSolver> solver_;
+    double step_size_in_cells_ = 0;
+    Coefficients displacement_;
+    ElementSystems systems_;
+    Solution solution_;
+};
+
 class Cotangent : public Method {
 public:
     Cotangent(const TriangleMesh& mesh, const FlowParameters& parameters)
@@ -132,6 +205,11 @@ std::unique_ptr<Method> make_method(const std::string& name, const TriangleMesh&
     if (name == "rebuilt") return std::make_unique<Rebuilt>(mesh, parameters);
     if (name == "rebuilt-split") {
         return std::make_unique<Rebuilt>(shapes::split_in_four(mesh), parameters);
+    }
+    const std::string monte_carlo = "monte-carlo-";
+    if (name.rfind(monte_carlo, 0) == 0) {
+        const int count = std::stoi(name.substr(monte_carlo.size()));
+        return std::make_unique<MonteCarlo>(mesh, parameters, count);
     }
     if (name == "cotangent") return std::make_unique<Cotangent>(mesh, parameters);
     throw std::invalid_argument("there is no method '" + name + "'");

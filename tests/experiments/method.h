@@ -42,6 +42,8 @@ public:
 ///   rebuilt        new elements from the present surface before each step (Chuang et al. 2009), on
 ///                  the octree's initial cube
 ///   rebuilt-split  the same, after every triangle was split into four
+///   monte-carlo-N  as tracked, with N samples of each element, drawn at random from all of them;
+///                  the boundary is free (section 5.5)
 ///   cotangent      linear elements on the triangles (Dziuk 1991), see CotangentFlow
 ///
 /// Throws std::invalid_argument for any other name.
