@@ -18,6 +18,9 @@ void add_accuracy(CLI::App& app);
 /// Compares the surface beside a locked boundary with the cotangent flow.
 void add_boundary(CLI::App& app);
 
+/// Writes the finest cells that a patch carries with it.
+void add_cells(CLI::App& app);
+
 /// Counts the solver's iterations in the first step.
 void add_iterations(CLI::App& app);
 

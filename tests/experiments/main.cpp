@@ -14,6 +14,7 @@ int main(int argc, char** argv) {
     add_accuracy(app);
     add_aligned(app);
     add_boundary(app);
+    add_cells(app);
     add_iterations(app);
     add_minimal(app);
     add_pieces(app);

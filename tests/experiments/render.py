@@ -17,6 +17,7 @@ ON_VIRTUAL_DISPLAY = "TRACKED_MCF_ON_VIRTUAL_DISPLAY"
 
 MATERIAL = (0.93, 0.89, 0.83)  # plaster, slightly warm
 INK = (0.2, 0.2, 0.2)
+EDGES = (0.1, 0.3, 0.65)  # blue
 OVERSAMPLING = 2  # drawn larger and averaged, for smooth outlines
 
 
@@ -34,12 +35,16 @@ def parse_arguments():
     parser.add_argument("--zoom", type=float, default=1, help="above 1: enlarge the middle")
     parser.add_argument("--center", nargs=2, type=float, default=(0, 0), metavar=("RIGHT", "UP"),
                         help="middle of the picture, in half widths and heights of the mesh")
+    parser.add_argument("--edges", nargs="+", default=[], metavar="MESH",
+                        help="for each surface, a mesh of which to draw the edges over it")
     parser.add_argument("--flat", action="store_true", help="flat shading")
     parser.add_argument("--colours", action="store_true", help="show the colours of PLY vertices")
     parser.add_argument("--height", type=int, default=900, help="height of the picture in pixels")
     arguments = parser.parse_args()
     if arguments.labels and len(arguments.labels) != len(arguments.meshes):
         parser.error("give one label for each mesh")
+    if arguments.edges and len(arguments.edges) != len(arguments.meshes):
+        parser.error("give one mesh of edges for each mesh")
     if not os.path.isdir(os.path.dirname(os.path.abspath(arguments.output))):
         parser.error(f"the folder of {arguments.output} does not exist")
     return arguments
@@ -123,6 +128,19 @@ def make_actor(surface, flat, colours):
     return actor
 
 
+def make_edges(surface):
+    mapper = vtkPolyDataMapper()
+    mapper.SetInputData(surface)
+    actor = vtkActor()
+    actor.SetMapper(mapper)
+    lines = actor.GetProperty()
+    lines.SetRepresentationToWireframe()
+    lines.LightingOff()
+    lines.SetColor(EDGES)
+    lines.SetLineWidth(OVERSAMPLING)
+    return actor
+
+
 def add_lights(renderer):
     """Adds a grazing key light from the upper left and two weak lights."""
     for position, intensity, color in [((-1.5, 1.5, 1.0), 0.88, (1.0, 0.98, 0.95)),
@@ -184,6 +202,8 @@ def make_renderer(surface, view, index, arguments):
     count = len(arguments.meshes)
     renderer.SetViewport(index / count, 0, (index + 1) / count, 1)
     renderer.AddActor(make_actor(surface, arguments.flat, arguments.colours))
+    if arguments.edges:
+        renderer.AddActor(make_edges(read_surface(arguments.edges[index])))
     renderer.AutomaticLightCreationOff()
     add_lights(renderer)
     view.apply(renderer.GetActiveCamera())
