@@ -76,6 +76,18 @@ bool all_finite(const TriangleMesh& mesh) {
                        [](const Eigen::Vector3d& position) { return position.allFinite(); });
 }
 
+/// Returns how far the surface is outside its initial bounding box, in diagonals of the box. A
+/// mean-curvature flow stays inside.
+double distance_outside(const TriangleMesh& initial, const TriangleMesh& moved) {
+    Eigen::AlignedBox3d box;
+    for (const Eigen::Vector3d& position : initial.positions) box.extend(position);
+    double distance = 0;
+    for (const Eigen::Vector3d& position : moved.positions) {
+        distance = std::max(distance, box.exteriorDistance(position));
+    }
+    return distance / box.diagonal().norm();
+}
+
 /// Runs all configurations on one mesh.
 class Runner {
 public:
@@ -113,10 +125,11 @@ private:
         print_row(report.depth, options_.step_size(), configuration, options_.method, step, made,
                   all_finite(moved) ? 1 : 0, round.by_area, round.by_vertex, round.worst,
                   surface_area(moved) / surface_area(mesh_),
-                  shapes::volume(moved) / shapes::volume(mesh_), report.collapsed,
-                  report.iterations, report.reached_tolerance ? 1 : 0, report.residual,
-                  report.unknowns, mesh_.positions.size(), report.split_triangles,
-                  report.setup_seconds, report.assemble_seconds, report.solve_seconds, memory);
+                  shapes::volume(moved) / shapes::volume(mesh_), distance_outside(mesh_, moved),
+                  report.collapsed, report.iterations, report.reached_tolerance ? 1 : 0,
+                  report.residual, report.unknowns, mesh_.positions.size(),
+                  report.split_triangles, report.setup_seconds, report.assemble_seconds,
+                  report.solve_seconds, memory);
     }
 
     void save(const TriangleMesh& moved, int index, int step) {
@@ -133,9 +146,10 @@ private:
 
 void run(const StageOptions& options) {
     print_row("depth", "step_size", "configuration", "method", "steps", "steps_made", "finite",
-              "by_area", "by_vertex", "worst", "area", "volume", "collapsed", "iterations",
-              "reached_tolerance", "residual", "unknowns", "vertices", "split_triangles",
-              "setup_seconds", "assemble_seconds", "solve_seconds", "memory_bytes");
+              "by_area", "by_vertex", "worst", "area", "volume", "outside", "collapsed",
+              "iterations", "reached_tolerance", "residual", "unknowns", "vertices",
+              "split_triangles", "setup_seconds", "assemble_seconds", "solve_seconds",
+              "memory_bytes");
     Runner(options).run();
 }
 
@@ -147,9 +161,10 @@ void add_stages(CLI::App& app) {
         "Prints stages of the flow of a file: the area and the enclosed volume relative to the "
         "start, and the surface's difference from a sphere: the standard deviation of the radius "
         "about the surface's centroid relative to its mean, by area and by vertex, and the "
-        "largest deviation. 'collapsed' is a fraction of the samples, the residual is that of the "
-        "last step, relative to its start; iterations and seconds are those of all steps; the "
-        "memory is the process's peak, less what it had before the set-up. "
+        "largest deviation. 'outside' is the distance outside the initial bounding box in its "
+        "diagonals, 'collapsed' is a fraction of the samples, the residual is that of the last "
+        "step, relative to its start; iterations and seconds are those of all steps; the memory "
+        "is the process's peak, less what it had before the set-up. "
         "'steps_made' is smaller than 'steps' if the flow stopped.",
         run, with_defaults<StageOptions>({1}, 1e-2));
     command->add_option("--method", options->method, "see method.h");
