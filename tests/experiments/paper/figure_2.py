@@ -97,11 +97,12 @@ class Stability:
         for solver in SOLVERS:
             surface = {row["steps"]: row["surface"] for row in rows[solver]}
             self.figure.draw(f"_{solver}", [scan] + [surface[n] for n in self.pictures[1:]],
-                             self.pictures, "--height", 380, *self.view)
+                             self.pictures, "--height", 310, *self.view)
 
 
 def main():
-    stability = Stability("figure_2", __doc__, 1e-5, [0, 5, 25, 50, 100, 200], 0.7)
+    stability = Stability("figure_2", __doc__, 1e-5, [0, 5, 25, 50, 100, 200], 0.7,
+                          ["--view", 0, 0, 1])
     [scan] = stability.figure.scans(["armadillo_50k.ply"], ["armadillo.off"])
     stability.run(scan)
 

@@ -38,13 +38,14 @@ class Reproduction(Experiment):
                         mesh=pathlib.Path(scan).stem)
         return [{**row, "surface": folder / f"0_{row['steps']}.ply"} for row in rows]
 
-    def distance(self, surface, reference):
+    def distance(self, surface, reference, samples=200000):
         """Returns the distances between two surfaces as MeshLab's filter "Hausdorff Distance" measures
         them, from both to the other: the greater RMS, and the greater maximum, in diagonals of the
-        reference's bounding box."""
+        reference's bounding box. The filter takes long where many triangles are in one place; fewer
+        `samples` help."""
         with tempfile.TemporaryDirectory() as folder:
             script, log = pathlib.Path(folder, "distance.mlx"), pathlib.Path(folder, "log.txt")
-            script.write_text(distance_script(), encoding="utf-8")
+            script.write_text(distance_script(samples), encoding="utf-8")
             subprocess.run(["meshlabserver", "-i", str(reference), "-i", str(surface), "-s",
                             str(script), "-l", str(log)], check=True, env=self.on_display(),
                            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
@@ -69,9 +70,9 @@ class Reproduction(Experiment):
         self.say(f"\n![{self.name}{suffix}]({picture.name})")
 
 
-def distance_script():
-    """Enlarges both meshes, because the filter prints six decimals. Samples all vertices and
-    200,000 points of each, and looks for the nearest point of the other."""
+def distance_script(samples):
+    """Enlarges both meshes, because the filter prints six decimals. Samples all vertices and `samples`
+    points of each, and looks for the nearest point of the other."""
     scale = ('<filter name="Transform: Scale, Normalize">'
              + "".join(f'<Param type="RichFloat" name="axis{axis}" value="10000"/>' for axis in "XYZ")
              + '<Param type="RichBool" name="uniformFlag" value="true"/>'
@@ -89,7 +90,7 @@ def distance_script():
         f'<Param type="RichMesh" name="TargetMesh" value="{1 - sampled}"/>'
         + "".join(f'<Param type="RichBool" name="{name}" value="{value}"/>'
                   for name, value in flags.items())
-        + '<Param type="RichInt" name="SampleNum" value="200000"/>'
+        + f'<Param type="RichInt" name="SampleNum" value="{samples}"/>'
         '<Param type="RichAbsPerc" name="MaxDist" value="1e9" min="0" max="1e9"/></filter>'
         for sampled in (1, 0))
     return f"<!DOCTYPE FilterScript><FilterScript>{scale}{measure}</FilterScript>"
