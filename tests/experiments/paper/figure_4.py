@@ -25,7 +25,8 @@ OURS = "separate, curve locked"
 STEP_SIZE, STEPS = 1e-5, [5, 10, 20, 40, 80]
 TURNS, HEIGHT = 3, 0.4  # the longest wall has length 1
 LARGEST_RATIO = 0.7
-VIEW = ["--view", -0.5, 0.7, -1, "--up", 0, 0, 1, "--height", 260]
+VIEW = ["--view", -0.5, 0.7, -1, "--up", 0, 0, 1, "--zoom", 4, "--center", 0.85, 0.25, "--height",
+        260]
 
 
 def add_options(parser):
@@ -58,10 +59,10 @@ def main():
     figure = Reproduction("figure_4", __doc__, add_options)
     options = figure.options
     quick = options.quick
-    gap, depth, steps = (0.05, 4, [8]) if quick else (options.gap, options.depth, STEPS)
+    gap, depth, steps = options.gap, options.depth, [8] if quick else STEPS
     step_size = STEP_SIZE * (10 if quick else 1)
     figure.surfaces.mkdir(parents=True, exist_ok=True)
-    scan = figure.surfaces / ("spiral_quick.ply" if quick else "spiral.ply")
+    scan = figure.surfaces / "spiral.ply"
     write_ply(scan, *spiral(gap, gap / 2))
     reference = figure.flow(scan, step_size, steps, "cotangent", boundary="locked")
     flows = {name: figure.flow(scan, step_size, steps, configuration=solver, boundary=boundary,
@@ -84,10 +85,11 @@ def main():
             figure.check(f"RMS distance of '{OURS}', relative to '{name}'",
                          ends[OURS]["rms"] / row["rms"], at_most=LARGEST_RATIO)
     if not quick:
-        for suffix, rows in (("_paper", list(flows.values())[0]), ("_ours", flows[OURS]),
-                             ("_cotangent", reference)):
+        for suffix, rows in (("_paper", list(flows.values())[0]), ("_ours", flows[OURS])):
             figure.draw(suffix, [scan] + [row["surface"] for row in rows],
                         [0] + [row["steps"] for row in rows], *VIEW)
+        figure.draw("", [row["surface"] for row in ends.values()] + [reference[-1]["surface"]],
+                    [*ends, "cotangent"], *VIEW)
     figure.finish()
 
 
