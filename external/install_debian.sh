@@ -8,7 +8,7 @@
 #   demo         running the plugin without a screen and drawing pictures of surfaces
 #   tests        building and running all tests
 #   experiments  building and running tests/experiments
-#   benchmark    building and running tests/benchmark, CGAL included
+#   benchmark    building and running tests/benchmark, CGAL and hypre included
 #   pymeshlab    external/pymeshlab.sh
 #   checks       formatting, static analysis, sanitizers and coverage
 #
@@ -28,7 +28,7 @@ packages_of() {
             meshlab "$(libraries_recommended_by meshlab)" \
             python3-matplotlib python3-vtk9 python3-numpy xvfb xauth ;;
         benchmark) echo "$(packages_of program)" libgtest-dev libgmock-dev libboost-dev \
-            libcgal-dev python3 ;;
+            libcgal-dev libhypre-dev python3 ;;
         pymeshlab) echo python3-venv python3-numpy python3-matplotlib ;;
         checks) echo clang clang-format clang-tidy-22 libclang-rt-dev libomp-dev llvm git ;;
         *) echo "install_debian.sh: unknown task '$1'" >&2 && return 1 ;;

@@ -14,6 +14,7 @@ int main(int argc, char** argv) {
     add_flow(app);
     add_rebuilt(app);
     add_baseline(app);
+    add_multigrid(app);
     add_cgal(app);
     add_triad(app);
     try {

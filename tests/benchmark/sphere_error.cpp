@@ -17,13 +17,17 @@ void print_sphere_error(const std::string& name, const std::vector<Eigen::Vector
         exact = exact * exact * exact / (exact * exact + 2 * step_size);
     }
     double mean = 0;
+    double squares = 0;
     double worst = 0;
     for (const Eigen::Vector3d& position : positions) {
         const double error = position.norm() - exact;
         mean += error / static_cast<double>(positions.size());
+        squares += error * error;
         worst = std::max(worst, std::abs(error));
     }
     print_quantity("mean_radius_error", steps, mean);
+    print_quantity("rms_radius_error", steps,
+                   std::sqrt(squares / static_cast<double>(positions.size())));
     print_quantity("worst_radius_error", steps, worst);
 }
 

@@ -19,6 +19,10 @@ void add_rebuilt(CLI::App& app);
 /// Measures the cotangent flow with conjugate gradients and an incomplete factorisation.
 void add_baseline(CLI::App& app);
 
+/// Measures the cotangent flow with conjugate gradients and hypre's algebraic multigrid. Adds
+/// nothing if hypre is not enabled.
+void add_multigrid(CLI::App& app);
+
 /// Measures CGAL's smooth_shape. Adds nothing if CGAL is not enabled.
 void add_cgal(CLI::App& app);
 
