@@ -12,7 +12,8 @@ import tempfile
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
 
-from experiment import CONVERGED, PAPER, Experiment, skip  # noqa: E402
+from experiment import (CONVERGED, PAPER, Experiment, geometric_mean, kappa, label,  # noqa: E402
+                        skip)
 
 METHODS = ["tracked", "rebuilt", "rebuilt-split", "cotangent"]
 
