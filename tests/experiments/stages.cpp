@@ -9,6 +9,7 @@
 
 #include "filter_tracked_mcf/core/memory/process_memory.h"
 #include "filter_tracked_mcf/core/mesh/measures.h"
+#include "filter_tracked_mcf/core/mesh/mesh_topology.h"
 #include "filter_tracked_mcf/tool/mesh_file.h"
 #include "tests/experiments/csv.h"
 #include "tests/experiments/experiments.h"
@@ -76,23 +77,45 @@ bool all_finite(const TriangleMesh& mesh) {
                        [](const Eigen::Vector3d& position) { return position.allFinite(); });
 }
 
-/// Returns how far the surface is outside its initial bounding box, in diagonals of the box. A
-/// mean-curvature flow stays inside.
-double distance_outside(const TriangleMesh& initial, const TriangleMesh& moved) {
+Eigen::AlignedBox3d bounding_box(const TriangleMesh& mesh) {
     Eigen::AlignedBox3d box;
-    for (const Eigen::Vector3d& position : initial.positions) box.extend(position);
+    for (const Eigen::Vector3d& position : mesh.positions) box.extend(position);
+    return box;
+}
+
+/// Returns the bounding box of the boundary, empty for a closed mesh.
+Eigen::AlignedBox3d bounding_box_of_boundary(const TriangleMesh& mesh) {
+    const std::vector<std::uint8_t> sides = boundary_edges(topology_of(mesh));
+    Eigen::AlignedBox3d box;
+    for (std::size_t i = 0; i < sides.size(); ++i) {
+        for (int side = 0; side < 3; ++side) {
+            if (!has_bit(sides[i], side)) continue;
+            box.extend(mesh.positions[mesh.triangles[i][side]]);
+            box.extend(mesh.positions[mesh.triangles[i][(side + 1) % 3]]);
+        }
+    }
+    return box;
+}
+
+/// Returns the largest distance of a vertex from a box, 0 if the box is empty.
+double distance_outside(const Eigen::AlignedBox3d& box, const TriangleMesh& mesh) {
+    if (box.isEmpty()) return 0;
     double distance = 0;
-    for (const Eigen::Vector3d& position : moved.positions) {
+    for (const Eigen::Vector3d& position : mesh.positions) {
         distance = std::max(distance, box.exteriorDistance(position));
     }
-    return distance / box.diagonal().norm();
+    return distance;
 }
 
 /// Runs all configurations on one mesh.
 class Runner {
 public:
     explicit Runner(const StageOptions& options)
-        : options_(options), file_(options.mesh), mesh_(file_.triangle_mesh()) {}
+        : options_(options),
+          file_(options.mesh),
+          mesh_(file_.triangle_mesh()),
+          box_(bounding_box(mesh_)),
+          boundary_box_(bounding_box_of_boundary(mesh_)) {}
 
     void run() {
         int index = 0;
@@ -122,14 +145,16 @@ private:
     void print(const std::string& configuration, int step, int made, const MethodReport& report,
                std::int64_t memory, const TriangleMesh& moved) const {
         const Roundness round = roundness(moved);
+        const double diagonal = box_.diagonal().norm();
         print_row(report.depth, options_.step_size(), configuration, options_.method, step, made,
                   all_finite(moved) ? 1 : 0, round.by_area, round.by_vertex, round.worst,
                   surface_area(moved) / surface_area(mesh_),
-                  shapes::volume(moved) / shapes::volume(mesh_), distance_outside(mesh_, moved),
-                  report.collapsed, report.iterations, report.reached_tolerance ? 1 : 0,
-                  report.residual, report.unknowns, mesh_.positions.size(),
-                  report.split_triangles, report.setup_seconds, report.assemble_seconds,
-                  report.solve_seconds, memory);
+                  shapes::volume(moved) / shapes::volume(mesh_),
+                  distance_outside(box_, moved) / diagonal,
+                  distance_outside(boundary_box_, moved) / diagonal, report.collapsed,
+                  report.iterations, report.reached_tolerance ? 1 : 0, report.residual,
+                  report.unknowns, mesh_.positions.size(), report.split_triangles,
+                  report.setup_seconds, report.assemble_seconds, report.solve_seconds, memory);
     }
 
     void save(const TriangleMesh& moved, int index, int step) {
@@ -142,12 +167,13 @@ private:
     StageOptions options_;
     MeshFile file_;
     TriangleMesh mesh_;
+    Eigen::AlignedBox3d box_, boundary_box_;  ///< of the initial mesh, and of its boundary
 };
 
 void run(const StageOptions& options) {
     print_row("depth", "step_size", "configuration", "method", "steps", "steps_made", "finite",
-              "by_area", "by_vertex", "worst", "area", "volume", "outside", "collapsed",
-              "iterations", "reached_tolerance", "residual", "unknowns", "vertices",
+              "by_area", "by_vertex", "worst", "area", "volume", "outside", "beyond_boundary",
+              "collapsed", "iterations", "reached_tolerance", "residual", "unknowns", "vertices",
               "split_triangles", "setup_seconds", "assemble_seconds", "solve_seconds",
               "memory_bytes");
     Runner(options).run();
@@ -161,10 +187,12 @@ void add_stages(CLI::App& app) {
         "Prints stages of the flow of a file: the area and the enclosed volume relative to the "
         "start, and the surface's difference from a sphere: the standard deviation of the radius "
         "about the surface's centroid relative to its mean, by area and by vertex, and the "
-        "largest deviation. 'outside' is the distance outside the initial bounding box in its "
-        "diagonals, 'collapsed' is a fraction of the samples, the residual is that of the last "
-        "step, relative to its start; iterations and seconds are those of all steps; the memory "
-        "is the process's peak, less what it had before the set-up. "
+        "largest deviation. 'outside' is the largest distance of a vertex from the initial "
+        "bounding box, 'beyond_boundary' that from the bounding box of the boundary, 0 for a "
+        "closed mesh; both in diagonals of the initial box. 'collapsed' is a fraction of the "
+        "samples, the residual is that of the last step, relative to its start; iterations and "
+        "seconds are those of all steps; the memory is the process's peak, less what it had "
+        "before the set-up. "
         "'steps_made' is smaller than 'steps' if the flow stopped.",
         run, with_defaults<StageOptions>({1}, 1e-2));
     command->add_option("--method", options->method, "see method.h");

@@ -4,9 +4,9 @@
 
 The first picture shows the finest cells that a scan's leg carries with it, after several numbers of steps.
 The second one shows the cells of the fixed grid around the same part of the surface: an octree that is not
-tracked has to be built from them anew. Targets: all vertices stay in the bounding boxes of their tracked
-cells; the number of tracked cells stays the same; many vertices leave their initial cell of the grid, and
-some by a good part of its side.
+tracked has to be built from them anew. A check of the drawing: all vertices stay in the bounding boxes of their
+tracked cells. The claim: the surface leaves its initial cells, so that a tenth of the cells of a rebuilt octree
+are new.
 """
 
 from reproduction import Reproduction
@@ -16,8 +16,7 @@ STEP_SIZE = 5e-5
 LEG = [0, 0.12, 0, 0.4, 0.42, 1]  # in fractions of the bounding box
 VIEW = ["--view", -0.3, -0.2, 1, "--zoom", 2.4, "--center", 0.3, -0.45, "--height", 340]
 LARGEST_DISTANCE = 1e-6  # in sides of a cell
-SMALLEST_LEFT = 0.25
-SMALLEST_MOVE = 0.4
+SMALLEST_SHARE = 0.1  # of new cells
 
 
 def add_options(parser):
@@ -45,12 +44,8 @@ def main():
         f"{end['grid_cells']} cells, of which {end['fresh_grid_cells']} are new.\n")
     figure.check("distance of a vertex from its tracked cell's bounding box",
                  max(row["outside"] for row in rows), at_most=LARGEST_DISTANCE)
-    figure.check("change of the number of tracked cells",
-                 end["tracked_cells"] - rows[0]["tracked_cells"], at_most=0)
-    figure.check("share of vertices that left their initial cell", end["crossed"],
-                 at_least=SMALLEST_LEFT)
-    figure.check("distance of a vertex from its initial cell", end["outside_initial"],
-                 at_least=SMALLEST_MOVE)
+    figure.check("share of new cells in an octree built anew",
+                 end["fresh_grid_cells"] / end["grid_cells"], at_least=SMALLEST_SHARE)
     if not figure.options.quick:
         surfaces = [folder / f"surface_{steps}.ply" for steps in STEPS]
         for kind in ("tracked", "grid"):

@@ -4,8 +4,8 @@
 
 The paper shows Neptune after up to 80 steps of 5e-4: long steps reach the scan's skeleton quickly. Here a
 scan flows by the paper's solver (one W-cycle) and by the converged solver. Targets for both solvers: all
-steps are made; all positions are finite; the area never rises; the surface stays in its initial bounding
-box, but for the margin of core/flow/confinement.h; little of the area is left.
+steps are made; all positions are finite; the area rises in no step; the surface stays in its initial bounding
+box; little of the area is left.
 """
 
 from figure_2 import Stability
