@@ -10,6 +10,7 @@
 #   experiments  building and running tests/experiments
 #   benchmark    building and running tests/benchmark, CGAL and hypre included
 #   pymeshlab    external/pymeshlab.sh
+#   gravomg      external/gravomg.sh
 #   checks       formatting, static analysis, sanitizers and coverage
 #
 # Runs apt only if a package is missing, with sudo unless run as root.
@@ -30,6 +31,7 @@ packages_of() {
         benchmark) echo "$(packages_of program)" libgtest-dev libgmock-dev libboost-dev \
             libcgal-dev libhypre-dev python3 ;;
         pymeshlab) echo python3-venv python3-numpy python3-matplotlib ;;
+        gravomg) echo python3-venv ;;
         checks) echo clang clang-format clang-tidy-22 libclang-rt-dev libomp-dev llvm git ;;
         *) echo "install_debian.sh: unknown task '$1'" >&2 && return 1 ;;
     esac
