@@ -19,13 +19,15 @@ TRIAD = "triad"
 
 @dataclasses.dataclass(frozen=True)
 class Case:
-    """One configuration. `mesh` is its name in tables; `words` are the driver's arguments."""
+    """One configuration. `mesh` is its name in tables; `words` are the arguments of `program`, by default
+    the driver."""
     peer: str
     mesh: str = ""
     step_size: float = 0
     threads: int = 1
     words: tuple = ()
     environment: tuple = ()
+    program: str = ""
 
 
 class Measurements:
@@ -45,14 +47,15 @@ class Measurements:
             self._run_once(case, repetition)
 
     def _run_once(self, case, repetition):
-        driver = self._other_binary if case.peer == OTHER_BINARY else self._driver
+        default = self._other_binary if case.peer == OTHER_BINARY else self._driver
+        program = case.program or default
         words = [str(word) for word in case.words]
         print(f"... {' '.join(words)} {' '.join('='.join(e) for e in case.environment)}",
               file=sys.stderr, flush=True)
         # Otherwise, threads that wait at a barrier take processor time from other processes.
         self._add(case, repetition, "load_average", 0, os.getloadavg()[0])
         environment = {**os.environ, "OMP_WAIT_POLICY": "passive", **dict(case.environment)}
-        result = subprocess.run([driver, *words], env=environment, stdout=subprocess.PIPE,
+        result = subprocess.run([program, *words], env=environment, stdout=subprocess.PIPE,
                                 text=True, check=False)
         if result.returncode != 0:
             # Possibly out of memory, which is a result, too. The measurements so far count.
