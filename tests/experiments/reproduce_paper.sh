@@ -10,6 +10,8 @@ cd "$(dirname "$0")/../.."
 
 external/install_debian.sh experiments benchmark
 external/cgal_meshes.sh build/cgal-meshes
+external/gravomg.sh build/gravomg ||
+    echo "reproduce_paper.sh: Gravo MG could not be installed and is left out." >&2
 cmake -S . -B build -DTRACKED_MCF_PLUGIN=OFF -DTRACKED_MCF_BENCHMARK=ON
 cmake --build build -j "$(nproc)" --target tracked_mcf_experiments tracked_mcf_benchmark
 

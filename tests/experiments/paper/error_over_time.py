@@ -1,14 +1,16 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Error over processor time: ours, the cotangent flow by three solvers, and the paper's W-cycle.
+"""Error over processor time: ours, the cotangent flow by four solvers, and the paper's W-cycle.
 
 A sphere of radius 0.5 without noise flows one step and ten steps of two sizes. Drawn is the error of the
 vertices' radius against the exact semi-implicit one, RMS, over the processor seconds of set-up and steps
 together, with one thread. Ours runs at several depths, with the paper's single W-cycle and converged to
 two tolerances. The others flow the mesh itself: conjugate gradients with the incomplete Cholesky factors
-of tests/benchmark or with hypre's algebraic multigrid, to several tolerances, and CGAL's smooth_shape,
-which keeps the first stiffness and so makes only a single step. Further to the left and further
-down is better.
+of tests/benchmark or with hypre's algebraic multigrid, to several tolerances; Gravo MG's geometric
+multigrid on the mesh's own levels, to the same tolerances; and CGAL's smooth_shape, which keeps the first
+stiffness and so makes only a single step. The seconds of Gravo MG include its levels and its solves, but
+not the assembly, which NumPy does for it (gravo_mg.py); those of the others include the assembly. Further
+to the left and further down is better.
 """
 
 import statistics
@@ -23,8 +25,10 @@ from measurements import Case, Measurements  # noqa: E402
 
 W_CYCLE, OURS, TIGHT = "ours, one W-cycle", "ours, converged", "ours, to 1e-6"
 IC, AMG, CGAL = "cotangent, IC(0)-CG", "cotangent, AMG-CG", "cotangent, CGAL"
+GRAVO, GRAVO_SCRIPT = "cotangent, Gravo MG", str(HERE / "gravo_mg.py")
+PEERS = [IC, AMG, GRAVO, CGAL]
 SOLVERS = {W_CYCLE: "paper", OURS: "converged", TIGHT: "converged,tolerance=1e-6"}
-STYLES = {W_CYCLE: "s:", OURS: "o-", TIGHT: "^-", IC: "v-", AMG: "D-", CGAL: "*"}
+STYLES = {W_CYCLE: "s:", OURS: "o-", TIGHT: "^-", IC: "v-", AMG: "D-", GRAVO: "P-", CGAL: "*"}
 TOLERANCES = ["1e-2", "1e-4", "1e-6"]
 STEPS = [1, 10]
 STEP_SIZES = [5e-4, 5e-3]
@@ -37,8 +41,14 @@ def built_peers(driver):
     return [name for name in ("baseline", "multigrid", "cgal") if f"  {name} " in text]
 
 
+def has_gravo_mg(python):
+    return python.exists() and subprocess.run([python, "-c", "import gravomg"], check=False,
+                                              stderr=subprocess.DEVNULL).returncode == 0
+
+
 def cases_of(mesh, depths, step_sizes, peers):
-    """Returns the driver's arguments by (peer, setting, step size, steps)."""
+    """Returns the arguments of the driver, or of Python for Gravo MG, by (peer, setting, step size,
+    steps)."""
     cases = {}
     for step_size in step_sizes:
         for steps in STEPS:
@@ -47,7 +57,7 @@ def cases_of(mesh, depths, step_sizes, peers):
                 for depth in depths:
                     cases[solver, f"depth {depth}", step_size, steps] = (
                         "flow", mesh, *words, "--depth", depth, "--solver", configuration)
-            for peer, command in ((IC, "baseline"), (AMG, "multigrid")):
+            for peer, command in ((IC, "baseline"), (AMG, "multigrid"), (GRAVO, GRAVO_SCRIPT)):
                 for tolerance in TOLERANCES if command in peers else []:
                     cases[peer, tolerance, step_size, steps] = (
                         command, mesh, *words, "--tolerance", tolerance)
@@ -56,10 +66,12 @@ def cases_of(mesh, depths, step_sizes, peers):
     return cases
 
 
-def measure(driver, cases, repetitions):
-    """Returns a row for each case: medians over the repetitions."""
+def measure(driver, python, cases, repetitions):
+    """Returns a row for each case: medians over the repetitions. `python` runs Gravo MG."""
     measurements = Measurements(driver)
-    measurements.run([Case(str(key), words=words) for key, words in cases.items()], repetitions)
+    measurements.run([Case(str(key), words=words, program=python if key[0] == GRAVO else "",
+                           environment=(("OMP_NUM_THREADS", "1"),)) for key, words in cases.items()],
+                     repetitions)
     if measurements.failures:
         sys.exit("These runs failed:\n" + "\n".join(measurements.failures))
     rows = {}
@@ -131,7 +143,7 @@ def compare(figure, rows, step_sizes, depth, timed):
     for step_size in step_sizes:
         for steps in STEPS:
             panel = of_panel(rows, step_size, steps)
-            for peer in dict.fromkeys(row["peer"] for row in panel if row["peer"] in (IC, AMG, CGAL)):
+            for peer in dict.fromkeys(row["peer"] for row in panel if row["peer"] in PEERS):
                 for error in ERRORS:
                     say_beside(figure, panel, peer, error)
     figure.say()
@@ -140,6 +152,10 @@ def compare(figure, rows, step_sizes, depth, timed):
                        for solver in (W_CYCLE, OURS))
         figure.check(f"{title(step_size, STEPS[-1])}, depth {depth}: RMS, one W-cycle over converged",
                      cycle[ERRORS[0]] / ours[ERRORS[0]], at_least=3)
+        theirs, reference = ((peer, TOLERANCES[-1], step_size, STEPS[-1]) for peer in (GRAVO, IC))
+        if theirs in rows:
+            figure.check(f"{title(step_size, STEPS[-1])}: RMS to {TOLERANCES[-1]}, Gravo MG over IC(0)-CG",
+                         rows[theirs][ERRORS[0]] / rows[reference][ERRORS[0]], at_most=1.05)
         multigrid = (AMG, TOLERANCES[-1], step_size, STEPS[-1])
         if timed and multigrid in rows:
             figure.check(f"{title(step_size, STEPS[-1])}: seconds, AMG-CG to {TOLERANCES[-1]} over "
@@ -166,7 +182,12 @@ def main():
     peers = built_peers(driver)
     if len(peers) < 3:
         figure.say("CGAL and hypre are left out: built without TRACKED_MCF_BENCHMARK.\n")
-    rows = measure(driver, cases_of(f"sphere:{frequency}", depths, step_sizes, peers),
+    python = figure.options.build / "gravomg" / "bin" / "python"
+    if has_gravo_mg(python):
+        peers.append(GRAVO_SCRIPT)
+    else:
+        figure.say("Gravo MG is left out. `external/gravomg.sh build/gravomg` installs it.\n")
+    rows = measure(driver, python, cases_of(f"sphere:{frequency}", depths, step_sizes, peers),
                    1 if quick else 3)
     figure.record(rows.values())
     figure.say(f"Sphere of {10 * frequency**2 + 2} vertices\n")
