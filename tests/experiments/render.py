@@ -18,6 +18,7 @@ ON_VIRTUAL_DISPLAY = "TRACKED_MCF_ON_VIRTUAL_DISPLAY"
 MATERIAL = (0.93, 0.89, 0.83)  # plaster, slightly warm
 INK = (0.2, 0.2, 0.2)
 EDGES = (0.1, 0.3, 0.65)  # blue
+SMALLEST_TEXT = 12  # pixels
 OVERSAMPLING = 2  # drawn larger and averaged, for smooth outlines
 
 
@@ -191,6 +192,8 @@ def make_label(text, pixels):
     style.SetFontSize(pixels)
     style.SetFontFamilyToArial()
     style.SetColor(INK)
+    style.SetBackgroundColor(1, 1, 1)  # a zoomed surface may reach it
+    style.SetBackgroundOpacity(1)
     style.SetJustificationToCentered()
     style.SetVerticalJustificationToBottom()
     return label
@@ -213,7 +216,7 @@ def make_renderer(surface, view, index, arguments):
         camera.SetParallelScale(view.half_height * 1.08)
         camera.SetWindowCenter(0, -0.07)
         renderer.AddViewProp(make_label(arguments.labels[index],
-                                        arguments.height * OVERSAMPLING // 30))
+                                        max(arguments.height // 30, SMALLEST_TEXT) * OVERSAMPLING))
     renderer.ResetCameraClippingRange()
     return renderer
 

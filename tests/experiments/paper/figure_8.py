@@ -3,9 +3,10 @@
 """Figure 8: quadrature points of a split triangle.
 
 The unit sphere flows a hundred steps of 1e-3 at depth 8, as in the paper, with 1, 3 and 12 quadrature
-points (the paper: 1, 3 and 11): one W-cycle, and the converged solver, whose error does not hide that of
-the quadrature. The claim: three points give what the exact rule gives, and one point much less. Samples at
-random instead, a fixed number for each element, are far less accurate: section 5.5 reports the same.
+points (the paper: 1, 3 and 11): with one W-cycle (the paper: a V-cycle), and with the converged solver, whose
+error does not hide that of the quadrature. The claim: three points give what the exact rule gives, and one
+point much less. Samples at random instead, a fixed number for each element, are far less accurate: section
+5.5 reports the same.
 """
 
 from reproduction import CONVERGED, PAPER, Reproduction
@@ -38,7 +39,7 @@ def main():
            for count, of in drawn.items() for row in of[-1:]])
     for solver, name in SOLVERS.items():
         one, three, exact = (rows[solver, points][-1]["rms"] for points in POINTS)
-        if solver == CONVERGED or not quick:  # one W-cycle's short run missed it; not explained yet
+        if solver == CONVERGED or not quick:  # on coarse octrees, what one W-cycle leaves hides it
             figure.check(f"{name}: RMS with one point over that with 12", one / exact, at_least=2)
         figure.check(f"{name}: RMS with three points over that with 12", three / exact, at_most=1.1)
 
