@@ -106,7 +106,7 @@ class Experiment:
         self.say()
 
     def check(self, what, measured, at_most=None, at_least=None):
-        """Prints a measured value beside its target."""
+        """Prints a measured value beside its target. Returns whether it meets it."""
         if at_most is not None:
             passed, target = measured <= at_most, f"at most {three_digits(at_most)}"
         else:
@@ -114,6 +114,7 @@ class Experiment:
         self._missed += not passed
         self.say(f"- {'ok' if passed else '**missed**'}: {what}: {three_digits(measured)}, "
                  f"must be {target}")
+        return passed
 
     def figure(self, rows=1, columns=1, size=(5, 4)):
         """Returns a matplotlib figure and its axes, rows by columns of them."""

@@ -27,6 +27,8 @@ done
     echo
     echo "Written by [reproduce_paper.sh](../reproduce_paper.sh). Commit $(git rev-parse --short=12 HEAD)," \
         "$(date +%F), $(nproc) cores, $(sed -n 's/^model name\s*: //p' /proc/cpuinfo | head -n 1)."
+    printf '\n%s\n\n' "The paper's claims:"
+    sed -n '/^- \*\*\(holds\|does not hold\)\*\*/p' "$results"/{figure,table}*.md
     for page in "$results"/{figure,table,error,kappa}*.md; do
         printf '\n'
         sed 's/^# /## /' "$page"

@@ -41,8 +41,9 @@ class Stability:
         rows = {solver: figure.flow(scan, self.step_size, range(1, self.last + 1),
                                     configuration=solver, depth=depth) for solver in SOLVERS}
         self._tell(scan, rows)
-        for solver in SOLVERS:
-            self._check(solver, rows[solver])
+        stable = [self._check(solver, rows[solver]) for solver in SOLVERS]
+        figure.claim(f"the flow is stable over {self.last} steps of {self.step_size:g}",
+                     all(stable))
         if not self.is_quick:
             self._plot(rows)
             self._draw(scan, rows)
@@ -66,19 +67,21 @@ class Stability:
             + "\n")
 
     def _check(self, solver, rows):
+        """Returns whether the flow is stable."""
         name, end = SOLVERS[solver], rows[-1]
         areas = [1.0] + [row["area"] for row in rows]
         check = self.figure.check
-        check(f"{name}: steps made", end["steps_made"], at_least=self.last)
-        check(f"{name}: finite after every measured number of steps",
-              min(row["finite"] for row in rows), at_least=1)
-        check(f"{name}: greatest rise of the area in a step",
-              max(after - before for before, after in zip(areas, areas[1:])),
-              at_most=LARGEST_RISE)
-        check(f"{name}: distance outside the initial box, in its diagonals",
-              max(row["outside"] for row in rows), at_most=LARGEST_DISTANCE_OUTSIDE)
+        stable = [
+            check(f"{name}: steps made", end["steps_made"], at_least=self.last),
+            check(f"{name}: finite after every step", min(row["finite"] for row in rows), at_least=1),
+            check(f"{name}: greatest rise of the area in a step",
+                  max(after - before for before, after in zip(areas, areas[1:])),
+                  at_most=LARGEST_RISE),
+            check(f"{name}: distance outside the initial box, in its diagonals",
+                  max(row["outside"] for row in rows), at_most=LARGEST_DISTANCE_OUTSIDE)]
         if not self.is_quick:
             check(f"{name}: area at the end", end["area"], at_most=self.largest_area)
+        return all(stable)
 
     def _plot(self, rows):
         plot, axes = self.figure.figure(1, 2, (4.5, 3))

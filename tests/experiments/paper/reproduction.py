@@ -39,6 +39,10 @@ class Reproduction(Experiment):
                         mesh=pathlib.Path(scan).stem)
         return [{**row, "surface": folder / f"0_{row['steps']}.ply"} for row in rows]
 
+    def claim(self, words, holds):
+        """Says whether a claim of the paper holds. reproduce_paper.sh gathers these lines."""
+        self.say(f"- **{'holds' if holds else 'does not hold'}**: {words} ({self.name})")
+
     def distance(self, surface, reference, samples=200000):
         """Returns the distances between two surfaces as MeshLab's filter "Hausdorff Distance" measures
         them, from both to the other: the greater RMS, and the greater maximum, in diagonals of the
