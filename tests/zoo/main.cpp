@@ -10,6 +10,7 @@
 #include <iostream>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "tests/zoo/properties.h"
 #include "tests/zoo/zoo_case.h"
@@ -21,7 +22,8 @@ struct Options {
     std::uint64_t seed = 1;
     std::int64_t cases = 1000;
     double seconds = 0;
-    std::int64_t one_case = -1;
+    std::vector<std::int64_t> chosen;  ///< run only these cases
+    double tolerance = 0;              ///< solve to this tolerance; 0 leaves the case's solver
     std::string file;
 };
 
@@ -38,18 +40,16 @@ public:
 
     /// Runs all cases. Returns whether all properties held.
     bool run() {
-        if (options_.one_case >= 0) {
-            run_case(options_.one_case, true);
-        } else {
-            run_many();
-        }
+        for (const std::int64_t number : options_.chosen) run_case(number, true);
+        if (options_.chosen.empty()) run_many();
         print_table();
         return failures_ == 0;
     }
 
 private:
     void run_many();
-    void run_case(std::int64_t number, bool is_only);
+    Case make_case(std::int64_t number) const;
+    void run_case(std::int64_t number, bool is_chosen);
     void print_table() const;
 
     const Options& options_;
@@ -67,12 +67,21 @@ void Zoo::run_many() {
     for (std::int64_t done = 0; runs_on(done); ++done) run_case(done, false);
 }
 
-void Zoo::run_case(std::int64_t number, bool is_only) {
-    const Case made = case_of(options_.seed, number);
+Case Zoo::make_case(std::int64_t number) const {
+    Case made = case_of(options_.seed, number);
+    if (options_.tolerance > 0) {
+        made.parameters.solver = Solver::Converged;
+        made.parameters.tolerance = options_.tolerance;
+    }
+    return made;
+}
+
+void Zoo::run_case(std::int64_t number, bool is_chosen) {
+    const Case made = make_case(number);
     if (!options_.file.empty()) write_ply(made, options_.file);
     // The additional runs of every fourth case take as long as all other runs.
     Random random(options_.seed, ~static_cast<std::uint64_t>(number));
-    const bool all_properties = is_only || number % 4 == 0;
+    const bool all_properties = is_chosen || number % 4 == 0;
     const Outcome outcome = check(made, all_properties, random);
     Counts& counts = counts_[made.kind];
     ++counts.cases;
@@ -86,8 +95,8 @@ void Zoo::run_case(std::int64_t number, bool is_only) {
                   << '\n'
                   << std::flush;
     }
-    if (is_only && !outcome.refusal.empty()) std::cout << "refused: " << outcome.refusal << '\n';
-    if (is_only) std::cout << options_of(made) << '\n';
+    if (is_chosen && !outcome.refusal.empty()) std::cout << "refused: " << outcome.refusal << '\n';
+    if (is_chosen) std::cout << options_of(made) << '\n';
 }
 
 void Zoo::print_table() const {
@@ -122,7 +131,10 @@ int main(int argc, char** argv) {
     app.add_option("--seed", options.seed, "Seed of the cases")->capture_default_str();
     app.add_option("--cases", options.cases, "Number of cases")->capture_default_str();
     app.add_option("--seconds", options.seconds, "Run for this time instead");
-    app.add_option("--case", options.one_case, "Run only this case, and check all properties");
+    app.add_option("--case", options.chosen, "Run only these cases, and check all properties");
+    app.add_option(
+        "--tolerance", options.tolerance,
+        "Solve every case to this tolerance: tells what the solver leaves from the rest");
     app.add_option("--write", options.file, "With --case: write its mesh to this PLY file")
         ->needs("--case");
     try {
