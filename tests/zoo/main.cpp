@@ -134,7 +134,7 @@ int main(int argc, char** argv) {
     app.add_option("--case", options.chosen, "Run only these cases, and check all properties");
     app.add_option(
         "--tolerance", options.tolerance,
-        "Solve every case to this tolerance: tells what the solver leaves from the rest");
+        "Solve every case to this tolerance, which tells the solver's error from others");
     app.add_option("--write", options.file, "With --case: write its mesh to this PLY file")
         ->needs("--case");
     try {
