@@ -13,6 +13,7 @@ import sys
 
 MESHES = ["bumpy_bowl", "mannequin-devil", "armadillo"]
 WAYS = {"matches_tool": "meshlabserver", "without_a_display": "plugin, without a display",
+        "in_meshlabs_tree": "plugin built in MeshLab's tree",
         "pymeshlab": "Python"}
 DIFFERENCE = re.compile(r"largest difference (\S+) of the largest coordinate")
 

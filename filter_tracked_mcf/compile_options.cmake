@@ -5,7 +5,7 @@
 add_library(tracked_mcf_options INTERFACE)
 add_library(tracked_mcf::options ALIAS tracked_mcf_options)
 target_compile_features(tracked_mcf_options INTERFACE cxx_std_17)
-target_include_directories(tracked_mcf_options INTERFACE ${PROJECT_SOURCE_DIR})
+target_include_directories(tracked_mcf_options INTERFACE ${TRACKED_MCF_INCLUDE_DIR})
 target_compile_options(
   tracked_mcf_options
   INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wnon-virtual-dtor -Wold-style-cast
