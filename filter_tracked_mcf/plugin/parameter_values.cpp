@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "filter_tracked_mcf/plugin/parameter_values.h"
 
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <limits>
+#include <locale>
+#include <sstream>
 
 #include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/parameters/parameter_table.h"
@@ -12,6 +12,17 @@
 namespace tracked_mcf {
 
 namespace {
+
+/// Returns the double nearest to the decimal number of so many digits that is nearest to `value`.
+/// Some standard libraries lack std::to_chars for floats.
+double rounded(double value, int digits) {
+    std::stringstream text;
+    text.imbue(std::locale::classic());
+    text.precision(digits);
+    text << value;
+    text >> value;
+    return value;
+}
 
 template <class Type>
 Type read(const ParameterValues& values, const std::string& name) {
@@ -69,11 +80,12 @@ double as_typed(double value) {
     if (!std::isfinite(value) || std::abs(value) > std::numeric_limits<float>::max()) return value;
     const auto as_float = static_cast<float>(value);
     if (as_float != value) return value;
-    std::array<char, 32> text;
-    const auto [end, error] = std::to_chars(text.data(), text.data() + text.size(), as_float);
-    double result = value;
-    if (error == std::errc()) std::from_chars(text.data(), end, result);
-    return result;
+    // The fewest digits that tell the float from its neighbours. Nine always do.
+    double decimal = value;
+    for (int digits = 1; digits == 1 || static_cast<float>(decimal) != as_float; ++digits) {
+        decimal = rounded(value, digits);
+    }
+    return decimal;
 }
 
 }  // namespace tracked_mcf

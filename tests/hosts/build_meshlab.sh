@@ -35,6 +35,6 @@ on=("${on[@]/#/-D}")
 printf -v plugin_folders 'meshlabplugins/%s;' "${plugins[@]}"
 
 cmake "${folders[@]}" "${on[@]/%/=ON}" \
-    "-DMESHLAB_PLUGINS=$plugin_folders" -DCMAKE_CXX_FLAGS=-w \
+    "-DMESHLAB_PLUGINS=$plugin_folders" -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS=-w \
     -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=$batch
 cmake --build "${folders[3]}" -j "$(nproc)" --target meshlab-common "${plugins[@]}"

@@ -134,7 +134,12 @@ std::int64_t peak_memory_bytes() {
 #if __has_include(<sys/resource.h>)
     rusage usage{};
     if (getrusage(RUSAGE_SELF, &usage) != 0) return 0;
-    return std::int64_t{1024} * usage.ru_maxrss;  // Linux counts in kilobytes
+#ifdef __APPLE__
+    constexpr std::int64_t unit = 1;
+#else
+    constexpr std::int64_t unit = 1024;
+#endif
+    return unit * usage.ru_maxrss;
 #else
     return 0;
 #endif

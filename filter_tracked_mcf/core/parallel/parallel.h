@@ -29,7 +29,7 @@ public:
     ThreadCountScope& operator=(const ThreadCountScope&) = delete;
 
 private:
-    int previous_;
+    [[maybe_unused]] int previous_;
 };
 
 /// Returns the largest number of threads of a loop that the caller starts.
@@ -42,10 +42,13 @@ std::size_t thread_number();
 /// at the end, because an exception must not leave an OpenMP region. Every thread polls progress
 /// before each body, but only the calling thread can have a meter.
 template <class Body>
-void parallel_for(std::int64_t count, const Body& body, std::int64_t worth_threads = 2) {
+void parallel_for(std::int64_t count, const Body& body,
+                  [[maybe_unused]] std::int64_t worth_threads = 2) {
     std::exception_ptr failure;
     std::atomic<bool> failed{false};
+#ifdef _OPENMP  // Else, the loop runs on the caller's thread.
 #pragma omp parallel for schedule(dynamic, 1) if (count >= worth_threads)
+#endif
     for (std::int64_t i = 0; i < count; ++i) {
         if (failed.load(std::memory_order_relaxed)) continue;
         try {

@@ -5,6 +5,10 @@
 #include "filter_tracked_mcf/core/kernels/kernels.h"
 #include "filter_tracked_mcf/core/parallel/parallel.h"
 
+#ifdef _MSC_VER
+#include <intrin.h>
+#endif
+
 namespace tracked_mcf {
 
 namespace {
@@ -41,7 +45,13 @@ std::vector<std::uint8_t> owned_unknowns(const Level& level) {
 }
 
 int lowest_bit(int mask) {
+#ifdef _MSC_VER
+    unsigned long bit = 0;
+    _BitScanForward(&bit, static_cast<unsigned>(mask));
+    return static_cast<int>(bit);
+#else
     return __builtin_ctz(static_cast<unsigned>(mask));
+#endif
 }
 
 }  // namespace

@@ -12,15 +12,34 @@ namespace tracked_mcf {
 
 namespace {
 
-/// Reads all of `text`. from_chars does not take a leading plus.
-template <class Number>
-std::from_chars_result read_all(std::string_view text, Number& number) {
+/// std::from_chars does not take a leading plus.
+std::string_view without_plus(std::string_view text) {
     if (text.size() > 1 && text.front() == '+') text.remove_prefix(1);
-    const char* const end = text.data() + text.size();
-    std::from_chars_result result = std::from_chars(text.data(), end, number);
-    if (result.ptr != end) result.ec = std::errc::invalid_argument;
-    return result;
+    return text;
 }
+
+/// Reads all of `text`.
+template <class Number>
+std::errc read_all(std::string_view text, Number& number) {
+    const char* const end = text.data() + text.size();
+    const std::from_chars_result result = std::from_chars(text.data(), end, number);
+    return result.ptr == end ? result.ec : std::errc::invalid_argument;
+}
+
+#ifdef __cpp_lib_to_chars
+std::optional<double> read_double(std::string_view text) {
+    double number = 0;
+    const std::errc error = read_all(text, number);
+    if (error == std::errc()) return number;
+    // strtod rounds numbers beyond the range of doubles to zero or to infinity.
+    if (error == std::errc::result_out_of_range) return read_double_by_strtod(text);
+    return {};
+}
+#else  // libc++ has no std::from_chars for doubles.
+std::optional<double> read_double(std::string_view text) {
+    return read_double_by_strtod(text);
+}
+#endif
 
 std::string quoted(std::string_view text) {
     constexpr std::size_t longest = 40;
@@ -29,20 +48,26 @@ std::string quoted(std::string_view text) {
 
 }  // namespace
 
+std::optional<double> read_double_by_strtod(std::string_view text) {
+    const std::string_view digits = text.substr(text.substr(0, 1) == "-" ? 1 : 0);
+    // strtod skips blanks and a plus, and reads hexadecimal numbers.
+    if (digits.find_first_of(".0123456789iInN") != 0) return {};
+    if (digits.find_first_of("xX") == 1) return {};
+    const std::string terminated(text);
+    char* end = nullptr;
+    const double number = std::strtod(terminated.c_str(), &end);
+    if (end != terminated.c_str() + terminated.size()) return {};
+    return number;
+}
+
 double parse_number(std::string_view text) {
-    double number = 0;
-    const std::errc error = read_all(text, number).ec;
-    if (error == std::errc()) return number;
-    // strtod rounds numbers beyond the range of doubles to zero or to infinity.
-    if (error == std::errc::result_out_of_range) {
-        return std::strtod(std::string(text).c_str(), nullptr);
-    }
+    if (const auto number = read_double(without_plus(text))) return *number;
     throw UnreadableFile(quoted(text) + " stands where a number should");
 }
 
 std::int64_t parse_integer(std::string_view text) {
     std::int64_t number = 0;
-    if (read_all(text, number).ec == std::errc()) return number;
+    if (read_all(without_plus(text), number) == std::errc()) return number;
     throw UnreadableFile(quoted(text) + " stands where a whole number should");
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <ostream>
 #include <string>
 #include <string_view>
@@ -14,6 +15,11 @@ using Words = std::vector<std::string_view>;
 /// Parses a number, independent of the locale. Throws UnreadableFile with the text unless all of it
 /// is a number.
 double parse_number(std::string_view text);
+
+/// Returns the number that all of `text` is, or nothing: what std::from_chars takes, as the nearest
+/// double, zero or infinity. For standard libraries without std::from_chars for doubles; far
+/// slower.
+std::optional<double> read_double_by_strtod(std::string_view text);
 
 /// Parses a whole number likewise.
 std::int64_t parse_integer(std::string_view text);
