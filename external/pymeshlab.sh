@@ -9,4 +9,4 @@ set -euo pipefail
 folder=${1:?usage: pymeshlab.sh FOLDER} release=2025.7
 "$(dirname "$0")/install_debian.sh" pymeshlab
 /usr/bin/python3 -m venv --system-site-packages "$folder"
-"$folder/bin/python" -m pip install -q "pymeshlab==$release"
+"$folder/bin/python" -m pip install -q "pymeshlab==$release.*"

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Makes the packages for all four hosts on one Debian, whichever MeshLab is installed, and lists them
-# with the versions that they need: make_all.sh DESTINATION [arguments for cmake]
+# Makes the packages for all four hosts and the Python wheel on one Debian, whichever MeshLab is installed, and
+# lists them with the versions that they need: make_all.sh DESTINATION [arguments for cmake]
 #
 # A package runs on the Debian that made it and on later ones, so make packages on the oldest. Sources
 # and build folders stay in build/packages for the next time.
@@ -25,9 +25,13 @@ make_one() { # RELEASE SCALAR CMAKE_ARGUMENT...
     cpack --config "$build/CPackConfig.cmake" -B "$build/package"
     cp "$build"/package/*.tar.gz "$destination/"
     made+=("$(basename "$build"/package/*.tar.gz)")
+    if [ "$2" = double ]; then
+        cmake --build "$build" --target wheel
+        cp "$build"/tracked_mcf-*.whl "$destination/"
+    fi
 }
 made=()
-"$root/external/install_debian.sh" plugin
+"$root/external/install_debian.sh" plugin wheel
 for kind in "2020.09 float" "2022.02 float" "2025.07 float" "2025.07 double"; do
     # shellcheck disable=SC2086 # KIND is two words
     make_one $kind "${@:2}"
@@ -39,3 +43,4 @@ for archive in "${made[@]}"; do
     tar -xOzf "$destination/$archive" "${archive%.tar.gz}/INSTALL.txt" |
         sed -n '/^What is needed/,$p' | grep '^    '
 done
+stat -c '%n: %s bytes' "$destination"/tracked_mcf-*.whl

@@ -14,7 +14,7 @@ import sys
 MESHES = ["bumpy_bowl", "mannequin-devil", "armadillo"]
 WAYS = {"matches_tool": "meshlabserver", "without_a_display": "plugin, without a display",
         "in_meshlabs_tree": "plugin built in MeshLab's tree",
-        "pymeshlab": "Python"}
+        "pymeshlab": "Python, load_plugin", "pymeshlab_wheel": "Python, wheel"}
 DIFFERENCE = re.compile(r"largest difference (\S+) of the largest coordinate")
 
 
@@ -37,7 +37,7 @@ def rows(build):
     for test, way in WAYS.items():
         differences = [largest_difference(tests / f"{test}.{mesh}") for mesh in MESHES]
         if any(differences):
-            host = "PyMeshLab" if test == "pymeshlab" else "MeshLab"
+            host = "PyMeshLab" if test.startswith("pymeshlab") else "MeshLab"
             yield [host, cached(build, "MESHLAB_SDK_RELEASE"), precision, way, *differences]
     if (tests / "dialog" / "applied.png").exists():
         yield ["MeshLab", cached(build, "MESHLAB_SDK_RELEASE"), precision, "window, by its picture",
