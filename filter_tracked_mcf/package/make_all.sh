@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Makes the packages for all four hosts and the Python wheel on one Debian, whichever MeshLab is installed, and
-# lists them with the versions that they need: make_all.sh DESTINATION [arguments for cmake]
+# Makes the packages for all four hosts and the Python wheel on one Debian, whichever MeshLab is
+# installed, and lists them with the versions that they need: make_all.sh DESTINATION [arguments for cmake]
 #
 # A package runs on the Debian that made it and on later ones, so make packages on the oldest. Sources
 # and build folders stay in build/packages for the next time.

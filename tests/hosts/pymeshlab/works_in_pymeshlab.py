@@ -3,8 +3,8 @@
 """Uses the plugin in PyMeshLab as a script does, and compares with the command-line tool:
 works_in_pymeshlab.py PLUGIN TOOL PAGE WORK_DIR MESH...
 
-PLUGIN is the plugin's file, or else the name of the Python module that loads it. PAGE is the page with the
-Python script for that. Ends with 77, which tells CTest that the test was skipped, where there is no
+PLUGIN is the plugin's file, or else the name of the Python module that loads it. PAGE is the page with
+the Python script for that. Ends with 77, which tells CTest that the test was skipped, where there is no
 PyMeshLab.
 """
 
@@ -105,8 +105,8 @@ def load_plugin(plugin):
 
 
 def passed_on(length):
-    """Returns the length that the filter gets: PyMeshLab rounds to a float, and the filter takes the float's
-    shortest decimal notation."""
+    """Returns the length that the filter gets: PyMeshLab rounds to a float, and the filter takes the
+    float's shortest decimal notation."""
     return str(numpy.float32(length))
 
 
@@ -146,8 +146,8 @@ def check_outputs(outputs, parameters):
 
 
 def must_refuse(plugin, mesh, case):
-    """Runs in a separate process: a filter that fails leaves PyMeshLab with a dangling log. The process is
-    told the case's number, because PyMeshLab's values cannot be passed."""
+    """Runs in a separate process: a filter that fails leaves PyMeshLab with a dangling log. The process
+    is told the case's number, because PyMeshLab's values cannot be passed."""
     parameters, word = WRONG[case]
     apply = load_plugin(plugin)
     meshes = load(mesh)
