@@ -3,31 +3,19 @@
 # Builds MeshLab in double precision and runs the host tests in it:
 # run_in_double.sh BUILD_DIR [CMAKE_OPTION]...
 #
-<<<<<<< HEAD
 # MeshLab uses doubles in PyMeshLab and floats elsewhere. Neither loads the other's plugins. The tests
-# include PyMeshLab if this Python has it. No Debian package has PyMeshLab.
-=======
-# The tests include the official PyMeshLab, which is installed once. Without a network they are skipped.
->>>>>>> 13ec182 (Test the wheel beside the official PyMeshLab)
+# include the official PyMeshLab, which is installed once. Without a network they are skipped.
 set -euo pipefail
 
 here=$(dirname "$(realpath "$0")")
 build=$(realpath -m "$1")
-<<<<<<< HEAD
-"$here/../../../external/meshlab_source.sh" "$build/meshlab-source" 2025.07
-"$here/../build_meshlab.sh" "$build/meshlab-source" "$build/meshlab" double io_base filter_unsharp
-library=$build/meshlab/src/distrib
-"$here/../run_host_tests.sh" "$build/plugin" -DMESHLAB_RELEASE=2025.07 -DMESHLAB_SCALAR=double \
-    -DMESHLAB_SOURCE_DIR="$build/meshlab-source" \
-    -DMESHLAB_COMMON_LIBRARY="$library/libmeshlab-common.so" \
-    -DTRACKED_MCF_PLUGIN_OF_MESHLAB="$library/plugins/libfilter_tracked_mcf.so" "${@:2}"
-=======
 external=$here/../../../external
 python=$build/python/bin/python
 "$external/pymeshlab.sh" "$build/python" || python=/usr/bin/python3
 "$external/meshlab_source.sh" "$build/meshlab-source" 2025.07
-"$here/double_meshlab.sh" "$build/meshlab-source" "$build/meshlab"
+"$here/../build_meshlab.sh" "$build/meshlab-source" "$build/meshlab" double io_base filter_unsharp
+library=$build/meshlab/src/distrib
 "$here/../run_host_tests.sh" "$build/plugin" -DMESHLAB_RELEASE=2025.07 -DMESHLAB_SCALAR=double \
     -DMESHLAB_SOURCE_DIR="$build/meshlab-source" -DTRACKED_MCF_PYTHON="$python" \
-    -DMESHLAB_COMMON_LIBRARY="$build/meshlab/lib/libmeshlab-common.so" "${@:2}"
->>>>>>> 13ec182 (Test the wheel beside the official PyMeshLab)
+    -DMESHLAB_COMMON_LIBRARY="$library/libmeshlab-common.so" \
+    -DTRACKED_MCF_PLUGIN_OF_MESHLAB="$library/plugins/libfilter_tracked_mcf.so" "${@:2}"

@@ -128,7 +128,7 @@ def install(wheel, folder):
 
 def check_import(python, expected, before="", path=""):
     environment = {**os.environ, "PYTHONPATH": str(path)}
-    text = output_of(python, "-c", IMPORT.format(before=before), env=environment)
+    text = output_of(python, "-c", IMPORT.format(before=before), env=environment).strip()
     print(text)
     for words in expected:
         assert words in text, f"'{words}' is not in: {text}"
