@@ -34,8 +34,7 @@ packages_of() {
             libcgal-dev libhypre-dev python3 ;;
         pymeshlab) echo python3-venv python3-numpy python3-matplotlib ;;
         gravomg) echo python3-venv ;;
-        checks) echo clang clang-format clang-tidy-22 libclang-rt-dev libomp-dev libc++-dev libc++abi-dev \
-            llvm git ;;
+        checks) echo clang clang-format clang-tidy-22 libclang-rt-dev libomp-dev llvm git ;;
         *) echo "install_debian.sh: unknown task '$1'" >&2 && return 1 ;;
     esac
 }
