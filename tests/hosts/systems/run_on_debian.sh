@@ -15,10 +15,10 @@ mkdir -p "$folder/build"
 cd "$folder/build"
 inside() { "$here/in_system.sh" -r "$cgal_meshes" "$folder/system" "$@"; }
 inside "$here/../../../external/install_debian.sh" tests
+inside "$here/../../../external/meshlab_source.sh" meshlab-source
 options=(-DTRACKED_MCF_CGAL_MESHES="$cgal_meshes")
 # MeshLab 2022.02 with the plugin in its tree. The tests in double precision have 2025.07's.
 if [ "$suite" = trixie ]; then
-    inside "$here/../../../external/meshlab_source.sh" meshlab-source
     inside "$here/../build_meshlab.sh" meshlab-source meshlab float
     options+=(-DTRACKED_MCF_PLUGIN_OF_MESHLAB="$PWD/meshlab/src/distrib/plugins/libfilter_tracked_mcf.so")
 fi
