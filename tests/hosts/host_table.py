@@ -45,7 +45,7 @@ def rows(build):
 
 
 def main(build):
-    builds = [build, *(file.parent for file in sorted(build.glob("other-hosts/*/*/CMakeCache.txt")))]
+    builds = [build, *(file.parent for file in sorted(build.glob("other-hosts/*/plugin/CMakeCache.txt")))]
     table = [row for folder in builds for row in rows(folder)]
     if not table:
         return

@@ -11,8 +11,8 @@ here=$(dirname "$(realpath "$0")")
 suite=$1 folder=$(realpath -m "$2") cgal_meshes=$3
 "$here/lay_system.sh" "$suite" "$folder/system"
 
-mkdir -p "$folder/build"
-cd "$folder/build"
+mkdir -p "$folder/plugin"
+cd "$folder/plugin"
 inside() { "$here/in_system.sh" -r "$cgal_meshes" "$folder/system" "$@"; }
 inside "$here/../../../external/install_debian.sh" tests
-inside "$here/../run_host_tests.sh" "$folder/build" -DTRACKED_MCF_CGAL_MESHES="$cgal_meshes"
+inside "$here/../run_host_tests.sh" "$folder/plugin" -DTRACKED_MCF_CGAL_MESHES="$cgal_meshes"
