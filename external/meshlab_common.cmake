@@ -8,7 +8,7 @@
 # and the host resolves what is left undefined.
 
 set(MESHLAB_COMMON_LIBRARY "" CACHE FILEPATH
-    "libmeshlab-common of MESHLAB_RELEASE and MESHLAB_SCALAR; empty is the installed one if it fits")
+    "libmeshlab-common of the sources' release and MESHLAB_SCALAR; empty is the installed one if it fits")
 
 # Of Debian's package, since the library does not tell its release.
 function(find_installed_library result)

@@ -13,8 +13,8 @@ if(NOT MESHLAB_SCALAR MATCHES "^(float|double)$")
   message(FATAL_ERROR "MESHLAB_SCALAR is ${MESHLAB_SCALAR}; give float, or double for PyMeshLab.")
 endif()
 if(MESHLAB_SCALAR STREQUAL double AND MESHLAB_SDK_RELEASE VERSION_EQUAL 2020.09)
-  message(FATAL_ERROR "There is no PyMeshLab of MeshLab 2020.09: for double, give a later "
-                      "MESHLAB_RELEASE.")
+  message(FATAL_ERROR "There is no PyMeshLab of MeshLab 2020.09: for double, give the "
+                      "sources of a later release.")
 endif()
 
 function(require_for_plugin found what debian_packages)

@@ -4,13 +4,18 @@
 # them: meshlab_source.sh DESTINATION [RELEASE]
 #
 # RELEASE is 2020.09, 2022.02 or 2025.07. The default is the installed release, or else the one of this
-# Debian. The script derives a private sources list from the system's apt configuration, so that
+# Debian. CMake looks for the sources in the folder meshlab-source of the build folder. The script derives a private sources list from the system's apt configuration, so that
 # /etc/apt and the system's package lists stay unchanged.
 set -euo pipefail
 
 destination=${1:?usage: meshlab_source.sh DESTINATION [RELEASE]} release=${2:-}
-stamp="$destination/.complete"
-if [ -e "$stamp" ]; then
+if [ -e "$destination/ML_VERSION" ]; then
+    fetched=$(cat "$destination/ML_VERSION")
+    [ "${release:-$fetched}" = "$fetched" ] || {
+        echo "meshlab_source.sh: $destination holds MeshLab $fetched rather than $release. Remove it" \
+            "or name another folder." >&2
+        exit 1
+    }
     exit 0
 fi
 command -v apt-get > /dev/null || {
@@ -60,6 +65,9 @@ fi
 # Only the tarball: some mirrors lack the source description.
 (cd "$work/source" &&
     apt-get "${private_apt[@]}" source --tar-only --download-only "meshlab=$version")
-mkdir -p "$destination"
-tar -xf "$work"/source/meshlab_*.tar.* -C "$destination" --strip-components=1
-touch "$stamp"
+# Moved when it is complete, so that an interrupted run leaves nothing that looks like sources.
+half=$destination.half-unpacked
+rm -rf "$half"
+mkdir -p "$half"
+tar -xf "$work"/source/meshlab_*.tar.* -C "$half" --strip-components=1
+mv -T "$half" "$destination"

@@ -4,7 +4,7 @@
 
 find_path(VCGLIB_INCLUDE_DIR vcg/complex/complex.h
           PATHS "${MESHLAB_SOURCE_DIR}/vcglib" "${MESHLAB_SOURCE_DIR}/src/vcglib"
-          NO_DEFAULT_PATH REQUIRED)
+          NO_DEFAULT_PATH NO_CACHE REQUIRED)
 
 add_library(vcglib STATIC EXCLUDE_FROM_ALL "${VCGLIB_INCLUDE_DIR}/wrap/ply/plylib.cpp")
 target_include_directories(vcglib SYSTEM PUBLIC "${VCGLIB_INCLUDE_DIR}")

@@ -17,6 +17,7 @@ for word in "$@"; do
 done
 external/install_debian.sh tests
 external/cgal_meshes.sh build/cgal-meshes
+external/meshlab_source.sh build/meshlab-source
 cmake -S . -B build -DTRACKED_MCF_TOOL=ON -DTRACKED_MCF_PLUGIN=ON -DTRACKED_MCF_TESTS=ON \
     "${options[@]}"
 cmake --build build -j "$(nproc)"

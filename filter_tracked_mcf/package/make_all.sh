@@ -15,11 +15,11 @@ mkdir -p "$destination"
 unset CXXFLAGS LDFLAGS
 
 make_one() { # RELEASE SCALAR CMAKE_ARGUMENT...
-    local sources=$work/meshlab-source-$1 build=$work/$1-$2
+    local build=$work/$1-$2 sources=$work/meshlab-source-$1
     printf '\n== MeshLab %s, %s\n' "$1" "$2"
     "$root/external/meshlab_source.sh" "$sources" "$1"
     rm -rf "$build"/package
-    cmake -S "$root" -B "$build" -DMESHLAB_SOURCE_DIR="$sources" -DMESHLAB_RELEASE="$1" \
+    cmake -S "$root" -B "$build" -DMESHLAB_SOURCE_DIR="$sources" \
         -DMESHLAB_SCALAR="$2" -DTRACKED_MCF_TESTS=OFF -DCMAKE_BUILD_TYPE=Release "${@:3}"
     cmake --build "$build" -j "$(nproc)"
     cpack --config "$build/CPackConfig.cmake" -B "$build/package"

@@ -18,6 +18,7 @@ say() { printf '\n== %s\n' "$*"; }
 say "Installing what is missing"
 "$root/external/install_debian.sh" demo
 "$root/external/cgal_meshes.sh" "$build/cgal-meshes"
+"$root/external/meshlab_source.sh" "$build/meshlab-source"
 
 say "Building"
 cmake -S "$root" -B "$build" -DTRACKED_MCF_TESTS=OFF

@@ -15,7 +15,7 @@ python=$build/python/bin/python
 "$external/meshlab_source.sh" "$build/meshlab-source" 2025.07
 "$here/../build_meshlab.sh" "$build/meshlab-source" "$build/meshlab" double io_base filter_unsharp
 library=$build/meshlab/src/distrib
-"$here/../run_host_tests.sh" "$build/plugin" -DMESHLAB_RELEASE=2025.07 -DMESHLAB_SCALAR=double \
+"$here/../run_host_tests.sh" "$build/plugin" -DMESHLAB_SCALAR=double \
     -DMESHLAB_SOURCE_DIR="$build/meshlab-source" -DTRACKED_MCF_PYTHON="$python" \
     -DMESHLAB_COMMON_LIBRARY="$library/libmeshlab-common.so" \
     -DTRACKED_MCF_PLUGIN_OF_MESHLAB="$library/plugins/libfilter_tracked_mcf.so" "${@:2}"

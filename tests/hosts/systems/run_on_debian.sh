@@ -15,4 +15,11 @@ mkdir -p "$folder/plugin"
 cd "$folder/plugin"
 inside() { "$here/in_system.sh" -r "$cgal_meshes" "$folder/system" "$@"; }
 inside "$here/../../../external/install_debian.sh" tests
-inside "$here/../run_host_tests.sh" "$folder/plugin" -DTRACKED_MCF_CGAL_MESHES="$cgal_meshes"
+inside "$here/../../../external/meshlab_source.sh" meshlab-source
+options=(-DTRACKED_MCF_CGAL_MESHES="$cgal_meshes")
+# MeshLab 2022.02 with the plugin in its tree. The tests in double precision have 2025.07's.
+if [ "$suite" = trixie ]; then
+    inside "$here/../build_meshlab.sh" meshlab-source meshlab float
+    options+=(-DTRACKED_MCF_PLUGIN_OF_MESHLAB="$PWD/meshlab/src/distrib/plugins/libfilter_tracked_mcf.so")
+fi
+inside "$here/../run_host_tests.sh" "$folder/plugin" "${options[@]}"
