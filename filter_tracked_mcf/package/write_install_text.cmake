@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # cpack runs this after it has put the package's files into CMAKE_INSTALL_PREFIX. Writes INSTALL.txt
-# beside them. CMakeLists.txt sets name, version, host, release, scalar, processor and files.
+# beside them. CMakeLists.txt sets name, version, host, release, scalar, processor, libraries
+# and files.
 
 cmake_minimum_required(VERSION 3.22)
 
@@ -22,6 +23,12 @@ foreach(set IN ITEMS GLIBC GLIBCXX CXXABI Qt)
   string(REPLACE "${set}_" " " ${set} "${${set}}")
 endforeach()
 set(GCC " with GLIBCXX${GLIBCXX} and CXXABI${CXXABI}")
+
+# What was built without OpenMP does not need its library.
+set(openmp "")
+if(largest MATCHES "(^|;)GOMP_")
+  set(openmp "\n    libgomp")
+endif()
 
 # The first GCC whose libstdc++ has these symbols, from the lists in its manual.
 set(first_GLIBCXX 3.4.29=11 3.4.30=12 3.4.31=13 3.4.32=13.2 3.4.33=14 3.4.34=15)
@@ -64,7 +71,7 @@ if(host STREQUAL PyMeshLab)
 elseif(release VERSION_LESS 2022.02)
   set(steps "Copy it, as root, to MeshLab's plugin folder. In Debian's MeshLab:
 
-    cp libfilter_tracked_mcf.so /usr/lib/x86_64-linux-gnu/meshlab/plugins/
+    cp libfilter_tracked_mcf.so ${libraries}/meshlab/plugins/
 
 ${menu}")
 else()

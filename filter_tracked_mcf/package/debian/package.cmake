@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# cpack -G DEB makes a Debian package of the plugin and the program, for the MeshLab that Debian has
+# installed. Like the archive's, its files are an install component of their own.
+
+set(CPACK_PROJECT_CONFIG_FILE "${CMAKE_CURRENT_LIST_DIR}/choose_component.cmake")
+# PyMeshLab is no Debian package, and a plugin for a MeshLab elsewhere cannot depend on Debian's.
+if(NOT MESHLAB_LIBRARY_DIR MATCHES "^/usr/lib/" OR NOT MESHLAB_SCALAR STREQUAL float)
+  return()
+endif()
+
+set(CPACK_DEBIAN_PACKAGE_NAME meshlab-plugin-tracked-mcf)
+# Packages of one version for the MeshLabs of several Debians differ in this revision.
+set(CPACK_DEBIAN_PACKAGE_RELEASE "1+meshlab${MESHLAB_SDK_RELEASE}")
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
+# Debian's tools take the name and the address of a package's maker from these variables.
+set(maintainer "Filter Tracked MCF <unknown@filter-tracked-mcf.invalid>")
+if(DEFINED ENV{DEBFULLNAME} AND DEFINED ENV{DEBEMAIL})
+  set(maintainer "$ENV{DEBFULLNAME} <$ENV{DEBEMAIL}>")
+endif()
+set(CPACK_DEBIAN_PACKAGE_MAINTAINER "${maintainer}")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "MeshLab filter that smooths meshes by mean-curvature flow")
+set(CPACK_DEBIAN_PACKAGE_DESCRIPTION
+    "The filter Mean Curvature Flow removes detail smaller than a given length
+from triangle meshes and keeps larger shapes. Each step is implicit, so it is
+stable at any size, and it is solved by multigrid on finite elements that are
+tracked with the moving surface.
+.
+This package has the filter for MeshLab ${MESHLAB_SDK_RELEASE}, and the program tracked_mcf,
+which does the same to PLY, OBJ, OFF and STL files.")
+
+# MeshLab's library has no stable interface: a plugin is for one release. Debian's versions begin with
+# the release, then + or ~, both of which are before a dot.
+set(CPACK_DEBIAN_PACKAGE_DEPENDS "meshlab (>= ${MESHLAB_SDK_RELEASE}~)"
+                                 "meshlab (<< ${MESHLAB_SDK_RELEASE}.~)")
+list(JOIN CPACK_DEBIAN_PACKAGE_DEPENDS ", " CPACK_DEBIAN_PACKAGE_DEPENDS)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS "${MESHLAB_LIBRARY_DIR}")
+set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
+    OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
+
+set(component COMPONENT debian EXCLUDE_FROM_ALL)
+set(documents share/doc/${CPACK_DEBIAN_PACKAGE_NAME})
+file(RELATIVE_PATH plugins /usr "${MESHLAB_LIBRARY_DIR}/plugins")
+install(TARGETS filter_tracked_mcf LIBRARY DESTINATION ${plugins} ${component})
+if(TRACKED_MCF_TOOL)
+  install(TARGETS tracked_mcf RUNTIME DESTINATION bin ${component})
+endif()
+install(FILES "${CMAKE_CURRENT_LIST_DIR}/copyright" DESTINATION ${documents} ${component})
+
+# Debian wants the project's changelog and that of the package, compressed.
+set(changelogs "${CMAKE_CURRENT_BINARY_DIR}/debian")
+string(TIMESTAMP now "%a, %d %b %Y %H:%M:%S +0000" UTC)
+configure_file("${PROJECT_SOURCE_DIR}/.github/CHANGELOG.md" "${changelogs}/changelog" COPYONLY)
+configure_file("${CMAKE_CURRENT_LIST_DIR}/changelog.in" "${changelogs}/changelog.Debian" @ONLY)
+execute_process(COMMAND gzip -9nkf changelog changelog.Debian WORKING_DIRECTORY "${changelogs}"
+                COMMAND_ERROR_IS_FATAL ANY)
+install(FILES "${changelogs}/changelog.gz" "${changelogs}/changelog.Debian.gz"
+        DESTINATION ${documents} ${component})
