@@ -5,7 +5,7 @@
 #   core         building the core: a compiler, CMake, Eigen
 #   program      building the command-line program, too
 #   plugin       building the MeshLab plugin, too, and MeshLab itself
-#   wheel        packing the plugin for Python
+#   package      packing it for Debian or for Python, too
 #   demo         running the plugin without a screen and drawing pictures of surfaces
 #   tests        building and running all tests
 #   experiments  building and running tests/experiments
@@ -23,9 +23,9 @@ packages_of() {
         program) echo "$(packages_of core)" libcli11-dev nlohmann-json3-dev xz-utils ;;
         plugin) echo "$(packages_of program)" meshlab "$(libraries_recommended_by meshlab)" \
             qtbase5-dev libqt5opengl5-dev libglew-dev libglu1-mesa-dev ;;
-        wheel) echo "$(packages_of plugin)" python3 ;;
+        package) echo "$(packages_of plugin)" dpkg-dev file help2man python3 ;;
         demo) echo "$(packages_of plugin)" xvfb xauth python3-vtk9 python3-numpy ;;
-        tests) echo "$(packages_of plugin)" libgtest-dev libgmock-dev libboost-dev \
+        tests) echo "$(packages_of package)" libgtest-dev libgmock-dev libboost-dev \
             xvfb xauth xdotool imagemagick python3 python3-matplotlib debootstrap ;;
         experiments) echo "$(packages_of program)" libgtest-dev libgmock-dev libboost-dev \
             meshlab "$(libraries_recommended_by meshlab)" \

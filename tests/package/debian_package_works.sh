@@ -58,7 +58,7 @@ echo "== Files"
 expected=$({
     printf '/usr/share/doc/%s\n' "$name"/{changelog.Debian.gz,changelog.gz,copyright}
     echo "$library_dir/plugins/$plugin"
-    [ -z "$tool" ] || echo "/usr/bin/$tool"
+    [ -z "$tool" ] || printf '%s\n' "/usr/bin/$tool" "/usr/share/man/man1/$tool.1.gz"
 } | LC_ALL=C sort)
 dpkg-deb --extract "$package" files
 found=$(cd files && find . -type f | sed 's/^\.//' | LC_ALL=C sort)

@@ -50,7 +50,7 @@ inside tracked_mcf in.ply tool.ply --depth 5 --detail-size 0.1 --iterations 2 --
 "$hosts/compare_positions.py" host.ply tool.ply in.ply 0.5
 
 echo "== lintian"
-inside lintian --fail-on error "$package"
+inside lintian --fail-on error,warning "$package"
 cat log.txt
 
 echo "== Remove"
