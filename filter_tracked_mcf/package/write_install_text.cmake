@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # cpack runs this after it has put the package's files into CMAKE_INSTALL_PREFIX. Writes INSTALL.txt
-# beside them. CMakeLists.txt sets name, version, host, release, scalar, processor, libraries
-# and files.
+# beside them. CMakeLists.txt sets name, version, host, release, scalar, processor,
+# plugin_folder and files.
 
 cmake_minimum_required(VERSION 3.22)
 
@@ -71,7 +71,7 @@ if(host STREQUAL PyMeshLab)
 elseif(release VERSION_LESS 2022.02)
   set(steps "Copy it, as root, to MeshLab's plugin folder. In Debian's MeshLab:
 
-    cp libfilter_tracked_mcf.so ${libraries}/meshlab/plugins/
+    cp libfilter_tracked_mcf.so ${plugin_folder}/
 
 ${menu}")
 else()
