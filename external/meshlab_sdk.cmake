@@ -4,6 +4,7 @@
 # 2025.07), and so which adapter is built.
 
 set(MESHLAB_SDK_RELEASE "${MESHLAB_SOURCE_RELEASE}" CACHE INTERNAL "Release of the MeshLab sources")
+set(MESHLAB_SDK_SOURCE_DIR "${MESHLAB_SOURCE_DIR}" CACHE INTERNAL "The MeshLab sources")
 if(NOT MESHLAB_SDK_RELEASE MATCHES "^(2020.09|2022.02|2025.07)$")
   message(FATAL_ERROR
           "MESHLAB_SOURCE_DIR holds MeshLab ${MESHLAB_SDK_RELEASE}, for which the plugin has not "
