@@ -25,8 +25,8 @@ fail() {
     exit 1
 }
 apt_get() { inside env DEBIAN_FRONTEND=noninteractive apt-get -q -y --no-install-recommends "$@"; }
-# From outside, where nothing is mounted on the system. Caches and logs may differ.
-files_of_system() { find "$system" -path "$system/var/cache" -prune -o -path "$system/var/log" -prune -o -print | sort; }
+# From outside, where nothing is mounted on the system. Caches, logs and the X server's keymap may differ.
+files_of_system() { find "$system" -print | grep -vE "^$system/var/(cache|log|lib/xkb)/" | sort; }
 
 echo "== Install"
 apt_get update
