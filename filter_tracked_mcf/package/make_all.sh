@@ -31,7 +31,7 @@ make_one() { # RELEASE SCALAR CMAKE_ARGUMENT...
     fi
 }
 made=()
-"$root/external/install_debian.sh" plugin wheel
+"$root/external/install_debian.sh" package
 for kind in "2020.09 float" "2022.02 float" "2025.07 float" "2025.07 double"; do
     # shellcheck disable=SC2086 # KIND is two words
     make_one $kind "${@:2}"
