@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "filter_tracked_mcf/core/kernels/coarsen_elements.h"
 
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "filter_tracked_mcf/core/kernels/coarsen_elements.cpp"
+#include "filter_tracked_mcf/core/kernels/targets.h"
+
 #include "filter_tracked_mcf/core/kernels/lanes.h"
 
-namespace tracked_mcf::TRACKED_MCF_KERNELS {
+HWY_BEFORE_NAMESPACE();
+namespace tracked_mcf::HWY_NAMESPACE {
 
 namespace {
 
@@ -12,12 +17,12 @@ struct WholeMatrices {
     ElementMatrix of[kBlockElements];
 };
 
-TRACKED_MCF_INLINE void unpack(const MatrixBlock& block, WholeMatrices& matrices) {
+static HWY_INLINE void unpack(const MatrixBlock& block, WholeMatrices& matrices) {
     for (int first = 0; first < kBlockElements; first += kLanes) {
-#pragma GCC unroll 16
+    HWY_UNROLL(16)
         for (int begin = 0; begin < 64; begin += kLanes) {
             Lanes rows[kLanes];
-#pragma GCC unroll 16
+    HWY_UNROLL(16)
             for (int i = 0; i < kLanes; ++i) {
                 const int entry = kEntryIndices.of[(begin + i) / 8][(begin + i) % 8];
                 rows[i] = load(block.entry[entry] + first);
@@ -30,16 +35,16 @@ TRACKED_MCF_INLINE void unpack(const MatrixBlock& block, WholeMatrices& matrices
     }
 }
 
-TRACKED_MCF_INLINE void pack(const WholeMatrices& matrices, MatrixBlock& block) {
+static HWY_INLINE void pack(const WholeMatrices& matrices, MatrixBlock& block) {
     for (int first = 0; first < kBlockElements; first += kLanes) {
-#pragma GCC unroll 16
+    HWY_UNROLL(16)
         for (int begin = 0; begin < 64; begin += kLanes) {
             Lanes rows[kLanes];
             for (int i = 0; i < kLanes; ++i) {
                 rows[i] = load(&matrices.of[first + i].entry[begin / 8][begin % 8]);
             }
             transpose(rows);
-#pragma GCC unroll 16
+    HWY_UNROLL(16)
             for (int i = 0; i < kLanes; ++i) {
                 const int row = (begin + i) / 8;
                 const int column = (begin + i) % 8;
@@ -50,43 +55,94 @@ TRACKED_MCF_INLINE void pack(const WholeMatrices& matrices, MatrixBlock& block) 
     }
 }
 
-using Row = float __attribute__((vector_size(32)));
+/// A row of a matrix takes one vector, or two of four lanes.
+constexpr hn::CappedTag<float, 8> kRow;
+constexpr int kPartLanes = static_cast<int>(hn::MaxLanes(kRow));
+constexpr int kParts = 8 / kPartLanes;
+using Part = hn::Vec<decltype(kRow)>;
 
+struct Row {
+    Part part[kParts];
+};
 struct Rows {
     Row row[8];
 };
 
-/// For each axis, 1 for the corners on its upper side.
-constexpr Row kUpper[3] = {
-    {0, 1, 0, 1, 0, 1, 0, 1}, {0, 0, 1, 1, 0, 0, 1, 1}, {0, 0, 0, 0, 1, 1, 1, 1}};
-
-/// Returns v with the entries of the two corners of each cell edge along the axis exchanged.
-template <int Axis>
-TRACKED_MCF_INLINE Row other_end(Row v) {
-    if (Axis == 0) return __builtin_shufflevector(v, v, 1, 0, 3, 2, 5, 4, 7, 6);
-    if (Axis == 1) return __builtin_shufflevector(v, v, 2, 3, 0, 1, 6, 7, 4, 5);
-    return __builtin_shufflevector(v, v, 4, 5, 6, 7, 0, 1, 2, 3);
+/// Adds a row and `factor` times another one.
+static HWY_INLINE Row add(const Row& a, float factor, const Row& b) {
+    Row sum;
+    for (int i = 0; i < kParts; ++i) {
+        sum.part[i] = hn::MulAdd(hn::Set(kRow, factor), b.part[i], a.part[i]);
+    }
+    return sum;
 }
+static HWY_INLINE Row half_of(const Row& a) {
+    Row half;
+    for (int i = 0; i < kParts; ++i) half.part[i] = hn::Set(kRow, 0.5F) * a.part[i];
+    return half;
+}
+
+static HWY_INLINE Row load_row(const float* from) {
+    Row row;
+    for (int i = 0; i < kParts; ++i) row.part[i] = hn::Load(kRow, from + i * kPartLanes);
+    return row;
+}
+
+static HWY_INLINE void store_rows(const Rows& rows, ElementMatrix& matrix) {
+    for (int i = 0; i < 8; ++i) {
+        for (int k = 0; k < kParts; ++k) {
+            hn::Store(rows.row[i].part[k], kRow, matrix.entry[i] + k * kPartLanes);
+        }
+    }
+}
+
+/// Returns a row with the entries of the two corners of each cell edge along the axis exchanged.
+template <int Axis>
+static HWY_INLINE Row other_end(const Row& row) {
+    Row other;
+    for (int i = 0; i < kParts; ++i) {
+        const Part part = row.part[i];
+        if (Axis == 0) {
+            other.part[i] = hn::Shuffle2301(part);
+        } else if (Axis == 1) {
+            other.part[i] = hn::Shuffle1032(part);
+        } else {
+            other.part[kParts - 1 - i] = hn::SwapAdjacentBlocks(part);
+        }
+    }
+    return other;
+}
+
+/// For each axis, the weights of a child's entries: 1 for corners on the outer side, half for those
+/// in the parent's middle. First if the lower side is outer, then if the upper side is.
+alignas(32) constexpr float kKeep[3][2][8] = {
+    {{1, .5, 1, .5, 1, .5, 1, .5}, {.5, 1, .5, 1, .5, 1, .5, 1}},
+    {{1, 1, .5, .5, 1, 1, .5, .5}, {.5, .5, 1, 1, .5, .5, 1, 1}},
+    {{1, 1, 1, 1, .5, .5, .5, .5}, {.5, .5, .5, .5, 1, 1, 1, 1}}};
 
 /// Multiplies by the factor of P_c that belongs to one axis, from both sides. Along the axis, the
 /// child has an outer function, at the parent's corner, and one in the parent's middle. The outer
 /// one belongs to the parent's function at that corner; the middle one belongs half to each of the
 /// parent's two functions.
 template <int Axis>
-TRACKED_MCF_INLINE void coarsen_axis(Rows& m, bool upper_child) {
+static HWY_INLINE void coarsen_axis(Rows& m, bool upper_child) {
     constexpr int step = 1 << Axis;
-    const Row is_outer = upper_child ? kUpper[Axis] : 1 - kUpper[Axis];
-    const Row keep = 0.5F + 0.5F * is_outer;
-    const Row take = 0.5F * is_outer;
-#pragma GCC unroll 8
-    for (Row& row : m.row) row = keep * row + take * other_end<Axis>(row);
-#pragma GCC unroll 8
+    const Row keep = load_row(kKeep[Axis][upper_child ? 1 : 0]);
+    HWY_UNROLL(8)
+    for (int i = 0; i < 8; ++i) {
+        const Row other = other_end<Axis>(m.row[i]);
+        for (int k = 0; k < kParts; ++k) {
+            const Part take = keep.part[k] - hn::Set(kRow, 0.5F);
+            m.row[i].part[k] = hn::MulAdd(keep.part[k], m.row[i].part[k], take * other.part[k]);
+        }
+    }
+    HWY_UNROLL(8)
     for (int lower = 0; lower < 8; ++lower) {
         if ((lower & step) != 0) continue;
         const Row low = m.row[lower];
         const Row high = m.row[lower + step];
-        m.row[lower] = upper_child ? 0.5F * low : low + 0.5F * high;
-        m.row[lower + step] = upper_child ? high + 0.5F * low : 0.5F * high;
+        m.row[lower] = upper_child ? half_of(low) : add(low, 0.5F, high);
+        m.row[lower + step] = upper_child ? add(high, 0.5F, low) : half_of(high);
     }
 }
 
@@ -97,18 +153,20 @@ struct Reader {
     WholeMatrices matrices;
 };
 
-TRACKED_MCF_INLINE Rows read(Reader& reader, std::int32_t element) {
+static HWY_INLINE Rows read(Reader& reader, std::int32_t element) {
     const std::int32_t block = element / kBlockElements;
     if (block != reader.block) {
         reader.block = block;
         unpack(reader.blocks[block], reader.matrices);
     }
     Rows rows;
-    __builtin_memcpy(&rows, &reader.matrices.of[element % kBlockElements], sizeof rows);
+    for (int i = 0; i < 8; ++i) {
+        rows.row[i] = load_row(reader.matrices.of[element % kBlockElements].entry[i]);
+    }
     return rows;
 }
 
-TRACKED_MCF_INLINE Rows sum_of_children(const ChildElements& elements, std::int32_t parent,
+static HWY_INLINE Rows sum_of_children(const ChildElements& elements, std::int32_t parent,
                                         Reader& reader) {
     Rows sum = {};
     for (std::int64_t k = elements.begin[parent]; k < elements.begin[parent + 1]; ++k) {
@@ -118,7 +176,7 @@ TRACKED_MCF_INLINE Rows sum_of_children(const ChildElements& elements, std::int3
         coarsen_axis<0>(matrix, (octant & 1U) != 0);
         coarsen_axis<1>(matrix, (octant & 2U) != 0);
         coarsen_axis<2>(matrix, (octant & 4U) != 0);
-        for (int i = 0; i < 8; ++i) sum.row[i] += matrix.row[i];
+        for (int i = 0; i < 8; ++i) sum.row[i] = add(sum.row[i], 1, matrix.row[i]);
     }
     return sum;
 }
@@ -135,10 +193,11 @@ void coarsen_elements(const ChildElements& elements, std::int32_t begin, std::in
         for (int lane = 0; lane < kBlockElements; ++lane) {
             const std::int32_t parent = first + lane;
             const Rows sum = parent < end ? sum_of_children(elements, parent, reader) : Rows{};
-            __builtin_memcpy(&sums.of[lane], &sum, sizeof sum);
+            store_rows(sum, sums.of[lane]);
         }
         pack(sums, parents[first / kBlockElements]);
     }
 }
 
-}  // namespace tracked_mcf::TRACKED_MCF_KERNELS
+}  // namespace tracked_mcf::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();

@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#pragma once
+
+// Only integrate_elements.cpp and integrate_normals.cpp include this, see lanes.h.
+#if defined(TRACKED_MCF_ELEMENT_BATCH_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef TRACKED_MCF_ELEMENT_BATCH_H
+#undef TRACKED_MCF_ELEMENT_BATCH_H
+#else
+#define TRACKED_MCF_ELEMENT_BATCH_H
+#endif
 
 #include "filter_tracked_mcf/core/kernels/moments.h"
 
-// Only integrate_elements.cpp includes this, see lanes.h.
-
-namespace tracked_mcf::TRACKED_MCF_KERNELS {
+HWY_BEFORE_NAMESPACE();
+namespace tracked_mcf::HWY_NAMESPACE {
 
 constexpr int kCoefficients = 7;
 
@@ -23,7 +29,7 @@ constexpr int bit(int corner, int axis) {
 }
 
 /// Sets one element's corners. Differences are taken in double precision.
-TRACKED_MCF_INLINE void read_corners(const IntegrationInput& input, std::int64_t element, int lane,
+static HWY_INLINE void read_corners(const IntegrationInput& input, std::int64_t element, int lane,
                                      ElementBatch& batch) {
     const std::int32_t* const unknowns = input.unknowns + 8 * element;
     const double* const base = input.displacement + std::int64_t{3} * unknowns[0];
@@ -39,7 +45,7 @@ TRACKED_MCF_INLINE void read_corners(const IntegrationInput& input, std::int64_t
 }
 
 /// Computes the polynomials of all elements from their corners.
-TRACKED_MCF_INLINE void find_polynomials(ElementBatch& batch) {
+static HWY_INLINE void find_polynomials(ElementBatch& batch) {
     for (int axis = 0; axis < 3; ++axis) {
         Lanes c[8];
         for (int corner = 0; corner < 8; ++corner) c[corner] = load(batch.corners[axis][corner]);
@@ -53,31 +59,31 @@ TRACKED_MCF_INLINE void find_polynomials(ElementBatch& batch) {
     }
 }
 
-TRACKED_MCF_INLINE void read_embedding(const IntegrationInput& input, std::int64_t begin, int count,
+static HWY_INLINE void read_embedding(const IntegrationInput& input, std::int64_t begin, int count,
                                        ElementBatch& batch) {
     for (int lane = 0; lane < count; ++lane) read_corners(input, begin + lane, lane, batch);
     find_polynomials(batch);
 }
 
-TRACKED_MCF_INLINE Trilinear trilinear(const float (&p)[kCoefficients][kLanes], int lane) {
+static HWY_INLINE Trilinear trilinear(const float (&p)[kCoefficients][kLanes], int lane) {
     return {p[0][lane], p[1][lane], p[2][lane], p[3][lane], p[4][lane], p[5][lane], p[6][lane]};
 }
-TRACKED_MCF_INLINE Embedding embedding_of(const ElementBatch& batch, int lane) {
+static HWY_INLINE Embedding embedding_of(const ElementBatch& batch, int lane) {
     return {trilinear(batch.polynomials[0], lane), trilinear(batch.polynomials[1], lane),
             trilinear(batch.polynomials[2], lane)};
 }
 
 /// Adds x or subtracts it. The sign is a product of slopes, which are 1 or -1.
-TRACKED_MCF_INLINE void add_signed(Lanes& sum, bool positive, const Lanes& x) {
+static HWY_INLINE void add_signed(Lanes& sum, bool positive, const Lanes& x) {
     sum = positive ? sum + x : sum - x;
 }
 
 /// Returns ∫ ∇B_I · G ∇B_J, a sum of moments. ∂B_I/∂x is a slope times the linear functions of y
 /// and z in B_I; these linear functions choose the moment.
-TRACKED_MCF_INLINE Lanes stiffness_entry(const Lanes (&moments)[kMomentRows], int row, int column) {
+static HWY_INLINE Lanes stiffness_entry(const Lanes (&moments)[kMomentRows], int row, int column) {
     const int xi = bit(row, 0), yi = bit(row, 1), zi = bit(row, 2);
     const int xj = bit(column, 0), yj = bit(column, 1), zj = bit(column, 2);
-    Lanes sum = {};
+    Lanes sum = zero();
     add_signed(sum, xi == xj, moments[kXX + 3 * (yi + yj) + zi + zj]);
     add_signed(sum, yi == yj, moments[kYY + 3 * (zi + zj) + xi + xj]);
     add_signed(sum, zi == zj, moments[kZZ + 3 * (xi + xj) + yi + yj]);
@@ -90,15 +96,15 @@ TRACKED_MCF_INLINE Lanes stiffness_entry(const Lanes (&moments)[kMomentRows], in
     return sum;
 }
 
-TRACKED_MCF_INLINE Lanes mass_entry(const Lanes (&moments)[kMomentRows], int row, int column) {
+static HWY_INLINE Lanes mass_entry(const Lanes (&moments)[kMomentRows], int row, int column) {
     return moments[kMass + 9 * (bit(row, 0) + bit(column, 0)) + 3 * (bit(row, 1) + bit(column, 1)) +
                    bit(row, 2) + bit(column, 2)];
 }
 
 /// Returns ∫ ∇B_I · G ∇X_t for one coordinate of X_t.
-TRACKED_MCF_INLINE Lanes flux_entry(const Lanes (&moments)[kMomentRows], int axis, int row) {
+static HWY_INLINE Lanes flux_entry(const Lanes (&moments)[kMomentRows], int axis, int row) {
     const int x = bit(row, 0), y = bit(row, 1), z = bit(row, 2);
-    Lanes sum = {};
+    Lanes sum = zero();
     add_signed(sum, x == 1, moments[kFluxX + 4 * axis + 2 * y + z]);
     add_signed(sum, y == 1, moments[kFluxY + 4 * axis + 2 * z + x]);
     add_signed(sum, z == 1, moments[kFluxZ + 4 * axis + 2 * x + y]);
@@ -106,45 +112,46 @@ TRACKED_MCF_INLINE Lanes flux_entry(const Lanes (&moments)[kMomentRows], int axi
 }
 
 /// Returns the area, as the sum of ∫ B_I B_J over all I and J: the functions B sum to 1.
-TRACKED_MCF_INLINE Lanes area_of(const Lanes (&moments)[kMomentRows]) {
-    Lanes area = {};
+static HWY_INLINE Lanes area_of(const Lanes (&moments)[kMomentRows]) {
+    Lanes area = zero();
     for (int i = 0; i < 3; ++i) {
         for (int j = 0; j < 3; ++j) {
             const Lanes* const m = moments + kMass + 9 * i + 3 * j;
             const auto products = static_cast<float>((1 + i % 2) * (1 + j % 2));
-            area += products * (m[0] + 2 * m[1] + m[2]);
+            area = hn::MulAdd(splat(products), hn::MulAdd(splat(2), m[1], m[0]) + m[2], area);
         }
     }
     return area;
 }
 
 /// Writes the matrices of the batch into a block, from this lane of the block on.
-TRACKED_MCF_INLINE void write_matrices(const IntegrationInput& input, const Lanes& mass,
+static HWY_INLINE void write_matrices(const IntegrationInput& input, const Lanes& mass,
                                        const Lanes (&moments)[kMomentRows], MatrixBlock& block,
                                        std::int64_t lane) {
+    const Lanes step_size = splat(input.step_size_in_cells);
     float* entry = block.entry[0] + lane;
-#pragma GCC unroll 8
+    HWY_UNROLL(8)
     for (int row = 0; row < 8; ++row) {
-#pragma GCC unroll 8
+    HWY_UNROLL(8)
         for (int column = row; column < 8; ++column, entry += kBlockElements) {
-            const Lanes stiffness =
-                input.step_size_in_cells * stiffness_entry(moments, row, column);
-            store(stiffness + mass * mass_entry(moments, row, column), entry);
+            const Lanes weighted_mass = mass * mass_entry(moments, row, column);
+            store(hn::MulAdd(step_size, stiffness_entry(moments, row, column), weighted_mass),
+                  entry);
         }
     }
 }
 
-/// Writes the weighted stiffnesses of the batch, as write_matrices() does. In one loop for both,
-/// compilers round the sums of write_matrices() differently.
-TRACKED_MCF_INLINE void write_stiffnesses(const IntegrationInput& input,
+/// Writes the weighted stiffnesses of the batch, as write_matrices() does.
+static HWY_INLINE void write_stiffnesses(const IntegrationInput& input,
                                           const Lanes (&moments)[kMomentRows], MatrixBlock& block,
                                           std::int64_t lane) {
+    const Lanes step_size = splat(input.step_size_in_cells);
     float* entry = block.entry[0] + lane;
-#pragma GCC unroll 8
+    HWY_UNROLL(8)
     for (int row = 0; row < 8; ++row) {
-#pragma GCC unroll 8
+    HWY_UNROLL(8)
         for (int column = row; column < 8; ++column, entry += kBlockElements) {
-            store(input.step_size_in_cells * stiffness_entry(moments, row, column), entry);
+            store(step_size * stiffness_entry(moments, row, column), entry);
         }
     }
 }
@@ -154,21 +161,21 @@ constexpr int kRightSide = 0;
 constexpr int kArea = 24;
 constexpr int kResults = 32;  ///< rounded up to a multiple of kLanes
 
-TRACKED_MCF_INLINE void find_results(const IntegrationInput& input,
+static HWY_INLINE void find_results(const IntegrationInput& input,
                                      const Lanes (&moments)[kMomentRows],
                                      Lanes (&results)[kResults]) {
     for (int axis = 0; axis < 3; ++axis) {
         for (int row = 0; row < 8; ++row) {
             results[kRightSide + 8 * axis + row] =
-                -input.step_size_in_cells * flux_entry(moments, axis, row);
+                splat(-input.step_size_in_cells) * flux_entry(moments, axis, row);
         }
     }
     results[kArea] = area_of(moments);
-    for (int i = kArea + 1; i < kResults; ++i) results[i] = Lanes{};
+    for (int i = kArea + 1; i < kResults; ++i) results[i] = zero();
 }
 
 /// Transposes the moments: from one row for each element to one lane for each element.
-TRACKED_MCF_INLINE void transpose_moments(const ElementBatch& batch,
+static HWY_INLINE void transpose_moments(const ElementBatch& batch,
                                           Lanes (&moments)[kMomentRows]) {
     for (int m = 0; m < kMomentRows; m += kLanes) {
         Lanes block[kLanes];
@@ -178,14 +185,14 @@ TRACKED_MCF_INLINE void transpose_moments(const ElementBatch& batch,
     }
 }
 
-TRACKED_MCF_INLINE void write_systems(const IntegrationInput& input, std::int64_t begin, int count,
+static HWY_INLINE void write_systems(const IntegrationInput& input, std::int64_t begin, int count,
                                       const ElementBatch& batch, const IntegrationOutput& output) {
     Lanes moments[kMomentRows];
     transpose_moments(batch, moments);
     const std::int64_t block = begin / kBlockElements;
     const std::int64_t lane = begin % kBlockElements;
     const Lanes mass =
-        input.densities == nullptr ? splat(input.mass) : input.mass * load(input.densities + begin);
+        input.densities == nullptr ? splat(input.mass) : splat(input.mass) * load(input.densities + begin);
     write_matrices(input, mass, moments, output.matrices[block], lane);
     if (output.stiffnesses != nullptr) {
         write_stiffnesses(input, moments, output.stiffnesses[block], lane);
@@ -200,10 +207,12 @@ TRACKED_MCF_INLINE void write_systems(const IntegrationInput& input, std::int64_
         for (int i = 0; i < kLanes; ++i) store(square[i], rows[i] + r);
     }
     for (int i = 0; i < count; ++i) {
-        __builtin_memcpy(output.right_sides + begin + i, rows[i] + kRightSide,
-                         sizeof(ElementVector));
+        hwy::CopyBytes<sizeof(ElementVector)>(rows[i] + kRightSide, output.right_sides + begin + i);
         output.areas[begin + i] = rows[i][kArea];
     }
 }
 
-}  // namespace tracked_mcf::TRACKED_MCF_KERNELS
+}  // namespace tracked_mcf::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target guard

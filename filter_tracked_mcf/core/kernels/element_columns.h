@@ -1,19 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#pragma once
 
-#ifdef __AVX__
-#include <immintrin.h>
+// Only element_products.cpp includes this, see lanes.h.
+#if defined(TRACKED_MCF_ELEMENT_COLUMNS_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef TRACKED_MCF_ELEMENT_COLUMNS_H
+#undef TRACKED_MCF_ELEMENT_COLUMNS_H
+#else
+#define TRACKED_MCF_ELEMENT_COLUMNS_H
 #endif
 
 #include "filter_tracked_mcf/core/kernels/element_products.h"
 #include "filter_tracked_mcf/core/kernels/lanes.h"
 
-// Only element_products.cpp includes this, see lanes.h.
-
-namespace tracked_mcf::TRACKED_MCF_KERNELS {
+HWY_BEFORE_NAMESPACE();
+namespace tracked_mcf::HWY_NAMESPACE {
 
 /// The column of a Field for one unknown: x, y, z and a zero.
-using Column = float __attribute__((vector_size(16)));
+constexpr hn::CappedTag<float, 4> kColumn;
+using Column = hn::Vec<decltype(kColumn)>;
 
 /// The coordinates at one corner, one variable per coordinate and one lane per element.
 struct Coordinates {
@@ -26,88 +29,75 @@ struct Columns {
     Lanes of_remainder[4];
 };
 
-TRACKED_MCF_INLINE Column load_column(const float* from) {
-    Column column;
-    __builtin_memcpy(&column, __builtin_assume_aligned(from, 16), sizeof column);
-    return column;
+static HWY_INLINE void add_to(float* to, const Column& column) {
+    hn::Store(hn::Load(kColumn, to) + column, kColumn, to);
 }
-
-TRACKED_MCF_INLINE void add_to(float* to, const Column& column) {
-    const Column sum = load_column(to) + column;
-    __builtin_memcpy(__builtin_assume_aligned(to, 16), &sum, sizeof sum);
-}
-
-#if defined(__AVX512F__)
-/// Masks that select all lanes. GCC 12 warns of undefined values in the headers of the instructions
-/// without a mask.
-constexpr __mmask16 kAll = 0xFFFF;
-constexpr __mmask8 kAllOfColumn = 0xF;
-#endif
 
 /// Returns the columns of the elements k, k + 4, k + 8, … side by side in one vector.
-template <class ColumnOf>
-TRACKED_MCF_INLINE Lanes side_by_side(int k, const ColumnOf& column) {
-#if defined(__AVX512F__)
-    Lanes lanes = _mm512_zextps128_ps512(column(k));
-    lanes = _mm512_maskz_insertf32x4(kAll, lanes, column(k + 4), 1);
-    lanes = _mm512_maskz_insertf32x4(kAll, lanes, column(k + 8), 2);
-    return _mm512_maskz_insertf32x4(kAll, lanes, column(k + 12), 3);
-#elif defined(__AVX__)
-    return _mm256_insertf128_ps(_mm256_castps128_ps256(column(k)), column(k + 4), 1);
-#else
-    return column(k);
-#endif
+template <class Tag, class ColumnOf>
+static HWY_INLINE hn::Vec<Tag> side_by_side(Tag tag, int k, const ColumnOf& column) {
+    if constexpr (hn::MaxLanes(tag) == 4) {
+        return column(k);
+    } else {
+        const hn::Half<Tag> half;
+        const int upper = k + static_cast<int>(hn::MaxLanes(half));
+        return hn::Combine(tag, side_by_side(half, upper, column), side_by_side(half, k, column));
+    }
 }
 
 /// Reads from x the columns at one corner. unknowns[8 * lane] is the unknown of each element.
-TRACKED_MCF_INLINE Columns read_columns(const float* x, const std::int32_t* unknowns) {
-    const auto column = [&](int lane) {
-        return load_column(x + std::int64_t{4} * unknowns[8 * lane]);
+static HWY_INLINE Columns read_columns(const float* x, const std::int32_t* unknowns) {
+    const auto column = [&](int lane) HWY_ATTR {
+        return hn::Load(kColumn, x + std::int64_t{4} * unknowns[8 * lane]);
     };
-    return {{side_by_side(0, column), side_by_side(1, column), side_by_side(2, column),
-             side_by_side(3, column)}};
+    return {{side_by_side(kFloats, 0, column), side_by_side(kFloats, 1, column),
+             side_by_side(kFloats, 2, column), side_by_side(kFloats, 3, column)}};
+}
+
+/// Returns four consecutive lanes.
+template <int kBlock, class Tag>
+static HWY_INLINE Column block_of(Tag tag, const hn::Vec<Tag>& lanes) {
+    if constexpr (hn::MaxLanes(tag) == 4) {
+        return lanes;
+    } else {
+        const hn::Half<Tag> half;
+        constexpr int blocks = static_cast<int>(hn::MaxLanes(half)) / 4;
+        if constexpr (kBlock < blocks) {
+            return block_of<kBlock>(half, hn::LowerHalf(half, lanes));
+        } else {
+            return block_of<kBlock - blocks>(half, hn::UpperHalf(half, lanes));
+        }
+    }
 }
 
 /// Returns the column of one element.
 template <int kLane>
-TRACKED_MCF_INLINE Column column_of(const Columns& columns) {
-    const Lanes& lanes = columns.of_remainder[kLane % 4];
-#if defined(__AVX512F__)
-    return _mm512_maskz_extractf32x4_ps(kAllOfColumn, lanes, kLane / 4);
-#elif defined(__AVX__)
-    return _mm256_extractf128_ps(lanes, kLane / 4);
-#else
-    return lanes;
-#endif
+static HWY_INLINE Column column_of(const Columns& columns) {
+    return block_of<kLane / 4>(kFloats, columns.of_remainder[kLane % 4]);
 }
 
-/// In each group of four lanes: a0 b0 a1 b1. Plus 2: a2 b2 a3 b3.
-constexpr LaneIndices kPairsInFours =
-    (kLaneIndex & ~3) + (kLaneIndex & 2) / 2 + (kLaneIndex & 1) * kLanes;
-/// In each group of four lanes: a0 a1 b0 b1. Plus 2: a2 a3 b2 b3.
-constexpr LaneIndices kHalvesInFours =
-    (kLaneIndex & ~3) + (kLaneIndex & 1) + (kLaneIndex & 2) / 2 * kLanes;
-
 /// Transposes columns to coordinates.
-TRACKED_MCF_INLINE Coordinates coordinates(const Columns& columns) {
+static HWY_INLINE Coordinates coordinates(const Columns& columns) {
     const Lanes(&c)[4] = columns.of_remainder;
-    const Lanes xy_low = pick(c[0], c[1], kPairsInFours);
-    const Lanes xy_high = pick(c[2], c[3], kPairsInFours);
-    const Lanes z_low = pick(c[0], c[1], kPairsInFours + 2);
-    const Lanes z_high = pick(c[2], c[3], kPairsInFours + 2);
-    return {{pick(xy_low, xy_high, kHalvesInFours), pick(xy_low, xy_high, kHalvesInFours + 2),
-             pick(z_low, z_high, kHalvesInFours)}};
+    const Lanes xy_low = hn::InterleaveLower(kFloats, c[0], c[1]);
+    const Lanes xy_high = hn::InterleaveLower(kFloats, c[2], c[3]);
+    const Lanes z_low = hn::InterleaveUpper(kFloats, c[0], c[1]);
+    const Lanes z_high = hn::InterleaveUpper(kFloats, c[2], c[3]);
+    return {{low_halves(xy_low, xy_high), high_halves(xy_low, xy_high),
+             low_halves(z_low, z_high)}};
 }
 
 /// Transposes coordinates to columns.
-TRACKED_MCF_INLINE Columns columns_of(const Lanes& x, const Lanes& y, const Lanes& z) {
-    const Lanes zero = {};
-    const Lanes xy_low = pick(x, y, kPairsInFours);
-    const Lanes xy_high = pick(x, y, kPairsInFours + 2);
-    const Lanes z_low = pick(z, zero, kPairsInFours);
-    const Lanes z_high = pick(z, zero, kPairsInFours + 2);
-    return {{pick(xy_low, z_low, kHalvesInFours), pick(xy_low, z_low, kHalvesInFours + 2),
-             pick(xy_high, z_high, kHalvesInFours), pick(xy_high, z_high, kHalvesInFours + 2)}};
+static HWY_INLINE Columns columns_of(const Lanes& x, const Lanes& y, const Lanes& z) {
+    const Lanes xy_low = hn::InterleaveLower(kFloats, x, y);
+    const Lanes xy_high = hn::InterleaveUpper(kFloats, x, y);
+    const Lanes z_low = hn::InterleaveLower(kFloats, z, zero());
+    const Lanes z_high = hn::InterleaveUpper(kFloats, z, zero());
+    return {{low_halves(xy_low, z_low), high_halves(xy_low, z_low), low_halves(xy_high, z_high),
+             high_halves(xy_high, z_high)}};
 }
 
-}  // namespace tracked_mcf::TRACKED_MCF_KERNELS
+}  // namespace tracked_mcf::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target guard

@@ -1,9 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "filter_tracked_mcf/core/kernels/element_products.h"
 
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "filter_tracked_mcf/core/kernels/element_products.cpp"
+#include "filter_tracked_mcf/core/kernels/targets.h"
+
+#include <hwy/cache_control.h>
+
 #include "filter_tracked_mcf/core/kernels/element_columns.h"
 
-namespace tracked_mcf::TRACKED_MCF_KERNELS {
+HWY_BEFORE_NAMESPACE();
+namespace tracked_mcf::HWY_NAMESPACE {
 
 namespace {
 
@@ -23,7 +30,7 @@ struct Block {
 /// The unknowns of an incomplete last block, padded: any unknown will do where the matrix is zero.
 using Padding = std::int32_t[8 * kBlockElements];
 
-TRACKED_MCF_INLINE Block block_at(const ElementRange& range, const MatrixBlock* matrices,
+static HWY_INLINE Block block_at(const ElementRange& range, const MatrixBlock* matrices,
                                   std::int32_t first, Padding& padding) {
     const std::int32_t left = range.end - first;
     const std::int64_t offset = range.target_offsets[first / kBlockElements];
@@ -47,16 +54,16 @@ TRACKED_MCF_INLINE Block block_at(const ElementRange& range, const MatrixBlock* 
 
 /// Prefetches a part of a block. The work on one block takes longer than the distance at which
 /// processors prefetch on their own.
-TRACKED_MCF_INLINE void prefetch(const MatrixBlock& block, int part, int parts) {
+static HWY_INLINE void prefetch(const MatrixBlock& block, int part, int parts) {
     for (int entry = part; entry < kMatrixEntries; entry += parts) {
-        __builtin_prefetch(block.entry[entry]);
+        hwy::Prefetch(block.entry[entry]);
     }
 }
 
-TRACKED_MCF_INLINE void read_corners(const float* x, const Block& block, int lane,
+static HWY_INLINE void read_corners(const float* x, const Block& block, int lane,
                                      CornerLanes& corners) {
     constexpr int parts = 8 * kBlockElements / kLanes;
-#pragma GCC unroll 8
+    HWY_UNROLL(8)
     for (int corner = 0; corner < 8; ++corner) {
         prefetch(*block.later, 8 * (lane / kLanes) + corner, parts);
         const Coordinates c = coordinates(read_columns(x, block.unknowns + 8 * lane + corner));
@@ -65,42 +72,42 @@ TRACKED_MCF_INLINE void read_corners(const float* x, const Block& block, int lan
 }
 
 /// Computes products = factor * M x for the elements whose matrices begin at `entries`.
-TRACKED_MCF_INLINE void multiply(const float* entries, float factor, const CornerLanes& x,
+static HWY_INLINE void multiply(const float* entries, float factor, const CornerLanes& x,
                                  CornerLanes& products) {
-#pragma GCC unroll 3
+    HWY_UNROLL(3)
     for (int axis = 0; axis < 3; ++axis) {
         Lanes sums[8] = {};
         const float* entry = entries;
-#pragma GCC unroll 8
+    HWY_UNROLL(8)
         for (int i = 0; i < 8; ++i) {
-            sums[i] += load(entry) * x[axis][i];
+            sums[i] = hn::MulAdd(load(entry), x[axis][i], sums[i]);
             entry += kBlockElements;
-#pragma GCC unroll 8
+    HWY_UNROLL(8)
             for (int j = i + 1; j < 8; ++j, entry += kBlockElements) {
                 const Lanes m = load(entry);
-                sums[i] += m * x[axis][j];
-                sums[j] += m * x[axis][i];
+                sums[i] = hn::MulAdd(m, x[axis][j], sums[i]);
+                sums[j] = hn::MulAdd(m, x[axis][i], sums[j]);
             }
         }
-        for (int i = 0; i < 8; ++i) products[axis][i] = factor * sums[i];
+        for (int i = 0; i < 8; ++i) products[axis][i] = splat(factor) * sums[i];
     }
 }
 
 /// Calls visit(lane, column) for the column of each lane.
 template <int kLane = 0, class Visit>
-TRACKED_MCF_INLINE void for_each_column(const Columns& columns, const Visit& visit) {
+static HWY_INLINE void for_each_column(const Columns& columns, const Visit& visit) {
     visit(kLane, column_of<kLane>(columns));
     if constexpr (kLane + 1 < kLanes) for_each_column<kLane + 1>(columns, visit);
 }
 
 /// Adds the products of `count` elements to the addresses at(target) of their targets.
 template <class At>
-TRACKED_MCF_INLINE void add(const std::int32_t* targets, int count, const CornerLanes& products,
+static HWY_INLINE void add(const std::int32_t* targets, int count, const CornerLanes& products,
                             const At& at) {
-#pragma GCC unroll 8
+    HWY_UNROLL(8)
     for (int i = 0; i < 8; ++i) {
         for_each_column(columns_of(products[0][i], products[1][i], products[2][i]),
-                        [&](int lane, const Column& column) {
+                        [&](int lane, const Column& column) HWY_ATTR {
                             if (lane < count) add_to(at(targets[8 * lane + i]), column);
                         });
     }
@@ -109,7 +116,7 @@ TRACKED_MCF_INLINE void add(const std::int32_t* targets, int count, const Corner
 /// Adds products whose targets may be slots: few blocks have any.
 void add_to_slots(const std::int32_t* targets, int count, const CornerLanes& products, float* y,
                   float* slots) {
-    add(targets, count, products, [&](std::int64_t target) {
+    add(targets, count, products, [&](std::int64_t target) HWY_ATTR {
         return target >= 0 ? y + 4 * target : slots + 4 * (-1 - target);
     });
 }
@@ -117,7 +124,7 @@ void add_to_slots(const std::int32_t* targets, int count, const CornerLanes& pro
 /// Adds the products of all elements to their targets, kLanes elements at a time, and calls
 /// visit(x at the corners, products) for them.
 template <class Visit>
-TRACKED_MCF_INLINE void add_products(const ElementRange& range, const MatrixBlock* matrices,
+static HWY_INLINE void add_products(const ElementRange& range, const MatrixBlock* matrices,
                                      float factor, const float* x, float* y, const Visit& visit) {
     Padding padding;
     for (std::int32_t first = range.begin; first < range.end; first += kBlockElements) {
@@ -133,7 +140,8 @@ TRACKED_MCF_INLINE void add_products(const ElementRange& range, const MatrixBloc
             if (!block.direct || count < kLanes) {
                 add_to_slots(targets, count, products, y, range.slots);
             } else {
-                add(targets, kLanes, products, [&](std::int64_t target) { return y + 4 * target; });
+                add(targets, kLanes, products,
+                    [&](std::int64_t target) HWY_ATTR { return y + 4 * target; });
             }
         }
     }
@@ -144,21 +152,26 @@ TRACKED_MCF_INLINE void add_products(const ElementRange& range, const MatrixBloc
 void add_element_products(const ElementRange& range, const MatrixBlock* matrices, float factor,
                           const float* x, float* y) {
     add_products(range, matrices, factor, x, y,
-                 [](const CornerLanes& /*x*/, const CornerLanes& /*products*/) {});
+                 [](const CornerLanes& /*x*/, const CornerLanes& /*products*/) HWY_ATTR {});
 }
 
 double add_element_products_and_dot(const ElementRange& range, const MatrixBlock* matrices,
                                     const float* x, float* y) {
     double dot = 0;
     add_products(range, matrices, 1, x, y,
-                 [&](const CornerLanes& at_corners, const CornerLanes& products) {
-                     Lanes sum = {};
+                 [&](const CornerLanes& at_corners, const CornerLanes& products) HWY_ATTR {
+                     Lanes sum = zero();
                      for (int axis = 0; axis < 3; ++axis) {
-                         for (int i = 0; i < 8; ++i) sum += at_corners[axis][i] * products[axis][i];
+                         for (int i = 0; i < 8; ++i) {
+                             sum = hn::MulAdd(at_corners[axis][i], products[axis][i], sum);
+                         }
                      }
-                     for (int lane = 0; lane < kLanes; ++lane) dot += sum[lane];
+                     alignas(64) float lanes[kLanes];
+                     store(sum, lanes);
+                     for (const float of_lane : lanes) dot += of_lane;
                  });
     return dot;
 }
 
-}  // namespace tracked_mcf::TRACKED_MCF_KERNELS
+}  // namespace tracked_mcf::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();

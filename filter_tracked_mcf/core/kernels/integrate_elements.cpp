@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "filter_tracked_mcf/core/kernels/integrate_elements.h"
 
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "filter_tracked_mcf/core/kernels/integrate_elements.cpp"
+#include "filter_tracked_mcf/core/kernels/targets.h"
+
 #include "filter_tracked_mcf/core/kernels/element_batch.h"
 #include "filter_tracked_mcf/core/kernels/moments.h"
 #include "filter_tracked_mcf/core/kernels/sample_chunk.h"
 
-namespace tracked_mcf::TRACKED_MCF_KERNELS {
+HWY_BEFORE_NAMESPACE();
+namespace tracked_mcf::HWY_NAMESPACE {
 
 namespace {
 
@@ -15,6 +20,12 @@ bool any_collapsed(const SampleChunk& chunk) {
     return collapsed != 0;
 }
 
+/// Returns a b + c, rounded as vectors are.
+float multiply_add(float a, float b, float c) {
+    constexpr hn::CappedTag<float, 1> one;
+    return hn::GetLane(hn::MulAdd(hn::Set(one, a), hn::Set(one, b), hn::Set(one, c)));
+}
+
 /// Adds the collapsed samples of a chunk. Few chunks have any.
 void count_collapsed(const SampleChunk& chunk, Collapse& collapse) {
     for (int i = 0; i < chunk.count; ++i) {
@@ -22,9 +33,10 @@ void count_collapsed(const SampleChunk& chunk, Collapse& collapse) {
         if (chunk.area[i] > 0 || weight <= 0) continue;
         ++collapse.samples;
         for (int corner = 0; corner < 8; ++corner) {
-            collapse.mass[corner] += weight * chunk.bernstein[2 * bit(corner, 0)][i] *
-                                     chunk.bernstein[3 + 2 * bit(corner, 1)][i] *
-                                     chunk.bernstein[6 + 2 * bit(corner, 2)][i];
+            collapse.mass[corner] =
+                multiply_add(weight * chunk.bernstein[2 * bit(corner, 0)][i] *
+                                 chunk.bernstein[3 + 2 * bit(corner, 1)][i],
+                             chunk.bernstein[6 + 2 * bit(corner, 2)][i], collapse.mass[corner]);
         }
     }
 }
@@ -67,4 +79,5 @@ int integrate_elements(const IntegrationInput& input, const IntegrationOutput& o
     return collapse_count;
 }
 
-}  // namespace tracked_mcf::TRACKED_MCF_KERNELS
+}  // namespace tracked_mcf::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();

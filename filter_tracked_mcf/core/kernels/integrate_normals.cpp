@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "filter_tracked_mcf/core/kernels/integrate_normals.h"
 
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "filter_tracked_mcf/core/kernels/integrate_normals.cpp"
+#include "filter_tracked_mcf/core/kernels/targets.h"
+
 #include "filter_tracked_mcf/core/kernels/element_batch.h"
 #include "filter_tracked_mcf/core/kernels/sample_chunk.h"
 
-namespace tracked_mcf::TRACKED_MCF_KERNELS {
+HWY_BEFORE_NAMESPACE();
+namespace tracked_mcf::HWY_NAMESPACE {
 
 namespace {
 
@@ -13,12 +18,15 @@ void add_normals(const Embedding& embedding, const SampleChunk& chunk, Lanes (&s
     for (int i = 0; i < chunk.count; i += kLanes) {
         const Lanes weight = weights(chunk, i);
         const Vector normal = differentials(embedding, chunk, i).normal;
-        const Lanes forces[3] = {-weight * normal.x, -weight * normal.y, -weight * normal.z};
+        const Lanes force = hn::Neg(weight);
+        const Lanes forces[3] = {force * normal.x, force * normal.y, force * normal.z};
         for (int corner = 0; corner < 8; ++corner) {
             const Lanes value = load(chunk.linear[bit(corner, 0)] + i) *
                                 load(chunk.linear[2 + bit(corner, 1)] + i) *
                                 load(chunk.linear[4 + bit(corner, 2)] + i);
-            for (int axis = 0; axis < 3; ++axis) sums[axis][corner] += value * forces[axis];
+            for (int axis = 0; axis < 3; ++axis) {
+                sums[axis][corner] = hn::MulAdd(value, forces[axis], sums[axis][corner]);
+            }
         }
     }
 }
@@ -35,8 +43,10 @@ void integrate(const SampleArrays& samples, const Embedding& embedding, std::int
     }
     for (int axis = 0; axis < 3; ++axis) {
         for (int corner = 0; corner < 8; ++corner) {
+            alignas(64) float lanes[kLanes];
+            store(sums[axis][corner], lanes);
             float sum = 0;
-            for (int lane = 0; lane < kLanes; ++lane) sum += sums[axis][corner][lane];
+            for (const float of_lane : lanes) sum += of_lane;
             normals.entry[axis][corner] = sum;
         }
     }
@@ -57,4 +67,5 @@ void integrate_normals(const IntegrationInput& input, ElementVector* normals) {
     }
 }
 
-}  // namespace tracked_mcf::TRACKED_MCF_KERNELS
+}  // namespace tracked_mcf::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();

@@ -1,27 +1,71 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "filter_tracked_mcf/core/kernels/kernels.h"
 
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "filter_tracked_mcf/core/kernels/kernels.cpp"
+#include "filter_tracked_mcf/core/kernels/targets.h"
+
+#include <hwy/highway.h>
+
 #include <algorithm>
 #include <cstdlib>
 #include <string>
 
 #include "filter_tracked_mcf/core/errors.h"
 
+namespace tracked_mcf::HWY_NAMESPACE {
+
+IntegrateElements integrate_elements;
+IntegrateNormals integrate_normals;
+AddElementProducts add_element_products;
+AddElementProductsAndDot add_element_products_and_dot;
+CoarsenElements coarsen_elements;
+SumCouplings sum_couplings;
+InvertLocally invert_locally;
+AddTensorProducts add_tensor_products;
+
+constexpr Kernels kTable = {
+    integrate_elements, integrate_normals, add_element_products, add_element_products_and_dot,
+    coarsen_elements,   sum_couplings,     invert_locally,       add_tensor_products};
+
+}  // namespace tracked_mcf::HWY_NAMESPACE
+
+#if HWY_ONCE
+
 namespace tracked_mcf {
 
-namespace kernels_baseline {
-extern const Kernels kTable;
-}
-#ifdef TRACKED_MCF_X86_64_KERNELS
-namespace kernels_avx2 {
-extern const Kernels kTable;
-}
-namespace kernels_avx512 {
-extern const Kernels kTable;
-}
-#endif
-
 namespace {
+
+/// The kernels of an instruction set, or null if they are not compiled for it.
+const Kernels* table_of(InstructionSet instructions) {
+    constexpr const Kernels* tables[] = {&HWY_STATIC_DISPATCH(kTable), HWY_CHOOSE_SSSE3(kTable),
+                                         HWY_CHOOSE_AVX2(kTable), HWY_CHOOSE_AVX3(kTable)};
+    return tables[static_cast<int>(instructions)];
+}
+
+/// Returns whether the processor has what Highway uses of an instruction set. The kernels have no
+/// cryptography and no half-precision numbers.
+bool has(InstructionSet instructions) {
+#ifdef HWY_COMPILE_ONLY_STATIC
+    return instructions == InstructionSet::Baseline;
+#else
+    __builtin_cpu_init();
+    switch (instructions) {
+        case InstructionSet::Baseline: return true;
+        case InstructionSet::Ssse3: return __builtin_cpu_supports("ssse3") != 0;
+        case InstructionSet::Avx2:
+            return __builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0 &&
+                   __builtin_cpu_supports("bmi") != 0 && __builtin_cpu_supports("bmi2") != 0;
+        case InstructionSet::Avx512:
+            return has(InstructionSet::Avx2) && __builtin_cpu_supports("avx512f") != 0 &&
+                   __builtin_cpu_supports("avx512cd") != 0 &&
+                   __builtin_cpu_supports("avx512vl") != 0 &&
+                   __builtin_cpu_supports("avx512dq") != 0 &&
+                   __builtin_cpu_supports("avx512bw") != 0;
+    }
+    return false;
+#endif
+}
 
 constexpr const char* kVariable = "TRACKED_MCF_INSTRUCTIONS";
 
@@ -39,21 +83,19 @@ constexpr const char* kVariable = "TRACKED_MCF_INSTRUCTIONS";
 }  // namespace
 
 std::string_view name_of(InstructionSet instructions) {
-    constexpr std::string_view names[] = {"baseline", "avx2", "avx512"};
+    constexpr std::string_view names[] = {"baseline", "ssse3", "avx2", "avx512"};
     return names[static_cast<int>(instructions)];
 }
 
 std::vector<InstructionSet> available_instruction_sets() {
     std::vector<InstructionSet> available = {InstructionSet::Baseline};
-#ifdef TRACKED_MCF_X86_64_KERNELS
-    __builtin_cpu_init();
-    if (__builtin_cpu_supports("avx2") == 0 || __builtin_cpu_supports("fma") == 0) return available;
-    available.push_back(InstructionSet::Avx2);
-    if (__builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512vl") != 0 &&
-        __builtin_cpu_supports("avx512dq") != 0 && __builtin_cpu_supports("avx512bw") != 0) {
-        available.push_back(InstructionSet::Avx512);
+    for (const InstructionSet better :
+         {InstructionSet::Ssse3, InstructionSet::Avx2, InstructionSet::Avx512}) {
+        const Kernels* const table = table_of(better);
+        if (table != nullptr && table != table_of(InstructionSet::Baseline) && has(better)) {
+            available.push_back(better);
+        }
     }
-#endif
     return available;
 }
 
@@ -74,11 +116,7 @@ const Kernels& kernels_for(InstructionSet instructions) {
         throw InvalidParameter("This machine does not have " + std::string(name_of(instructions)) +
                                ".");
     }
-#ifdef TRACKED_MCF_X86_64_KERNELS
-    if (instructions == InstructionSet::Avx512) return kernels_avx512::kTable;
-    if (instructions == InstructionSet::Avx2) return kernels_avx2::kTable;
-#endif
-    return kernels_baseline::kTable;
+    return *table_of(instructions);
 }
 
 const Kernels& kernels() {
@@ -87,3 +125,5 @@ const Kernels& kernels() {
 }
 
 }  // namespace tracked_mcf
+
+#endif  // HWY_ONCE

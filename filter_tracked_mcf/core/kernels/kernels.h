@@ -13,16 +13,19 @@
 
 namespace tracked_mcf {
 
-/// The innermost loops. This folder's sources that define them, and kernel_table.cpp, are compiled
-/// once for each InstructionSet, each time into another namespace, TRACKED_MCF_KERNELS. The program
-/// chooses one of them at run time.
+/// The innermost loops. Their sources in this folder are written with Google Highway's vectors and
+/// compiled once for each InstructionSet, each time into another namespace, HWY_NAMESPACE. The
+/// program chooses one of them at run time.
 ///
-/// To add a kernel, add a header with its signature, a source file, a member here and a line in
-/// kernel_table.cpp. A kernel may include only files that define nothing but plain structs and
-/// constants: no inline functions except those that compute constants, no templates of the standard
-/// library or Eigen, no default member initializers. A compiler need not inline such code, and the
-/// linker keeps any one of several copies, perhaps the one that needs AVX-512. kernel_table.cpp has
-/// no code, so it may include this file. The test kernel_symbols checks this.
+/// To add a kernel, add a header with its signature, a source file, and a member here and in
+/// kernels.cpp. A kernel may include only files that define nothing but plain structs and constants:
+/// no inline functions except those that compute constants, no templates of the standard library or
+/// Eigen, no default member initializers. A compiler need not inline such code, and the linker keeps
+/// any one of several copies, perhaps the one that needs AVX-512. The test kernel_symbols checks
+/// this.
+///
+/// A kernel calls MulAdd and its relatives where a sum of a product is to be rounded once, if the
+/// processor can; compilers fuse nothing on their own. So all compilers give the same bits.
 struct Kernels {
     IntegrateElements* integrate_elements;
     IntegrateNormals* integrate_normals;
@@ -34,11 +37,13 @@ struct Kernels {
     AddTensorProducts* add_tensor_products;
 };
 
-/// Instruction sets that the kernels are compiled for. Baseline is that of the rest of the program.
-/// Avx2 means AVX2 and FMA; Avx512 adds AVX-512 F, VL, DQ and BW.
-enum class InstructionSet { Baseline, Avx2, Avx512 };
+/// Instruction sets that the kernels are compiled for. Baseline is that of the rest of the program,
+/// and the only one on ARM64 (NEON) and with MSVC. Avx2 means AVX2, FMA and BMI; Avx512 adds AVX-512
+/// F, CD, VL, DQ and BW. Baseline on x86-64 and Ssse3 give the same bits; Highway 1.0 has no vectors
+/// for the former.
+enum class InstructionSet { Baseline, Ssse3, Avx2, Avx512 };
 
-/// Returns "baseline", "avx2" or "avx512".
+/// Returns "baseline", "ssse3", "avx2" or "avx512".
 std::string_view name_of(InstructionSet instructions);
 
 /// Returns the instruction sets that this program was built for and this machine supports, the best

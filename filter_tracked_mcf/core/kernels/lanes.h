@@ -1,112 +1,129 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#pragma once
 
-// Only the sources of kernels include this, see kernels.h. Everything here is internal to the
-// file that includes it.
-
-/// Declares a helper of a kernel that never becomes a symbol.
-#define TRACKED_MCF_INLINE static inline __attribute__((always_inline))
-
-namespace tracked_mcf::TRACKED_MCF_KERNELS {
-
-/// Number of floats in a vector register.
-#if defined(__AVX512F__)
-constexpr int kLanes = 16;
-#elif defined(__AVX__)
-constexpr int kLanes = 8;
+// Only the sources of kernels include this, see kernels.h. Everything here is internal to the file
+// that includes it, and to one instruction set: the guard lets Highway include it once for each.
+#if defined(TRACKED_MCF_LANES_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef TRACKED_MCF_LANES_H
+#undef TRACKED_MCF_LANES_H
 #else
-constexpr int kLanes = 4;
+#define TRACKED_MCF_LANES_H
 #endif
 
-using Lanes = float __attribute__((vector_size(kLanes * sizeof(float))));
-using LaneIndices = int __attribute__((vector_size(kLanes * sizeof(int))));
+#include <hwy/highway.h>
 
-/// 0, 1, 2, ...
-#if defined(__AVX512F__)
-constexpr LaneIndices kLaneIndex = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
-#elif defined(__AVX__)
-constexpr LaneIndices kLaneIndex = {0, 1, 2, 3, 4, 5, 6, 7};
-#else
-constexpr LaneIndices kLaneIndex = {0, 1, 2, 3};
-#endif
+HWY_BEFORE_NAMESPACE();
+namespace tracked_mcf::HWY_NAMESPACE {
 
-TRACKED_MCF_INLINE Lanes load(const float* from) {
-    Lanes lanes;
-    __builtin_memcpy(&lanes, from, sizeof(lanes));
-    return lanes;
-}
-TRACKED_MCF_INLINE LaneIndices load(const unsigned* from) {
-    LaneIndices lanes;
-    __builtin_memcpy(&lanes, from, sizeof(lanes));
-    return lanes;
-}
-TRACKED_MCF_INLINE Lanes to_floats(const LaneIndices& numbers) {
-    return __builtin_convertvector(numbers, Lanes);
-}
-TRACKED_MCF_INLINE void store(const Lanes& lanes, float* to) {
-    __builtin_memcpy(to, &lanes, sizeof(lanes));
-}
-TRACKED_MCF_INLINE Lanes splat(float value) {
-    return value - Lanes{};
-}
+namespace hn = hwy::HWY_NAMESPACE;
 
-TRACKED_MCF_INLINE Lanes square_root(const Lanes& lanes) {
-    Lanes roots;
-    for (int lane = 0; lane < kLanes; ++lane) roots[lane] = __builtin_sqrtf(lanes[lane]);
-    return roots;
+/// Highway's tags of vectors: of floats, of as many words, and of half as many doubles.
+constexpr hn::CappedTag<float, 16> kFloats;
+constexpr hn::RebindToUnsigned<decltype(kFloats)> kWords;
+constexpr hn::Repartition<double, decltype(kFloats)> kDoubles;
+
+/// Number of floats in a vector: 4, 8 or 16.
+constexpr int kLanes = static_cast<int>(hn::MaxLanes(kFloats));
+
+using Lanes = hn::Vec<decltype(kFloats)>;
+using Words = hn::Vec<decltype(kWords)>;
+
+static HWY_INLINE Lanes load(const float* from) {
+    return hn::LoadU(kFloats, from);
+}
+static HWY_INLINE void store(const Lanes& lanes, float* to) {
+    hn::StoreU(lanes, kFloats, to);
+}
+static HWY_INLINE Lanes splat(float value) {
+    return hn::Set(kFloats, value);
+}
+static HWY_INLINE Lanes zero() {
+    return hn::Zero(kFloats);
 }
 
-/// Picks lanes of a by indices below kLanes, and lanes of b by the indices from kLanes on. With
-/// constant indices, GCC and Clang compile this to one or a few shuffles.
-TRACKED_MCF_INLINE Lanes pick(const Lanes& a, const Lanes& b, const LaneIndices& indices) {
-#ifdef __clang__
-    Lanes picked;
-    for (int lane = 0; lane < kLanes; ++lane) {
-        picked[lane] = indices[lane] < kLanes ? a[indices[lane]] : b[indices[lane] - kLanes];
-    }
-    return picked;
-#else
-    return __builtin_shuffle(a, b, indices);
-#endif
+// Highway's shuffles work within blocks of four lanes, or move such blocks.
+
+/// In each block: a0 a1 b0 b1.
+static HWY_INLINE Lanes low_halves(const Lanes& a, const Lanes& b) {
+    return hn::BitCast(kFloats, hn::InterleaveLower(kDoubles, hn::BitCast(kDoubles, a),
+                                                    hn::BitCast(kDoubles, b)));
+}
+/// In each block: a2 a3 b2 b3.
+static HWY_INLINE Lanes high_halves(const Lanes& a, const Lanes& b) {
+    return hn::BitCast(kFloats, hn::InterleaveUpper(kDoubles, hn::BitCast(kDoubles, a),
+                                                    hn::BitCast(kDoubles, b)));
 }
 
-/// In each group of four lanes: the even lanes of a, then those of b. Plus 1: the odd lanes.
-constexpr LaneIndices kEvenInFours =
-    (kLaneIndex & ~3) + 2 * (kLaneIndex & 1) + (kLaneIndex & 2) / 2 * kLanes;
-/// The even groups of four lanes of a, then those of b. Plus 4: the odd groups.
-constexpr LaneIndices kEvenFours = 2 * (kLaneIndex & ~3) + (kLaneIndex & 3);
+/// In each block: a0+a1 b0+b1 a2+a3 b2+b3.
+static HWY_INLINE Lanes sums_of_pairs(const Lanes& a, const Lanes& b) {
+    return hn::OddEven(b, a) + hn::Shuffle2301(hn::OddEven(a, b));
+}
+/// In each block, lane v is the sum of variable v's lanes.
+static HWY_INLINE Lanes sums_in_blocks(const Lanes* variables) {
+    const Lanes low = sums_of_pairs(variables[0], variables[1]);
+    const Lanes high = sums_of_pairs(variables[2], variables[3]);
+    return low_halves(low, high) + high_halves(low, high);
+}
+/// a's first two blocks and b's, each pair of blocks added: a0+a1 b0+b1 a2+a3 b2+b3.
+static HWY_INLINE Lanes sums_of_blocks(const Lanes& a, const Lanes& b) {
+    return hn::OddEvenBlocks(b, a) + hn::SwapAdjacentBlocks(hn::OddEvenBlocks(a, b));
+}
+/// The lower halves of a and b, plus the upper ones.
+static HWY_INLINE Lanes sums_of_halves(const Lanes& a, const Lanes& b) {
+    return hn::ConcatLowerLower(kFloats, b, a) + hn::ConcatUpperUpper(kFloats, b, a);
+}
 
-/// Sums the lanes of each of `kCount` variables, a power of two up to kLanes. If kCount is kLanes,
-/// lane v of the result is the sum of variable v.
-template <int kCount>
-TRACKED_MCF_INLINE Lanes sums_of_lanes(const Lanes* variables) {
-    if constexpr (kCount == 1) {
-        return variables[0];
+/// Sums the lanes of each of kLanes variables. Lane v of the result is the sum of variable v.
+static HWY_INLINE Lanes sums_of_lanes(const Lanes* variables) {
+    if constexpr (kLanes == 4) {
+        return sums_in_blocks(variables);
+    } else if constexpr (kLanes == 8) {
+        return sums_of_halves(sums_in_blocks(variables), sums_in_blocks(variables + 4));
     } else {
-        const Lanes a = sums_of_lanes<kCount / 2>(variables);
-        const Lanes b = sums_of_lanes<kCount / 2>(variables + kCount / 2);
-        if constexpr (kCount <= 4) {
-            return pick(a, b, kEvenInFours) + pick(a, b, kEvenInFours + 1);
-        } else {
-            return pick(a, b, kEvenFours) + pick(a, b, kEvenFours + 4);
+        return sums_of_halves(
+            sums_of_blocks(sums_in_blocks(variables), sums_in_blocks(variables + 4)),
+            sums_of_blocks(sums_in_blocks(variables + 8), sums_in_blocks(variables + 12)));
+    }
+}
+
+/// Transposes four rows within each block.
+static HWY_INLINE void transpose_in_blocks(Lanes* rows) {
+    const Lanes low01 = hn::InterleaveLower(kFloats, rows[0], rows[1]);
+    const Lanes low23 = hn::InterleaveLower(kFloats, rows[2], rows[3]);
+    const Lanes high01 = hn::InterleaveUpper(kFloats, rows[0], rows[1]);
+    const Lanes high23 = hn::InterleaveUpper(kFloats, rows[2], rows[3]);
+    rows[0] = low_halves(low01, low23);
+    rows[1] = high_halves(low01, low23);
+    rows[2] = low_halves(high01, high23);
+    rows[3] = high_halves(high01, high23);
+}
+/// Exchanges a's upper half and b's lower half.
+static HWY_INLINE void exchange_halves(Lanes& a, Lanes& b) {
+    const Lanes lower = hn::ConcatLowerLower(kFloats, b, a);
+    b = hn::ConcatUpperUpper(kFloats, b, a);
+    a = lower;
+}
+/// Exchanges a's odd blocks and b's even blocks.
+static HWY_INLINE void exchange_blocks(Lanes& a, Lanes& b) {
+    const Lanes even = hn::OddEvenBlocks(hn::SwapAdjacentBlocks(b), a);
+    b = hn::OddEvenBlocks(b, hn::SwapAdjacentBlocks(a));
+    a = even;
+}
+
+/// Transposes a square matrix of rows.
+static HWY_INLINE void transpose(Lanes (&rows)[kLanes]) {
+    for (int i = 0; i < kLanes; i += 4) transpose_in_blocks(rows + i);
+    if constexpr (kLanes >= 8) {
+        for (int i = 0; i < kLanes / 2; ++i) exchange_halves(rows[i], rows[i + kLanes / 2]);
+    }
+    if constexpr (kLanes == 16) {
+        for (int i = 0; i < 4; ++i) {
+            exchange_blocks(rows[i], rows[i + 4]);
+            exchange_blocks(rows[i + 8], rows[i + 12]);
         }
     }
 }
 
-/// Transposes a square matrix of rows. First exchanges blocks of kStride lanes between rows at a
-/// distance of kStride.
-template <int kStride = kLanes / 2>
-TRACKED_MCF_INLINE void transpose(Lanes (&rows)[kLanes]) {
-    constexpr LaneIndices first =
-        kLaneIndex + (kLaneIndex & kStride) / kStride * (kLanes - kStride);
-    for (int i = 0; i < kLanes; ++i) {
-        if ((i & kStride) != 0) continue;
-        const Lanes a = rows[i];
-        const Lanes b = rows[i + kStride];
-        rows[i] = pick(a, b, first);
-        rows[i + kStride] = pick(a, b, first + kStride);
-    }
-    if constexpr (kStride > 1) transpose<kStride / 2>(rows);
-}
+}  // namespace tracked_mcf::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
 
-}  // namespace tracked_mcf::TRACKED_MCF_KERNELS
+#endif  // per-target guard

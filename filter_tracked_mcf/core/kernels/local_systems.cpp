@@ -1,7 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "filter_tracked_mcf/core/kernels/local_systems.h"
 
-namespace tracked_mcf {
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "filter_tracked_mcf/core/kernels/local_systems.cpp"
+#include "filter_tracked_mcf/core/kernels/targets.h"
+
+#include "filter_tracked_mcf/core/kernels/lanes.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace tracked_mcf::HWY_NAMESPACE {
 
 namespace {
 
@@ -9,15 +16,13 @@ namespace {
 /// the functions before it, and its row is left out.
 constexpr float kDependent = 1e-5F;
 
-/// One entry of all matrices of a block. The matrices of a block are inverted side by side.
-using Lanes = float __attribute__((vector_size(4 * kBlockElements)));
-
-/// The lower triangles of the matrices of a block.
+/// The lower triangles of the matrices of a block. Equal entries are neighbours, as in a
+/// MatrixBlock.
 struct Triangles {
-    Lanes entry[8][8];
+    alignas(64) float entry[8][8][kBlockElements];
 };
 
-bool is_unshared(std::uint32_t unshared, int i, int j) {
+static HWY_INLINE bool is_unshared(std::uint32_t unshared, int i, int j) {
     return ((unshared >> kCouplingIndices.bit[i][j]) & 1U) != 0;
 }
 
@@ -25,10 +30,10 @@ bool is_unshared(std::uint32_t unshared, int i, int j) {
 void restrict(const CoupledElements& range, std::int32_t element, const MatrixBlock& own,
               const Couplings* couplings, Triangles& triangles, int lane) {
     const std::int32_t* const unknowns = range.unknowns + std::int64_t{8} * element;
-#pragma GCC unroll 8
+    HWY_UNROLL(8)
     for (int j = 0; j < 8; ++j) {
         const float* const sum = couplings[unknowns[j]].sum;
-#pragma GCC unroll 8
+    HWY_UNROLL(8)
         for (int i = j; i < 8; ++i) {
             // Since j <= i, the Couplings of the unknown at corner j contain the entry (i, j).
             triangles.entry[i][j][lane] = sum[kCouplingIndices.of[i][j]];
@@ -44,70 +49,76 @@ void restrict(const CoupledElements& range, std::int32_t element, const MatrixBl
     }
 }
 
-/// Inverts symmetric positive semi-definite matrices in place, as L⁻ᵀ D⁻¹ L⁻¹. This is a sum of
-/// squares, so it is positive despite rounding errors; an inverse by elimination need not be. Rows
+/// Inverts kLanes symmetric positive semi-definite matrices in place, as L⁻ᵀ D⁻¹ L⁻¹. This is a sum
+/// of squares, so it is positive despite rounding errors; an inverse by elimination need not be. Rows
 /// that are left out become zero.
-void invert(Triangles& m) {
+static HWY_INLINE void invert(Lanes (&m)[8][8]) {
     Lanes least[8];
     Lanes inverse_pivot[8];
-    for (int k = 0; k < 8; ++k) least[k] = kDependent * m.entry[k][k];
-        // Factorise into L, below the diagonal, and D.
-#pragma GCC unroll 8
+    for (int k = 0; k < 8; ++k) least[k] = splat(kDependent) * m[k][k];
+    // Factorise into L, below the diagonal, and D.
+    HWY_UNROLL(8)
     for (int k = 0; k < 8; ++k) {
-        const Lanes pivot = m.entry[k][k];
+        const Lanes pivot = m[k][k];
         // Written so that a NaN propagates.
-        inverse_pivot[k] = pivot <= least[k] ? Lanes{} : 1 / pivot;
+        inverse_pivot[k] = hn::IfThenZeroElse(pivot <= least[k], splat(1) / pivot);
         Lanes column[8];
-#pragma GCC unroll 8
-        for (int i = k + 1; i < 8; ++i) column[i] = m.entry[i][k];
-#pragma GCC unroll 8
+        HWY_UNROLL(8)
+        for (int i = k + 1; i < 8; ++i) column[i] = m[i][k];
+        HWY_UNROLL(8)
         for (int i = k + 1; i < 8; ++i) {
             const Lanes factor = column[i] * inverse_pivot[k];
-#pragma GCC unroll 8
-            for (int j = k + 1; j <= i; ++j) m.entry[i][j] -= factor * column[j];
-            m.entry[i][k] = factor;
+            HWY_UNROLL(8)
+            for (int j = k + 1; j <= i; ++j) m[i][j] = hn::NegMulAdd(factor, column[j], m[i][j]);
+            m[i][k] = factor;
         }
     }
     // Replace L by L⁻¹ below the diagonal.
-#pragma GCC unroll 8
+    HWY_UNROLL(8)
     for (int i = 0; i < 8; ++i) {
-#pragma GCC unroll 8
+        HWY_UNROLL(8)
         for (int j = 0; j < i; ++j) {
-            Lanes sum = m.entry[i][j];
-#pragma GCC unroll 8
-            for (int k = j + 1; k < i; ++k) sum += m.entry[i][k] * m.entry[k][j];
-            m.entry[i][j] = -sum;
+            Lanes sum = m[i][j];
+            HWY_UNROLL(8)
+            for (int k = j + 1; k < i; ++k) sum = hn::MulAdd(m[i][k], m[k][j], sum);
+            m[i][j] = hn::Neg(sum);
         }
     }
-#pragma GCC unroll 8
+    HWY_UNROLL(8)
     for (int i = 0; i < 8; ++i) {
-#pragma GCC unroll 8
+        HWY_UNROLL(8)
         for (int j = 0; j <= i; ++j) {
-            Lanes sum = j < i ? inverse_pivot[i] * m.entry[i][j] : inverse_pivot[i];
-#pragma GCC unroll 8
+            Lanes sum = j < i ? inverse_pivot[i] * m[i][j] : inverse_pivot[i];
+            HWY_UNROLL(8)
             for (int k = i + 1; k < 8; ++k) {
-                sum += inverse_pivot[k] * m.entry[k][i] * m.entry[k][j];
+                sum = hn::MulAdd(inverse_pivot[k] * m[k][i], m[k][j], sum);
             }
-            m.entry[i][j] = sum;
+            m[i][j] = sum;
         }
     }
 }
 
-void store(const Triangles& triangles, const Lanes& factors, MatrixBlock& inverses) {
-    float* entry = inverses.entry[0];
-#pragma GCC unroll 8
+/// Inverts the matrices of kLanes elements of a block, from this lane of the block on.
+void invert(const Triangles& triangles, const float (&factors)[kBlockElements], int lane,
+            MatrixBlock& inverses) {
+    Lanes m[8][8];
+    HWY_UNROLL(8)
+    for (int i = 0; i < 8; ++i) {
+        HWY_UNROLL(8)
+        for (int j = 0; j <= i; ++j) m[i][j] = load(triangles.entry[i][j] + lane);
+    }
+    invert(m);
+    float* entry = inverses.entry[0] + lane;
+    HWY_UNROLL(8)
     for (int j = 0; j < 8; ++j) {
-#pragma GCC unroll 8
+        HWY_UNROLL(8)
         for (int i = j; i < 8; ++i, entry += kBlockElements) {
-            const Lanes scaled = factors * triangles.entry[i][j];
-            __builtin_memcpy(entry, &scaled, sizeof scaled);
+            store(load(factors + lane) * m[i][j], entry);
         }
     }
 }
 
 }  // namespace
-
-namespace TRACKED_MCF_KERNELS {
 
 void sum_couplings(const CoupledElements& range, const MatrixBlock* matrices,
                    Couplings* couplings) {
@@ -116,10 +127,10 @@ void sum_couplings(const CoupledElements& range, const MatrixBlock* matrices,
         const std::uint32_t unshared = range.unshared[element];
         const MatrixBlock& block = matrices[element / kBlockElements];
         const int lane = element % kBlockElements;
-#pragma GCC unroll 8
+    HWY_UNROLL(8)
         for (int i = 0; i < 8; ++i) {
             float* const sum = couplings[unknowns[i]].sum;
-#pragma GCC unroll 8
+    HWY_UNROLL(8)
             for (int j = i; j < 8; ++j) {
                 if (unshared != 0 && is_unshared(unshared, i, j)) continue;
                 sum[kCouplingIndices.of[i][j]] += block.entry[kEntryIndices.of[i][j]][lane];
@@ -136,16 +147,16 @@ void invert_locally(const CoupledElements& range, const MatrixBlock* matrices,
         const std::int32_t block = first / kBlockElements;
         Triangles triangles;
         if (count < kBlockElements) triangles = Triangles{};
-        Lanes factors = {};
+        alignas(64) float factors[kBlockElements] = {};
         for (int lane = 0; lane < count; ++lane) {
             restrict(range, first + lane, matrices[block], couplings, triangles, lane);
             factors[lane] = damping[first + lane];
         }
-        invert(triangles);
-        store(triangles, factors, inverses[block]);
+        for (int lane = 0; lane < kBlockElements; lane += kLanes) {
+            invert(triangles, factors, lane, inverses[block]);
+        }
     }
 }
 
-}  // namespace TRACKED_MCF_KERNELS
-
-}  // namespace tracked_mcf
+}  // namespace tracked_mcf::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();

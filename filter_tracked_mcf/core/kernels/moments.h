@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#pragma once
+
+// Only integrate_elements.cpp and integrate_normals.cpp include this, see lanes.h.
+#if defined(TRACKED_MCF_MOMENTS_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef TRACKED_MCF_MOMENTS_H
+#undef TRACKED_MCF_MOMENTS_H
+#else
+#define TRACKED_MCF_MOMENTS_H
+#endif
 
 #include "filter_tracked_mcf/core/kernels/sample_chunk.h"
 
-// Only integrate_elements.cpp includes this, see lanes.h.
-
-namespace tracked_mcf::TRACKED_MCF_KERNELS {
+HWY_BEFORE_NAMESPACE();
+namespace tracked_mcf::HWY_NAMESPACE {
 
 /// Moments: integrals from which the element matrices follow. A product of two of a cell's
 /// functions is a product of three quadratic Bernstein polynomials bx_i by_j bz_k, one for each
@@ -31,20 +37,22 @@ constexpr int kMoments = 126;
 constexpr int kMomentRows = (kMoments + kLanes - 1) / kLanes * kLanes;
 
 /// Sums the mass moments [j][k] of one i.
-TRACKED_MCF_INLINE void mass_moments(const SampleChunk& chunk, int i, Lanes* moments) {
+static HWY_INLINE void mass_moments(const SampleChunk& chunk, int i, Lanes* moments) {
     Lanes sum[9] = {};
     for (int s = 0; s < chunk.count; s += kLanes) {
         const Lanes x = load(chunk.bernstein[i] + s) * load(chunk.area + s);
         for (int j = 0; j < 3; ++j) {
             const Lanes xy = x * load(chunk.bernstein[3 + j] + s);
-            for (int k = 0; k < 3; ++k) sum[3 * j + k] += xy * load(chunk.bernstein[6 + k] + s);
+            for (int k = 0; k < 3; ++k) {
+                sum[3 * j + k] = hn::MulAdd(xy, load(chunk.bernstein[6 + k] + s), sum[3 * j + k]);
+            }
         }
     }
     for (int m = 0; m < 9; ++m) moments[m] = sum[m];
 }
 
 /// Sums the moments [j][k] of a diagonal entry: ∫ G_aa bb_j bc_k, where b is `axis`, c `other`.
-TRACKED_MCF_INLINE void diagonal_moments(const SampleChunk& chunk, const Row& tensor, int axis,
+static HWY_INLINE void diagonal_moments(const SampleChunk& chunk, const Row& tensor, int axis,
                                          int other, Lanes* moments) {
     Lanes sum[9] = {};
     for (int s = 0; s < chunk.count; s += kLanes) {
@@ -52,7 +60,8 @@ TRACKED_MCF_INLINE void diagonal_moments(const SampleChunk& chunk, const Row& te
         for (int j = 0; j < 3; ++j) {
             const Lanes ty = t * load(chunk.bernstein[3 * axis + j] + s);
             for (int k = 0; k < 3; ++k) {
-                sum[3 * j + k] += ty * load(chunk.bernstein[3 * other + k] + s);
+                const Lanes z = load(chunk.bernstein[3 * other + k] + s);
+                sum[3 * j + k] = hn::MulAdd(ty, z, sum[3 * j + k]);
             }
         }
     }
@@ -60,7 +69,7 @@ TRACKED_MCF_INLINE void diagonal_moments(const SampleChunk& chunk, const Row& te
 }
 
 /// Sums the moments [i][j][k] of an off-diagonal entry: ∫ G_ab la_i lb_j bc_k, where c is `third`.
-TRACKED_MCF_INLINE void mixed_moments(const SampleChunk& chunk, const Row& tensor, int a, int b,
+static HWY_INLINE void mixed_moments(const SampleChunk& chunk, const Row& tensor, int a, int b,
                                       int third, Lanes* moments) {
     Lanes sum[12] = {};
     for (int s = 0; s < chunk.count; s += kLanes) {
@@ -72,14 +81,16 @@ TRACKED_MCF_INLINE void mixed_moments(const SampleChunk& chunk, const Row& tenso
         const Lanes products[4] = {t0 * y0, t0 * y1, t1 * y0, t1 * y1};
         for (int k = 0; k < 3; ++k) {
             const Lanes z = load(chunk.bernstein[3 * third + k] + s);
-            for (int p = 0; p < 4; ++p) sum[3 * p + k] += products[p] * z;
+            for (int p = 0; p < 4; ++p) {
+                sum[3 * p + k] = hn::MulAdd(products[p], z, sum[3 * p + k]);
+            }
         }
     }
     for (int m = 0; m < 12; ++m) moments[m] = sum[m];
 }
 
 /// Sums the moments [a][j][k] of the fluxes along one axis: ∫ F_a lb_j lc_k.
-TRACKED_MCF_INLINE void flux_moments(const SampleChunk& chunk, int along, int b, int c,
+static HWY_INLINE void flux_moments(const SampleChunk& chunk, int along, int b, int c,
                                      Lanes* moments) {
     Lanes sum[12] = {};
     for (int s = 0; s < chunk.count; s += kLanes) {
@@ -90,16 +101,18 @@ TRACKED_MCF_INLINE void flux_moments(const SampleChunk& chunk, int along, int b,
         const Lanes products[4] = {y0 * z0, y0 * z1, y1 * z0, y1 * z1};
         for (int axis = 0; axis < 3; ++axis) {
             const Lanes flux = load(chunk.flux[axis][along] + s);
-            for (int p = 0; p < 4; ++p) sum[4 * axis + p] += flux * products[p];
+            for (int p = 0; p < 4; ++p) {
+                sum[4 * axis + p] = hn::MulAdd(flux, products[p], sum[4 * axis + p]);
+            }
         }
     }
     for (int m = 0; m < 12; ++m) moments[m] = sum[m];
 }
 
 /// Adds the moments of a chunk's samples to the sums.
-TRACKED_MCF_INLINE void add_moments(const SampleChunk& chunk, float (&sums)[kMomentRows]) {
+static HWY_INLINE void add_moments(const SampleChunk& chunk, float (&sums)[kMomentRows]) {
     Lanes lanes[kMomentRows];
-    for (int m = kMoments; m < kMomentRows; ++m) lanes[m] = Lanes{};
+    for (int m = kMoments; m < kMomentRows; ++m) lanes[m] = zero();
     for (int i = 0; i < 3; ++i) mass_moments(chunk, i, lanes + kMass + 9 * i);
     diagonal_moments(chunk, chunk.tensor[0], 1, 2, lanes + kXX);
     diagonal_moments(chunk, chunk.tensor[1], 2, 0, lanes + kYY);
@@ -111,8 +124,11 @@ TRACKED_MCF_INLINE void add_moments(const SampleChunk& chunk, float (&sums)[kMom
     flux_moments(chunk, 1, 2, 0, lanes + kFluxY);
     flux_moments(chunk, 2, 0, 1, lanes + kFluxZ);
     for (int m = 0; m < kMomentRows; m += kLanes) {
-        store(load(sums + m) + sums_of_lanes<kLanes>(lanes + m), sums + m);
+        store(load(sums + m) + sums_of_lanes(lanes + m), sums + m);
     }
 }
 
-}  // namespace tracked_mcf::TRACKED_MCF_KERNELS
+}  // namespace tracked_mcf::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target guard

@@ -1,14 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#pragma once
 
+// Only integrate_elements.cpp and integrate_normals.cpp include this, see lanes.h.
+#if defined(TRACKED_MCF_SAMPLE_CHUNK_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef TRACKED_MCF_SAMPLE_CHUNK_H
+#undef TRACKED_MCF_SAMPLE_CHUNK_H
+#else
+#define TRACKED_MCF_SAMPLE_CHUNK_H
+#endif
+
+#include <cstddef>
 #include <cstdint>
 
 #include "filter_tracked_mcf/core/kernels/integrate_elements.h"
 #include "filter_tracked_mcf/core/kernels/lanes.h"
 
-// Only integrate_elements.cpp includes this, see lanes.h.
-
-namespace tracked_mcf::TRACKED_MCF_KERNELS {
+HWY_BEFORE_NAMESPACE();
+namespace tracked_mcf::HWY_NAMESPACE {
 
 /// Number of samples per chunk, small enough for the first-level cache.
 constexpr int kChunk = 128;
@@ -42,7 +49,7 @@ struct SampleReader {
     std::int32_t used;  ///< number of samples read from this fragment
 };
 
-TRACKED_MCF_INLINE SampleReader read_element(const SampleArrays& samples, std::int64_t element) {
+static HWY_INLINE SampleReader read_element(const SampleArrays& samples, std::int64_t element) {
     const std::int64_t begin = samples.sample_begin[element];
     return {{samples.packed_local[0] + begin, samples.packed_local[1] + begin},
             samples.weight + begin,
@@ -52,7 +59,7 @@ TRACKED_MCF_INLINE SampleReader read_element(const SampleArrays& samples, std::i
 }
 
 /// Copies the normals of the fragments to their samples.
-TRACKED_MCF_INLINE void spread_normals(SampleReader& reader, SampleChunk& chunk) {
+static HWY_INLINE void spread_normals(SampleReader& reader, SampleChunk& chunk) {
     int i = 0;
     while (i < chunk.count) {
         const Lanes x = splat(reader.fragment->normal[0]);
@@ -73,12 +80,12 @@ TRACKED_MCF_INLINE void spread_normals(SampleReader& reader, SampleChunk& chunk)
     }
     // The padding must not be NaN.
     for (auto& normals : chunk.normal) {
-        store(Lanes{}, normals + chunk.count);
+        store(zero(), normals + chunk.count);
     }
 }
 
 /// Reads the next chunk.
-TRACKED_MCF_INLINE void read_samples(SampleReader& reader, SampleChunk& chunk) {
+static HWY_INLINE void read_samples(SampleReader& reader, SampleChunk& chunk) {
     chunk.count = reader.left < kChunk ? static_cast<int>(reader.left) : kChunk;
     for (int word = 0; word < 2; ++word) {
         chunk.samples.packed_local[word] = reader.packed_local[word];
@@ -90,17 +97,16 @@ TRACKED_MCF_INLINE void read_samples(SampleReader& reader, SampleChunk& chunk) {
     spread_normals(reader, chunk);
 }
 
-/// Returns the upper bits of words, which are unsigned numbers, see kPackedShift.
-TRACKED_MCF_INLINE LaneIndices high_bits(const LaneIndices& words) {
-    return words >> kPackedShift & ((1 << (32 - kPackedShift)) - 1);
+static HWY_INLINE Lanes to_floats(const Words& numbers) {
+    constexpr hn::RebindToSigned<decltype(kWords)> integers;
+    return hn::ConvertTo(kFloats, hn::BitCast(integers, numbers));
 }
 
 /// Computes the functions of one axis. Both x and 1-x are rounded from the exact number of steps,
 /// because one of them is small for functions that hardly meet the surface.
-TRACKED_MCF_INLINE void store_functions(const LaneIndices& steps, int axis, SampleChunk& chunk,
-                                        int i) {
-    const Lanes x = to_floats(steps) * kSampleStep;
-    const Lanes rest = to_floats(kSampleSteps - steps) * kSampleStep;
+static HWY_INLINE void store_functions(const Words& steps, int axis, SampleChunk& chunk, int i) {
+    const Lanes x = to_floats(steps) * splat(kSampleStep);
+    const Lanes rest = to_floats(hn::Set(kWords, kSampleSteps) - steps) * splat(kSampleStep);
     store(rest, chunk.linear[2 * axis] + i);
     store(x, chunk.linear[2 * axis + 1] + i);
     store(rest * rest, chunk.bernstein[3 * axis] + i);
@@ -111,11 +117,12 @@ TRACKED_MCF_INLINE void store_functions(const LaneIndices& steps, int axis, Samp
 struct Vector {
     Lanes x, y, z;
 };
-TRACKED_MCF_INLINE Lanes dot(const Vector& a, const Vector& b) {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
+static HWY_INLINE Lanes dot(const Vector& a, const Vector& b) {
+    return hn::MulAdd(a.z, b.z, hn::MulAdd(a.x, b.x, a.y * b.y));
 }
-TRACKED_MCF_INLINE Vector cross(const Vector& a, const Vector& b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+static HWY_INLINE Vector cross(const Vector& a, const Vector& b) {
+    return {hn::MulSub(a.y, b.z, a.z * b.y), hn::MulSub(a.z, b.x, a.x * b.z),
+            hn::MulSub(a.x, b.y, a.y * b.x)};
 }
 
 /// One coordinate of a trilinear map, as a polynomial of the local coordinates without its constant
@@ -123,11 +130,13 @@ TRACKED_MCF_INLINE Vector cross(const Vector& a, const Vector& b) {
 struct Trilinear {
     float x, y, z, xy, yz, xz, xyz;
 };
-TRACKED_MCF_INLINE Vector gradient(const Trilinear& p, const Vector& at) {
-    const Lanes xz = p.xz + p.xyz * at.y;
-    const Lanes yz = p.yz + p.xyz * at.x;
-    return {p.x + p.xy * at.y + xz * at.z, p.y + p.xy * at.x + yz * at.z,
-            p.z + p.xz * at.x + yz * at.y};
+static HWY_INLINE Vector gradient(const Trilinear& p, const Vector& at) {
+    const Lanes xy = splat(p.xy);
+    const Lanes xz = hn::MulAdd(splat(p.xyz), at.y, splat(p.xz));
+    const Lanes yz = hn::MulAdd(splat(p.xyz), at.x, splat(p.yz));
+    return {hn::MulAdd(xz, at.z, hn::MulAdd(xy, at.y, splat(p.x))),
+            hn::MulAdd(yz, at.z, hn::MulAdd(xy, at.x, splat(p.y))),
+            hn::MulAdd(yz, at.y, hn::MulAdd(splat(p.xz), at.x, splat(p.z)))};
 }
 
 /// The embedding X_t in the element's cell, up to a constant.
@@ -140,7 +149,7 @@ struct Differential {
     Vector kx, ky, kz;  ///< n × J_i
     Vector normal;      ///< -cof(J) n: normal to X_t, of length √|g|
 };
-TRACKED_MCF_INLINE Differential differential(const Embedding& x, const Vector& at,
+static HWY_INLINE Differential differential(const Embedding& x, const Vector& at,
                                              const Vector& n) {
     const Vector jx = gradient(x.x, at);
     const Vector jy = gradient(x.y, at);
@@ -155,7 +164,7 @@ TRACKED_MCF_INLINE Differential differential(const Embedding& x, const Vector& a
 /// tangents. This equals Σ_i (n × J_i) (n × J_i)ᵀ / √|g|, because the rotation of T by a right
 /// angle turns g into its adjugate. The sum needs no basis, and its entries for directions close to
 /// the normal are small without cancellation.
-TRACKED_MCF_INLINE void store_tensor(const Differential& d, const Lanes& scale, SampleChunk& chunk,
+static HWY_INLINE void store_tensor(const Differential& d, const Lanes& scale, SampleChunk& chunk,
                                      int i) {
     const Vector x = {d.kx.x, d.ky.x, d.kz.x};
     const Vector y = {d.kx.y, d.ky.y, d.kz.y};
@@ -169,17 +178,17 @@ TRACKED_MCF_INLINE void store_tensor(const Differential& d, const Lanes& scale, 
 }
 
 /// Stores s a - t b.
-TRACKED_MCF_INLINE void store_difference(const Vector& a, const Lanes& s, const Vector& b,
+static HWY_INLINE void store_difference(const Vector& a, const Lanes& s, const Vector& b,
                                          const Lanes& t, Row (&rows)[3], int i) {
-    store(s * a.x - t * b.x, rows[0] + i);
-    store(s * a.y - t * b.y, rows[1] + i);
-    store(s * a.z - t * b.z, rows[2] + i);
+    store(hn::MulSub(s, a.x, t * b.x), rows[0] + i);
+    store(hn::MulSub(s, a.y, t * b.y), rows[1] + i);
+    store(hn::MulSub(s, a.z, t * b.z), rows[2] + i);
 }
 
 /// Computes the fluxes G J_a = Σ_i (n × J_i) (n × J_i) · J_a / √|g|. The factors (n × J_i) · J_a
 /// are 0 or, up to sign, coordinates of the normal. Multiplying G by J_a instead would cancel where
 /// the surface is compressed.
-TRACKED_MCF_INLINE void store_flux(const Differential& d, const Lanes& scale, SampleChunk& chunk,
+static HWY_INLINE void store_flux(const Differential& d, const Lanes& scale, SampleChunk& chunk,
                                    int i) {
     const Vector n = {scale * d.normal.x, scale * d.normal.y, scale * d.normal.z};
     store_difference(d.ky, n.z, d.kz, n.y, chunk.flux[0], i);
@@ -188,18 +197,20 @@ TRACKED_MCF_INLINE void store_flux(const Differential& d, const Lanes& scale, Sa
 }
 
 /// Computes the tensor of the initial metric, I - n nᵀ.
-TRACKED_MCF_INLINE void store_initial_tensor(const Vector& n, const Lanes& weight,
+static HWY_INLINE void store_initial_tensor(const Vector& n, const Lanes& weight,
                                              SampleChunk& chunk, int i) {
-    store(weight * (n.y * n.y + n.z * n.z), chunk.tensor[0] + i);
-    store(weight * (n.z * n.z + n.x * n.x), chunk.tensor[1] + i);
-    store(weight * (n.x * n.x + n.y * n.y), chunk.tensor[2] + i);
-    store(-weight * (n.x * n.y), chunk.tensor[3] + i);
-    store(-weight * (n.y * n.z), chunk.tensor[4] + i);
-    store(-weight * (n.z * n.x), chunk.tensor[5] + i);
+    const Lanes xx = n.x * n.x;
+    const Lanes zz = n.z * n.z;
+    store(weight * hn::MulAdd(n.y, n.y, zz), chunk.tensor[0] + i);
+    store(weight * (zz + xx), chunk.tensor[1] + i);
+    store(weight * hn::MulAdd(n.y, n.y, xx), chunk.tensor[2] + i);
+    store(hn::Neg(weight) * (n.x * n.y), chunk.tensor[3] + i);
+    store(hn::Neg(weight) * (n.y * n.z), chunk.tensor[4] + i);
+    store(hn::Neg(weight) * (n.z * n.x), chunk.tensor[5] + i);
 }
 
 /// Computes the initial metric's flux (I - n nᵀ) J_a = -n × (n × J_a).
-TRACKED_MCF_INLINE void store_initial_flux(const Vector& n, const Vector& k, const Lanes& weight,
+static HWY_INLINE void store_initial_flux(const Vector& n, const Vector& k, const Lanes& weight,
                                            Row (&rows)[3], int i) {
     const Vector flux = cross(k, n);
     store(weight * flux.x, rows[0] + i);
@@ -208,42 +219,44 @@ TRACKED_MCF_INLINE void store_initial_flux(const Vector& n, const Vector& k, con
 }
 
 /// Computes the functions of all three axes.
-TRACKED_MCF_INLINE void evaluate_functions(SampleChunk& chunk) {
+static HWY_INLINE void evaluate_functions(SampleChunk& chunk) {
     for (int i = 0; i < chunk.count; i += kLanes) {
-        const LaneIndices a = load(chunk.samples.packed_local[0] + i);
-        const LaneIndices b = load(chunk.samples.packed_local[1] + i);
-        store_functions(high_bits(a), 0, chunk, i);
-        store_functions(high_bits(b), 1, chunk, i);
-        store_functions((a & kPackedMask) << kPackedShift | (b & kPackedMask), 2, chunk, i);
+        const Words a = hn::LoadU(kWords, chunk.samples.packed_local[0] + i);
+        const Words b = hn::LoadU(kWords, chunk.samples.packed_local[1] + i);
+        const Words mask = hn::Set(kWords, kPackedMask);
+        store_functions(hn::ShiftRight<kPackedShift>(a), 0, chunk, i);
+        store_functions(hn::ShiftRight<kPackedShift>(b), 1, chunk, i);
+        store_functions(hn::ShiftLeft<kPackedShift>(a & mask) | (b & mask), 2, chunk, i);
     }
 }
 
 /// Returns the initial normals of kLanes samples, from sample i on.
-TRACKED_MCF_INLINE Vector normals(const SampleChunk& chunk, int i) {
+static HWY_INLINE Vector normals(const SampleChunk& chunk, int i) {
     return {load(chunk.normal[0] + i), load(chunk.normal[1] + i), load(chunk.normal[2] + i)};
 }
 
 /// Returns their weights, 0 for the padding.
-TRACKED_MCF_INLINE Lanes weights(const SampleChunk& chunk, int i) {
-    return kLaneIndex < chunk.count - i ? load(chunk.samples.weight + i) : Lanes{};
+static HWY_INLINE Lanes weights(const SampleChunk& chunk, int i) {
+    const auto count = static_cast<std::size_t>(chunk.count - i);
+    return hn::IfThenElseZero(hn::FirstN(kFloats, count), load(chunk.samples.weight + i));
 }
 
 /// Returns the vectors from which their metric follows.
-TRACKED_MCF_INLINE Differential differentials(const Embedding& x, const SampleChunk& chunk, int i) {
+static HWY_INLINE Differential differentials(const Embedding& x, const SampleChunk& chunk, int i) {
     const Vector at = {load(chunk.linear[1] + i), load(chunk.linear[3] + i),
                        load(chunk.linear[5] + i)};
     return differential(x, at, normals(chunk, i));
 }
 
 /// Computes all rows of a chunk that the moments need.
-TRACKED_MCF_INLINE void evaluate_samples(const Embedding& x, bool initial_metric,
+static HWY_INLINE void evaluate_samples(const Embedding& x, bool initial_metric,
                                          SampleChunk& chunk) {
     evaluate_functions(chunk);
     for (int i = 0; i < chunk.count; i += kLanes) {
         const Vector n = normals(chunk, i);
         const Lanes weight = weights(chunk, i);
         const Differential d = differentials(x, chunk, i);
-        const Lanes area = square_root(dot(d.normal, d.normal));
+        const Lanes area = hn::Sqrt(dot(d.normal, d.normal));
         if (initial_metric) {
             store(weight * area, chunk.area + i);
             store_initial_tensor(n, weight, chunk, i);
@@ -251,13 +264,16 @@ TRACKED_MCF_INLINE void evaluate_samples(const Embedding& x, bool initial_metric
             store_initial_flux(n, d.ky, weight, chunk.flux[1], i);
             store_initial_flux(n, d.kz, weight, chunk.flux[2], i);
         } else {
-            const LaneIndices sound = area > kCollapsedAreaRatio;
-            store(sound ? weight * area : Lanes{}, chunk.area + i);
-            const Lanes scale = sound ? weight / area : Lanes{};
+            const auto sound = area > splat(kCollapsedAreaRatio);
+            store(hn::IfThenElseZero(sound, weight * area), chunk.area + i);
+            const Lanes scale = hn::IfThenElseZero(sound, weight / area);
             store_tensor(d, scale, chunk, i);
             store_flux(d, scale, chunk, i);
         }
     }
 }
 
-}  // namespace tracked_mcf::TRACKED_MCF_KERNELS
+}  // namespace tracked_mcf::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target guard
