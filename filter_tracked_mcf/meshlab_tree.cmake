@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # For MeshLab's own tree, in place of the project's external/: gives MeshLab's targets the names that ours
-# link. TRACKED_MCF_MISSING names a library that was not found, or is empty.
+# link.
 
 set(TRACKED_MCF_IN_MESHLAB ON)
 set(TRACKED_MCF_PLUGIN ON)
-set(TRACKED_MCF_MISSING "")
 include("${CMAKE_CURRENT_LIST_DIR}/version.cmake")
 
 # MeshLab runs moc on everything. Only the plugin's class has Qt's macros, and its target asks for moc.

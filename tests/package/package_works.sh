@@ -49,7 +49,7 @@ echo "== Any processor"
 for file in "$build/filter_tracked_mcf/plugin/$plugin" \
     ${tool:+"$build/filter_tracked_mcf/tool/$tool"}; do
     objdump -d --no-show-raw-insn "$file" | awk -v file="$file" '
-        /^[0-9a-f]+ <.*>:$/ { name = $2; any = name !~ /kernels_avx/ }
+        /^[0-9a-f]+ <.*>:$/ { name = $2; any = name !~ /N_AVX[23]/ }
         $2 ~ /^v[a-z]/ { vectors++; if (any) others[name] = 1 }
         END {
             for (name in others) print name " of " file " needs AVX"

@@ -19,10 +19,10 @@ struct WholeMatrices {
 
 static HWY_INLINE void unpack(const MatrixBlock& block, WholeMatrices& matrices) {
     for (int first = 0; first < kBlockElements; first += kLanes) {
-    HWY_UNROLL(16)
+        HWY_UNROLL(16)
         for (int begin = 0; begin < 64; begin += kLanes) {
             Lanes rows[kLanes];
-    HWY_UNROLL(16)
+            HWY_UNROLL(16)
             for (int i = 0; i < kLanes; ++i) {
                 const int entry = kEntryIndices.of[(begin + i) / 8][(begin + i) % 8];
                 rows[i] = load(block.entry[entry] + first);
@@ -37,14 +37,14 @@ static HWY_INLINE void unpack(const MatrixBlock& block, WholeMatrices& matrices)
 
 static HWY_INLINE void pack(const WholeMatrices& matrices, MatrixBlock& block) {
     for (int first = 0; first < kBlockElements; first += kLanes) {
-    HWY_UNROLL(16)
+        HWY_UNROLL(16)
         for (int begin = 0; begin < 64; begin += kLanes) {
             Lanes rows[kLanes];
             for (int i = 0; i < kLanes; ++i) {
                 rows[i] = load(&matrices.of[first + i].entry[begin / 8][begin % 8]);
             }
             transpose(rows);
-    HWY_UNROLL(16)
+            HWY_UNROLL(16)
             for (int i = 0; i < kLanes; ++i) {
                 const int row = (begin + i) / 8;
                 const int column = (begin + i) % 8;
@@ -167,7 +167,7 @@ static HWY_INLINE Rows read(Reader& reader, std::int32_t element) {
 }
 
 static HWY_INLINE Rows sum_of_children(const ChildElements& elements, std::int32_t parent,
-                                        Reader& reader) {
+                                       Reader& reader) {
     Rows sum = {};
     for (std::int64_t k = elements.begin[parent]; k < elements.begin[parent + 1]; ++k) {
         const std::int32_t child = elements.children[k];

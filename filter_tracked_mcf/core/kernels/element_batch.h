@@ -30,7 +30,7 @@ constexpr int bit(int corner, int axis) {
 
 /// Sets one element's corners. Differences are taken in double precision.
 static HWY_INLINE void read_corners(const IntegrationInput& input, std::int64_t element, int lane,
-                                     ElementBatch& batch) {
+                                    ElementBatch& batch) {
     const std::int32_t* const unknowns = input.unknowns + 8 * element;
     const double* const base = input.displacement + std::int64_t{3} * unknowns[0];
     const double origin[3][2] = {
@@ -60,7 +60,7 @@ static HWY_INLINE void find_polynomials(ElementBatch& batch) {
 }
 
 static HWY_INLINE void read_embedding(const IntegrationInput& input, std::int64_t begin, int count,
-                                       ElementBatch& batch) {
+                                      ElementBatch& batch) {
     for (int lane = 0; lane < count; ++lane) read_corners(input, begin + lane, lane, batch);
     find_polynomials(batch);
 }
@@ -126,13 +126,13 @@ static HWY_INLINE Lanes area_of(const Lanes (&moments)[kMomentRows]) {
 
 /// Writes the matrices of the batch into a block, from this lane of the block on.
 static HWY_INLINE void write_matrices(const IntegrationInput& input, const Lanes& mass,
-                                       const Lanes (&moments)[kMomentRows], MatrixBlock& block,
-                                       std::int64_t lane) {
+                                      const Lanes (&moments)[kMomentRows], MatrixBlock& block,
+                                      std::int64_t lane) {
     const Lanes step_size = splat(input.step_size_in_cells);
     float* entry = block.entry[0] + lane;
     HWY_UNROLL(8)
     for (int row = 0; row < 8; ++row) {
-    HWY_UNROLL(8)
+        HWY_UNROLL(8)
         for (int column = row; column < 8; ++column, entry += kBlockElements) {
             const Lanes weighted_mass = mass * mass_entry(moments, row, column);
             store(hn::MulAdd(step_size, stiffness_entry(moments, row, column), weighted_mass),
@@ -143,13 +143,13 @@ static HWY_INLINE void write_matrices(const IntegrationInput& input, const Lanes
 
 /// Writes the weighted stiffnesses of the batch, as write_matrices() does.
 static HWY_INLINE void write_stiffnesses(const IntegrationInput& input,
-                                          const Lanes (&moments)[kMomentRows], MatrixBlock& block,
-                                          std::int64_t lane) {
+                                         const Lanes (&moments)[kMomentRows], MatrixBlock& block,
+                                         std::int64_t lane) {
     const Lanes step_size = splat(input.step_size_in_cells);
     float* entry = block.entry[0] + lane;
     HWY_UNROLL(8)
     for (int row = 0; row < 8; ++row) {
-    HWY_UNROLL(8)
+        HWY_UNROLL(8)
         for (int column = row; column < 8; ++column, entry += kBlockElements) {
             store(step_size * stiffness_entry(moments, row, column), entry);
         }
@@ -162,8 +162,8 @@ constexpr int kArea = 24;
 constexpr int kResults = 32;  ///< rounded up to a multiple of kLanes
 
 static HWY_INLINE void find_results(const IntegrationInput& input,
-                                     const Lanes (&moments)[kMomentRows],
-                                     Lanes (&results)[kResults]) {
+                                    const Lanes (&moments)[kMomentRows],
+                                    Lanes (&results)[kResults]) {
     for (int axis = 0; axis < 3; ++axis) {
         for (int row = 0; row < 8; ++row) {
             results[kRightSide + 8 * axis + row] =
@@ -175,8 +175,7 @@ static HWY_INLINE void find_results(const IntegrationInput& input,
 }
 
 /// Transposes the moments: from one row for each element to one lane for each element.
-static HWY_INLINE void transpose_moments(const ElementBatch& batch,
-                                          Lanes (&moments)[kMomentRows]) {
+static HWY_INLINE void transpose_moments(const ElementBatch& batch, Lanes (&moments)[kMomentRows]) {
     for (int m = 0; m < kMomentRows; m += kLanes) {
         Lanes block[kLanes];
         for (int lane = 0; lane < kLanes; ++lane) block[lane] = load(batch.moments[lane] + m);
@@ -186,13 +185,14 @@ static HWY_INLINE void transpose_moments(const ElementBatch& batch,
 }
 
 static HWY_INLINE void write_systems(const IntegrationInput& input, std::int64_t begin, int count,
-                                      const ElementBatch& batch, const IntegrationOutput& output) {
+                                     const ElementBatch& batch, const IntegrationOutput& output) {
     Lanes moments[kMomentRows];
     transpose_moments(batch, moments);
     const std::int64_t block = begin / kBlockElements;
     const std::int64_t lane = begin % kBlockElements;
-    const Lanes mass =
-        input.densities == nullptr ? splat(input.mass) : splat(input.mass) * load(input.densities + begin);
+    const Lanes mass = input.densities == nullptr
+                           ? splat(input.mass)
+                           : splat(input.mass) * load(input.densities + begin);
     write_matrices(input, mass, moments, output.matrices[block], lane);
     if (output.stiffnesses != nullptr) {
         write_stiffnesses(input, moments, output.stiffnesses[block], lane);

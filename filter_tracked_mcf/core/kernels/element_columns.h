@@ -83,8 +83,7 @@ static HWY_INLINE Coordinates coordinates(const Columns& columns) {
     const Lanes xy_high = hn::InterleaveLower(kFloats, c[2], c[3]);
     const Lanes z_low = hn::InterleaveUpper(kFloats, c[0], c[1]);
     const Lanes z_high = hn::InterleaveUpper(kFloats, c[2], c[3]);
-    return {{low_halves(xy_low, xy_high), high_halves(xy_low, xy_high),
-             low_halves(z_low, z_high)}};
+    return {{low_halves(xy_low, xy_high), high_halves(xy_low, xy_high), low_halves(z_low, z_high)}};
 }
 
 /// Transposes coordinates to columns.

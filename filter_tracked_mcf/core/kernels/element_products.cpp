@@ -31,7 +31,7 @@ struct Block {
 using Padding = std::int32_t[8 * kBlockElements];
 
 static HWY_INLINE Block block_at(const ElementRange& range, const MatrixBlock* matrices,
-                                  std::int32_t first, Padding& padding) {
+                                 std::int32_t first, Padding& padding) {
     const std::int32_t left = range.end - first;
     const std::int64_t offset = range.target_offsets[first / kBlockElements];
     const bool direct = offset == ElementRange::kDirect;
@@ -61,7 +61,7 @@ static HWY_INLINE void prefetch(const MatrixBlock& block, int part, int parts) {
 }
 
 static HWY_INLINE void read_corners(const float* x, const Block& block, int lane,
-                                     CornerLanes& corners) {
+                                    CornerLanes& corners) {
     constexpr int parts = 8 * kBlockElements / kLanes;
     HWY_UNROLL(8)
     for (int corner = 0; corner < 8; ++corner) {
@@ -73,16 +73,16 @@ static HWY_INLINE void read_corners(const float* x, const Block& block, int lane
 
 /// Computes products = factor * M x for the elements whose matrices begin at `entries`.
 static HWY_INLINE void multiply(const float* entries, float factor, const CornerLanes& x,
-                                 CornerLanes& products) {
+                                CornerLanes& products) {
     HWY_UNROLL(3)
     for (int axis = 0; axis < 3; ++axis) {
         Lanes sums[8] = {};
         const float* entry = entries;
-    HWY_UNROLL(8)
+        HWY_UNROLL(8)
         for (int i = 0; i < 8; ++i) {
             sums[i] = hn::MulAdd(load(entry), x[axis][i], sums[i]);
             entry += kBlockElements;
-    HWY_UNROLL(8)
+            HWY_UNROLL(8)
             for (int j = i + 1; j < 8; ++j, entry += kBlockElements) {
                 const Lanes m = load(entry);
                 sums[i] = hn::MulAdd(m, x[axis][j], sums[i]);
@@ -103,7 +103,7 @@ static HWY_INLINE void for_each_column(const Columns& columns, const Visit& visi
 /// Adds the products of `count` elements to the addresses at(target) of their targets.
 template <class At>
 static HWY_INLINE void add(const std::int32_t* targets, int count, const CornerLanes& products,
-                            const At& at) {
+                           const At& at) {
     HWY_UNROLL(8)
     for (int i = 0; i < 8; ++i) {
         for_each_column(columns_of(products[0][i], products[1][i], products[2][i]),
@@ -125,7 +125,7 @@ void add_to_slots(const std::int32_t* targets, int count, const CornerLanes& pro
 /// visit(x at the corners, products) for them.
 template <class Visit>
 static HWY_INLINE void add_products(const ElementRange& range, const MatrixBlock* matrices,
-                                     float factor, const float* x, float* y, const Visit& visit) {
+                                    float factor, const float* x, float* y, const Visit& visit) {
     Padding padding;
     for (std::int32_t first = range.begin; first < range.end; first += kBlockElements) {
         const Block block = block_at(range, matrices, first, padding);

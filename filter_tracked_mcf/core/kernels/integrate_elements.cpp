@@ -20,12 +20,6 @@ bool any_collapsed(const SampleChunk& chunk) {
     return collapsed != 0;
 }
 
-/// Returns a b + c, rounded as vectors are.
-float multiply_add(float a, float b, float c) {
-    constexpr hn::CappedTag<float, 1> one;
-    return hn::GetLane(hn::MulAdd(hn::Set(one, a), hn::Set(one, b), hn::Set(one, c)));
-}
-
 /// Adds the collapsed samples of a chunk. Few chunks have any.
 void count_collapsed(const SampleChunk& chunk, Collapse& collapse) {
     for (int i = 0; i < chunk.count; ++i) {
@@ -33,10 +27,9 @@ void count_collapsed(const SampleChunk& chunk, Collapse& collapse) {
         if (chunk.area[i] > 0 || weight <= 0) continue;
         ++collapse.samples;
         for (int corner = 0; corner < 8; ++corner) {
-            collapse.mass[corner] =
-                multiply_add(weight * chunk.bernstein[2 * bit(corner, 0)][i] *
-                                 chunk.bernstein[3 + 2 * bit(corner, 1)][i],
-                             chunk.bernstein[6 + 2 * bit(corner, 2)][i], collapse.mass[corner]);
+            collapse.mass[corner] += weight * chunk.bernstein[2 * bit(corner, 0)][i] *
+                                     chunk.bernstein[3 + 2 * bit(corner, 1)][i] *
+                                     chunk.bernstein[6 + 2 * bit(corner, 2)][i];
         }
     }
 }

@@ -50,20 +50,15 @@ bool has(InstructionSet instructions) {
     return instructions == InstructionSet::Baseline;
 #else
     __builtin_cpu_init();
-    switch (instructions) {
-        case InstructionSet::Baseline: return true;
-        case InstructionSet::Ssse3: return __builtin_cpu_supports("ssse3") != 0;
-        case InstructionSet::Avx2:
-            return __builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0 &&
-                   __builtin_cpu_supports("bmi") != 0 && __builtin_cpu_supports("bmi2") != 0;
-        case InstructionSet::Avx512:
-            return has(InstructionSet::Avx2) && __builtin_cpu_supports("avx512f") != 0 &&
-                   __builtin_cpu_supports("avx512cd") != 0 &&
-                   __builtin_cpu_supports("avx512vl") != 0 &&
-                   __builtin_cpu_supports("avx512dq") != 0 &&
-                   __builtin_cpu_supports("avx512bw") != 0;
-    }
-    return false;
+    const bool ssse3 = __builtin_cpu_supports("ssse3") != 0;
+    const bool avx2 = __builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0 &&
+                      __builtin_cpu_supports("bmi") != 0 && __builtin_cpu_supports("bmi2") != 0;
+    const bool avx512 =
+        avx2 && __builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512cd") != 0 &&
+        __builtin_cpu_supports("avx512vl") != 0 && __builtin_cpu_supports("avx512dq") != 0 &&
+        __builtin_cpu_supports("avx512bw") != 0;
+    const bool all[] = {true, ssse3, avx2, avx512};
+    return all[static_cast<int>(instructions)];
 #endif
 }
 

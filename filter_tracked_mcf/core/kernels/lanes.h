@@ -44,13 +44,13 @@ static HWY_INLINE Lanes zero() {
 
 /// In each block: a0 a1 b0 b1.
 static HWY_INLINE Lanes low_halves(const Lanes& a, const Lanes& b) {
-    return hn::BitCast(kFloats, hn::InterleaveLower(kDoubles, hn::BitCast(kDoubles, a),
-                                                    hn::BitCast(kDoubles, b)));
+    return hn::BitCast(
+        kFloats, hn::InterleaveLower(kDoubles, hn::BitCast(kDoubles, a), hn::BitCast(kDoubles, b)));
 }
 /// In each block: a2 a3 b2 b3.
 static HWY_INLINE Lanes high_halves(const Lanes& a, const Lanes& b) {
-    return hn::BitCast(kFloats, hn::InterleaveUpper(kDoubles, hn::BitCast(kDoubles, a),
-                                                    hn::BitCast(kDoubles, b)));
+    return hn::BitCast(
+        kFloats, hn::InterleaveUpper(kDoubles, hn::BitCast(kDoubles, a), hn::BitCast(kDoubles, b)));
 }
 
 /// In each block: a0+a1 b0+b1 a2+a3 b2+b3.

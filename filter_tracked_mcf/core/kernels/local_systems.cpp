@@ -33,7 +33,7 @@ void restrict(const CoupledElements& range, std::int32_t element, const MatrixBl
     HWY_UNROLL(8)
     for (int j = 0; j < 8; ++j) {
         const float* const sum = couplings[unknowns[j]].sum;
-    HWY_UNROLL(8)
+        HWY_UNROLL(8)
         for (int i = j; i < 8; ++i) {
             // Since j <= i, the Couplings of the unknown at corner j contain the entry (i, j).
             triangles.entry[i][j][lane] = sum[kCouplingIndices.of[i][j]];
@@ -50,8 +50,8 @@ void restrict(const CoupledElements& range, std::int32_t element, const MatrixBl
 }
 
 /// Inverts kLanes symmetric positive semi-definite matrices in place, as L⁻ᵀ D⁻¹ L⁻¹. This is a sum
-/// of squares, so it is positive despite rounding errors; an inverse by elimination need not be. Rows
-/// that are left out become zero.
+/// of squares, so it is positive despite rounding errors; an inverse by elimination need not be.
+/// Rows that are left out become zero.
 static HWY_INLINE void invert(Lanes (&m)[8][8]) {
     Lanes least[8];
     Lanes inverse_pivot[8];
@@ -127,10 +127,10 @@ void sum_couplings(const CoupledElements& range, const MatrixBlock* matrices,
         const std::uint32_t unshared = range.unshared[element];
         const MatrixBlock& block = matrices[element / kBlockElements];
         const int lane = element % kBlockElements;
-    HWY_UNROLL(8)
+        HWY_UNROLL(8)
         for (int i = 0; i < 8; ++i) {
             float* const sum = couplings[unknowns[i]].sum;
-    HWY_UNROLL(8)
+            HWY_UNROLL(8)
             for (int j = i; j < 8; ++j) {
                 if (unshared != 0 && is_unshared(unshared, i, j)) continue;
                 sum[kCouplingIndices.of[i][j]] += block.entry[kEntryIndices.of[i][j]][lane];

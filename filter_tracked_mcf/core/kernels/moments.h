@@ -53,7 +53,7 @@ static HWY_INLINE void mass_moments(const SampleChunk& chunk, int i, Lanes* mome
 
 /// Sums the moments [j][k] of a diagonal entry: ∫ G_aa bb_j bc_k, where b is `axis`, c `other`.
 static HWY_INLINE void diagonal_moments(const SampleChunk& chunk, const Row& tensor, int axis,
-                                         int other, Lanes* moments) {
+                                        int other, Lanes* moments) {
     Lanes sum[9] = {};
     for (int s = 0; s < chunk.count; s += kLanes) {
         const Lanes t = load(tensor + s);
@@ -70,7 +70,7 @@ static HWY_INLINE void diagonal_moments(const SampleChunk& chunk, const Row& ten
 
 /// Sums the moments [i][j][k] of an off-diagonal entry: ∫ G_ab la_i lb_j bc_k, where c is `third`.
 static HWY_INLINE void mixed_moments(const SampleChunk& chunk, const Row& tensor, int a, int b,
-                                      int third, Lanes* moments) {
+                                     int third, Lanes* moments) {
     Lanes sum[12] = {};
     for (int s = 0; s < chunk.count; s += kLanes) {
         const Lanes t = load(tensor + s);
@@ -91,7 +91,7 @@ static HWY_INLINE void mixed_moments(const SampleChunk& chunk, const Row& tensor
 
 /// Sums the moments [a][j][k] of the fluxes along one axis: ∫ F_a lb_j lc_k.
 static HWY_INLINE void flux_moments(const SampleChunk& chunk, int along, int b, int c,
-                                     Lanes* moments) {
+                                    Lanes* moments) {
     Lanes sum[12] = {};
     for (int s = 0; s < chunk.count; s += kLanes) {
         const Lanes y0 = load(chunk.linear[2 * b] + s);

@@ -149,15 +149,16 @@ struct Differential {
     Vector kx, ky, kz;  ///< n × J_i
     Vector normal;      ///< -cof(J) n: normal to X_t, of length √|g|
 };
-static HWY_INLINE Differential differential(const Embedding& x, const Vector& at,
-                                             const Vector& n) {
+static HWY_INLINE Differential differential(const Embedding& x, const Vector& at, const Vector& n) {
     const Vector jx = gradient(x.x, at);
     const Vector jy = gradient(x.y, at);
     const Vector jz = gradient(x.z, at);
-    const Vector kx = cross(n, jx);
-    const Vector ky = cross(n, jy);
-    const Vector kz = cross(n, jz);
-    return {kx, ky, kz, {dot(jy, kz), dot(jz, kx), dot(jx, ky)}};
+    Differential d = {cross(n, jx), cross(n, jy), cross(n, jz), {}};
+    // One by one: GCC 12 would copy a whole Vector through memory.
+    d.normal.x = dot(jy, d.kz);
+    d.normal.y = dot(jz, d.kx);
+    d.normal.z = dot(jx, d.ky);
+    return d;
 }
 
 /// Computes the tensor G of the present metric. The paper has √|g| T g⁻¹ Tᵀ with a basis T of the
@@ -165,7 +166,7 @@ static HWY_INLINE Differential differential(const Embedding& x, const Vector& at
 /// angle turns g into its adjugate. The sum needs no basis, and its entries for directions close to
 /// the normal are small without cancellation.
 static HWY_INLINE void store_tensor(const Differential& d, const Lanes& scale, SampleChunk& chunk,
-                                     int i) {
+                                    int i) {
     const Vector x = {d.kx.x, d.ky.x, d.kz.x};
     const Vector y = {d.kx.y, d.ky.y, d.kz.y};
     const Vector z = {d.kx.z, d.ky.z, d.kz.z};
@@ -179,7 +180,7 @@ static HWY_INLINE void store_tensor(const Differential& d, const Lanes& scale, S
 
 /// Stores s a - t b.
 static HWY_INLINE void store_difference(const Vector& a, const Lanes& s, const Vector& b,
-                                         const Lanes& t, Row (&rows)[3], int i) {
+                                        const Lanes& t, Row (&rows)[3], int i) {
     store(hn::MulSub(s, a.x, t * b.x), rows[0] + i);
     store(hn::MulSub(s, a.y, t * b.y), rows[1] + i);
     store(hn::MulSub(s, a.z, t * b.z), rows[2] + i);
@@ -189,7 +190,7 @@ static HWY_INLINE void store_difference(const Vector& a, const Lanes& s, const V
 /// are 0 or, up to sign, coordinates of the normal. Multiplying G by J_a instead would cancel where
 /// the surface is compressed.
 static HWY_INLINE void store_flux(const Differential& d, const Lanes& scale, SampleChunk& chunk,
-                                   int i) {
+                                  int i) {
     const Vector n = {scale * d.normal.x, scale * d.normal.y, scale * d.normal.z};
     store_difference(d.ky, n.z, d.kz, n.y, chunk.flux[0], i);
     store_difference(d.kz, n.x, d.kx, n.z, chunk.flux[1], i);
@@ -198,7 +199,7 @@ static HWY_INLINE void store_flux(const Differential& d, const Lanes& scale, Sam
 
 /// Computes the tensor of the initial metric, I - n nᵀ.
 static HWY_INLINE void store_initial_tensor(const Vector& n, const Lanes& weight,
-                                             SampleChunk& chunk, int i) {
+                                            SampleChunk& chunk, int i) {
     const Lanes xx = n.x * n.x;
     const Lanes zz = n.z * n.z;
     store(weight * hn::MulAdd(n.y, n.y, zz), chunk.tensor[0] + i);
@@ -211,7 +212,7 @@ static HWY_INLINE void store_initial_tensor(const Vector& n, const Lanes& weight
 
 /// Computes the initial metric's flux (I - n nᵀ) J_a = -n × (n × J_a).
 static HWY_INLINE void store_initial_flux(const Vector& n, const Vector& k, const Lanes& weight,
-                                           Row (&rows)[3], int i) {
+                                          Row (&rows)[3], int i) {
     const Vector flux = cross(k, n);
     store(weight * flux.x, rows[0] + i);
     store(weight * flux.y, rows[1] + i);
@@ -250,7 +251,7 @@ static HWY_INLINE Differential differentials(const Embedding& x, const SampleChu
 
 /// Computes all rows of a chunk that the moments need.
 static HWY_INLINE void evaluate_samples(const Embedding& x, bool initial_metric,
-                                         SampleChunk& chunk) {
+                                        SampleChunk& chunk) {
     evaluate_functions(chunk);
     for (int i = 0; i < chunk.count; i += kLanes) {
         const Vector n = normals(chunk, i);

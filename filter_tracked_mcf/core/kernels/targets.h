@@ -2,8 +2,8 @@
 #pragma once
 
 // Chooses the instruction sets that Highway compiles the kernels for. A source of kernels defines
-// HWY_TARGET_INCLUDE as its own path, then includes this file: Highway includes the source again for
-// each instruction set but the compiler's own.
+// HWY_TARGET_INCLUDE as its own path, then includes this file: Highway includes the source again
+// for each instruction set but the compiler's own.
 
 #include <hwy/detect_compiler_arch.h>
 
