@@ -224,6 +224,27 @@ TEST_P(IntegrateElements, WriteTheStiffnessesAloneWithTheBitsOfNoMass) {
     }
 }
 
+TEST(InstructionSetsOfFourLanes, GiveTheSameBits) {
+    const std::vector<InstructionSet> available = available_instruction_sets();
+    if (std::count(available.begin(), available.end(), InstructionSet::Ssse3) == 0) {
+        GTEST_SKIP() << "This machine has one alone.";
+    }
+    const Surface surface = SurfaceMaker().make();
+    for (const bool initial_metric : {false, true}) {
+        const Results a = integrate(surface, initial_metric, InstructionSet::Baseline);
+        const Results b = integrate(surface, initial_metric, InstructionSet::Ssse3);
+        EXPECT_EQ(a.areas, b.areas);
+        for (std::size_t element = 0; element < a.areas.size(); ++element) {
+            EXPECT_EQ(right_side_of(a, element), right_side_of(b, element));
+            for (int entry = 0; entry < 64; ++entry) {
+                const auto index = static_cast<std::int64_t>(element);
+                EXPECT_EQ(a.matrices.at(index, entry / 8, entry % 8),
+                          b.matrices.at(index, entry / 8, entry % 8));
+            }
+        }
+    }
+}
+
 std::string name_of_case(const testing::TestParamInfo<std::tuple<InstructionSet, bool>>& info) {
     return std::string(name_of(std::get<0>(info.param))) +
            (std::get<1>(info.param) ? "_InitialMetric" : "_PresentMetric");
