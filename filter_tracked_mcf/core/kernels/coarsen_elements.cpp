@@ -88,6 +88,14 @@ static HWY_INLINE Row load_row(const float* from) {
     return row;
 }
 
+static HWY_INLINE Rows zero_rows() {
+    Rows rows;
+    for (Row& row : rows.row) {
+        for (Part& part : row.part) part = hn::Zero(kRow);
+    }
+    return rows;
+}
+
 static HWY_INLINE void store_rows(const Rows& rows, ElementMatrix& matrix) {
     for (int i = 0; i < 8; ++i) {
         for (int k = 0; k < kParts; ++k) {
@@ -168,7 +176,7 @@ static HWY_INLINE Rows read(Reader& reader, std::int32_t element) {
 
 static HWY_INLINE Rows sum_of_children(const ChildElements& elements, std::int32_t parent,
                                        Reader& reader) {
-    Rows sum = {};
+    Rows sum = zero_rows();
     for (std::int64_t k = elements.begin[parent]; k < elements.begin[parent + 1]; ++k) {
         const std::int32_t child = elements.children[k];
         Rows matrix = read(reader, child);
@@ -192,7 +200,7 @@ void coarsen_elements(const ChildElements& elements, std::int32_t begin, std::in
     for (std::int32_t first = begin; first < end; first += kBlockElements) {
         for (int lane = 0; lane < kBlockElements; ++lane) {
             const std::int32_t parent = first + lane;
-            const Rows sum = parent < end ? sum_of_children(elements, parent, reader) : Rows{};
+            const Rows sum = parent < end ? sum_of_children(elements, parent, reader) : zero_rows();
             store_rows(sum, sums.of[lane]);
         }
         pack(sums, parents[first / kBlockElements]);

@@ -76,7 +76,8 @@ static HWY_INLINE void multiply(const float* entries, float factor, const Corner
                                 CornerLanes& products) {
     HWY_UNROLL(3)
     for (int axis = 0; axis < 3; ++axis) {
-        Lanes sums[8] = {};
+        Lanes sums[8];
+        set_zero(sums);
         const float* entry = entries;
         HWY_UNROLL(8)
         for (int i = 0; i < 8; ++i) {

@@ -35,7 +35,8 @@ void integrate(const SampleArrays& samples, const Embedding& embedding, std::int
                ElementVector& normals) {
     SampleReader reader = read_element(samples, element);
     SampleChunk chunk;
-    Lanes sums[3][8] = {};
+    Lanes sums[3][8];
+    for (auto& of_axis : sums) set_zero(of_axis);
     while (reader.left > 0) {
         read_samples(reader, chunk);
         evaluate_functions(chunk);

@@ -39,6 +39,11 @@ static HWY_INLINE Lanes splat(float value) {
 static HWY_INLINE Lanes zero() {
     return hn::Zero(kFloats);
 }
+/// Sets lanes to zero. `= {}` does not, on ARM.
+template <int kCount>
+static HWY_INLINE void set_zero(Lanes (&lanes)[kCount]) {
+    for (Lanes& of_one : lanes) of_one = zero();
+}
 
 // Highway's shuffles work within blocks of four lanes, or move such blocks.
 

@@ -38,7 +38,8 @@ constexpr int kMomentRows = (kMoments + kLanes - 1) / kLanes * kLanes;
 
 /// Sums the mass moments [j][k] of one i.
 static HWY_INLINE void mass_moments(const SampleChunk& chunk, int i, Lanes* moments) {
-    Lanes sum[9] = {};
+    Lanes sum[9];
+    set_zero(sum);
     for (int s = 0; s < chunk.count; s += kLanes) {
         const Lanes x = load(chunk.bernstein[i] + s) * load(chunk.area + s);
         for (int j = 0; j < 3; ++j) {
@@ -54,7 +55,8 @@ static HWY_INLINE void mass_moments(const SampleChunk& chunk, int i, Lanes* mome
 /// Sums the moments [j][k] of a diagonal entry: ∫ G_aa bb_j bc_k, where b is `axis`, c `other`.
 static HWY_INLINE void diagonal_moments(const SampleChunk& chunk, const Row& tensor, int axis,
                                         int other, Lanes* moments) {
-    Lanes sum[9] = {};
+    Lanes sum[9];
+    set_zero(sum);
     for (int s = 0; s < chunk.count; s += kLanes) {
         const Lanes t = load(tensor + s);
         for (int j = 0; j < 3; ++j) {
@@ -71,7 +73,8 @@ static HWY_INLINE void diagonal_moments(const SampleChunk& chunk, const Row& ten
 /// Sums the moments [i][j][k] of an off-diagonal entry: ∫ G_ab la_i lb_j bc_k, where c is `third`.
 static HWY_INLINE void mixed_moments(const SampleChunk& chunk, const Row& tensor, int a, int b,
                                      int third, Lanes* moments) {
-    Lanes sum[12] = {};
+    Lanes sum[12];
+    set_zero(sum);
     for (int s = 0; s < chunk.count; s += kLanes) {
         const Lanes t = load(tensor + s);
         const Lanes t0 = t * load(chunk.linear[2 * a] + s);
@@ -92,7 +95,8 @@ static HWY_INLINE void mixed_moments(const SampleChunk& chunk, const Row& tensor
 /// Sums the moments [a][j][k] of the fluxes along one axis: ∫ F_a lb_j lc_k.
 static HWY_INLINE void flux_moments(const SampleChunk& chunk, int along, int b, int c,
                                     Lanes* moments) {
-    Lanes sum[12] = {};
+    Lanes sum[12];
+    set_zero(sum);
     for (int s = 0; s < chunk.count; s += kLanes) {
         const Lanes y0 = load(chunk.linear[2 * b] + s);
         const Lanes y1 = load(chunk.linear[2 * b + 1] + s);

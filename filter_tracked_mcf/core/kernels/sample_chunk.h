@@ -153,7 +153,7 @@ static HWY_INLINE Differential differential(const Embedding& x, const Vector& at
     const Vector jx = gradient(x.x, at);
     const Vector jy = gradient(x.y, at);
     const Vector jz = gradient(x.z, at);
-    Differential d = {cross(n, jx), cross(n, jy), cross(n, jz), {}};
+    Differential d = {cross(n, jx), cross(n, jy), cross(n, jz), {zero(), zero(), zero()}};
     // One by one: GCC 12 would copy a whole Vector through memory.
     d.normal.x = dot(jy, d.kz);
     d.normal.y = dot(jz, d.kx);

@@ -13,6 +13,7 @@
 // ARM64's own set has vectors. Which sets an x86 processor has, kernels.cpp asks GCC and Clang.
 #if !HWY_ARCH_X86 || HWY_COMPILER_MSVC
 #define HWY_COMPILE_ONLY_STATIC
+#define TOOLCHAIN_MISS_SYS_AUXV_H  // or Highway 1.0 asks for ARM64's cryptography
 #endif
 
 // Highway takes the set without vectors, SCALAR, for compilers that translate some products of
