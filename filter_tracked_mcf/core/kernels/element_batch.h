@@ -129,11 +129,11 @@ static HWY_INLINE void write_matrices(const IntegrationInput& input, const Lanes
                                       const Lanes (&moments)[kMomentRows], MatrixBlock& block,
                                       std::int64_t lane) {
     const Lanes step_size = splat(input.step_size_in_cells);
-    float* entry = block.entry[0] + lane;
     HWY_UNROLL(8)
     for (int row = 0; row < 8; ++row) {
         HWY_UNROLL(8)
-        for (int column = row; column < 8; ++column, entry += kBlockElements) {
+        for (int column = row; column < 8; ++column) {
+            float* const entry = block.entry[kEntryIndices.of[row][column]] + lane;
             const Lanes weighted_mass = mass * mass_entry(moments, row, column);
             store(hn::MulAdd(step_size, stiffness_entry(moments, row, column), weighted_mass),
                   entry);
@@ -146,11 +146,11 @@ static HWY_INLINE void write_stiffnesses(const IntegrationInput& input,
                                          const Lanes (&moments)[kMomentRows], MatrixBlock& block,
                                          std::int64_t lane) {
     const Lanes step_size = splat(input.step_size_in_cells);
-    float* entry = block.entry[0] + lane;
     HWY_UNROLL(8)
     for (int row = 0; row < 8; ++row) {
         HWY_UNROLL(8)
-        for (int column = row; column < 8; ++column, entry += kBlockElements) {
+        for (int column = row; column < 8; ++column) {
+            float* const entry = block.entry[kEntryIndices.of[row][column]] + lane;
             store(step_size * stiffness_entry(moments, row, column), entry);
         }
     }

@@ -108,12 +108,11 @@ void invert(const Triangles& triangles, const float (&factors)[kBlockElements], 
         for (int j = 0; j <= i; ++j) m[i][j] = load(triangles.entry[i][j] + lane);
     }
     invert(m);
-    float* entry = inverses.entry[0] + lane;
     HWY_UNROLL(8)
     for (int j = 0; j < 8; ++j) {
         HWY_UNROLL(8)
-        for (int i = j; i < 8; ++i, entry += kBlockElements) {
-            store(load(factors + lane) * m[i][j], entry);
+        for (int i = j; i < 8; ++i) {
+            store(load(factors + lane) * m[i][j], inverses.entry[kEntryIndices.of[i][j]] + lane);
         }
     }
 }
