@@ -240,7 +240,7 @@ class Page:
         return abs(chosen - forced) / (2 * self._steps_made * self._middle / 0.5)
 
     def _instructions(self):
-        self._title("Instructions", "Forced by `TRACKED_MCF_INSTRUCTIONS=baseline`; the other binary is "
+        self._title("Instructions", "Forced by `TRACKED_MCF_INSTRUCTIONS=ssse3`; the other binary is "
                     "that of `--binary`, such as one built with `-march=native`.")
         self._table(["", "step", "elements' matrices", "mean radius error"], [
             [peer, digits(self._step(peer, self._middle)),

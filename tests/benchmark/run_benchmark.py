@@ -117,7 +117,7 @@ class Benchmark:
                  for make, peer in ((ours, OURS), (baseline, IC), (baseline, MIC))]
         cases += [make(mesh, self.main, MIDDLE, threads=2) for make in (ours, baseline)]
         cases.append(ours(mesh, self.main, MIDDLE, peer=BASELINE_INSTRUCTIONS,
-                          environment=(("TRACKED_MCF_INSTRUCTIONS", "baseline"),)))
+                          environment=(("TRACKED_MCF_INSTRUCTIONS", "ssse3"),)))
         if self._arguments.binary:
             cases.append(ours(mesh, self.main, MIDDLE, peer=OTHER_BINARY))
         return cases
