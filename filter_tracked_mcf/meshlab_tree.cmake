@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# For MeshLab's own tree, in place of the project's external/: gives MeshLab's targets the names that ours
-# link.
+# For MeshLab's own tree, in place of the project's external/: gives its targets the names that ours link.
 
 set(TRACKED_MCF_IN_MESHLAB ON)
 set(TRACKED_MCF_PLUGIN ON)
