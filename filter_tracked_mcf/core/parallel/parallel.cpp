@@ -27,7 +27,9 @@ std::size_t thread_number() {
 #else
 ThreadCountScope::ThreadCountScope(int /*threads*/) : previous_(1) {}
 
-ThreadCountScope::~ThreadCountScope() = default;
+ThreadCountScope::~ThreadCountScope() {
+    static_cast<void>(previous_);  // clang would call it unused
+}
 
 std::size_t thread_count() {
     return 1;

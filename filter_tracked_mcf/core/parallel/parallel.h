@@ -29,7 +29,7 @@ public:
     ThreadCountScope& operator=(const ThreadCountScope&) = delete;
 
 private:
-    [[maybe_unused]] int previous_;
+    int previous_;
 };
 
 /// Returns the largest number of threads of a loop that the caller starts.
