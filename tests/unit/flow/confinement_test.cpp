@@ -104,14 +104,15 @@ TEST(Confinement, AFlowThatIsThinnerThanItsCellsLosesArea) {
 
 TEST(Confinement, AStepThatFailsIsMadeAgainWithMoreCare) {
     // A wavy strip that is narrower than 1e-4 cells: its system is nearly singular.
-    TriangleMesh strip = scaled(shapes::square(19), 1, 3e-7, 1);
+    TriangleMesh strip = scaled(shapes::square(21), 1, 3e-7, 1);
     for (Eigen::Vector3d& position : strip.positions) {
         position[2] = 1e-3 * std::sin(9 * position[0]);
     }
     FlowParameters p = parameters(8, 1e-4, 7);
     p.flow = FlowKind::Conformalized;
     EXPECT_LE(outside(strip, p), 0.01);
-    // Without more care, the first step fails. Whether a later one does depends on rounding.
+    // Without more care, the first step fails with AVX2 and AVX-512. Whether a later one does
+    // depends on rounding.
     EXPECT_GE(evolve(strip, p).steps.size(), 1U);
 }
 
