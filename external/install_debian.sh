@@ -12,6 +12,8 @@
 #   benchmark    building and running tests/benchmark, CGAL and hypre included
 #   pymeshlab    external/pymeshlab.sh
 #   gravomg      external/gravomg.sh
+#   windows      building for Windows and running tests in Wine
+#   arm64        building for ARM64 and running tests in QEMU
 #   checks       formatting, static analysis, sanitizers and coverage
 #
 # Runs apt only if a package is missing, with sudo unless run as root.
@@ -34,7 +36,9 @@ packages_of() {
             libcgal-dev libhypre-dev python3 ;;
         pymeshlab) echo python3-venv python3-numpy python3-matplotlib ;;
         gravomg) echo python3-venv ;;
-        checks) echo clang clang-format clang-tidy-22 libclang-rt-dev libomp-dev llvm git ;;
+        windows) echo "$(packages_of program)" g++-mingw-w64-x86-64-posix googletest python3 wine wine64 ;;
+        arm64) echo "$(packages_of program)" g++-aarch64-linux-gnu googletest python3 qemu-user ;;
+        checks) echo g++-11 libc++-dev libc++abi-dev clang clang-format clang-tidy-22 libclang-rt-dev libomp-dev llvm git ;;
         *) echo "install_debian.sh: unknown task '$1'" >&2 && return 1 ;;
     esac
 }

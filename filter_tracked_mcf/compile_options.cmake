@@ -11,8 +11,7 @@ target_include_directories(tracked_mcf_options INTERFACE ${TRACKED_MCF_INCLUDE_D
 if(MSVC)
   target_compile_options(tracked_mcf_options INTERFACE /W4 /permissive- /utf-8 /bigobj
                                                        $<$<BOOL:${TRACKED_MCF_WERROR}>:/WX>)
-  target_compile_definitions(tracked_mcf_options INTERFACE NOMINMAX _USE_MATH_DEFINES
-                                                           _CRT_SECURE_NO_WARNINGS)
+  target_compile_definitions(tracked_mcf_options INTERFACE _CRT_SECURE_NO_WARNINGS)
 else()
   target_compile_options(
     tracked_mcf_options
@@ -23,6 +22,9 @@ else()
               # A compiler that fuses a product and a sum rounds once instead of twice. Processors
               # that can would give other bits than those that cannot.
               -ffp-contract=off)
+endif()
+if(WIN32)
+  target_compile_definitions(tracked_mcf_options INTERFACE NOMINMAX _USE_MATH_DEFINES)
 endif()
 if(TRACKED_MCF_SANITIZE)
   target_compile_options(tracked_mcf_options INTERFACE -fsanitize=${TRACKED_MCF_SANITIZE}

@@ -209,16 +209,19 @@ void add_numerics(CLI::App& app, FlowParameters& parameters) {
         ->capture_default_str();
 }
 
+/// Adds an option for a path, which is given in UTF-8.
+CLI::Option* add_path(CLI::App& app, const std::string& name, fs::path& path,
+                      const std::string& help) {
+    const auto set = [&path](const std::string& utf8) { path = fs::u8path(utf8); };
+    return app.add_option_function<std::string>(name, set, help)->type_name("");
+}
+
 void add_files(CLI::App& app, CommandLine& line) {
-    app.add_option("INPUT", line.input, "The mesh: .ply, .obj, .off or .stl")
-        ->required()
-        ->type_name("");
-    app.add_option("OUTPUT", line.output, "The smoothed mesh, in the format of its extension")
-        ->required()
-        ->type_name("");
-    app.add_option("--report", line.report,
-                   help_of("Write sizes, times, residuals, error estimates and memory to a JSON "
-                           "file."))
+    add_path(app, "INPUT", line.input, "The mesh: .ply, .obj, .off or .stl")->required();
+    add_path(app, "OUTPUT", line.output, "The smoothed mesh, in the format of its extension")
+        ->required();
+    add_path(app, "--report", line.report,
+             help_of("Write sizes, times, residuals, error estimates and memory to a JSON file."))
         ->type_name("FILE.json");
     app.add_flag("--quiet", line.quiet,
                  help_of("No summary and no progress bar; errors and warnings only."));
@@ -238,7 +241,7 @@ bool is_same_file(const fs::path& a, const fs::path& b) {
 void check_paths(const CommandLine& line) {
     for (const fs::path& path : {line.input, line.output}) {
         if (format_of(path)) continue;
-        throw InvalidParameter(path.string() +
+        throw InvalidParameter(path.u8string() +
                                ": the extension tells the format; give .ply, .obj, .off or .stl.");
     }
     if (!line.selected.empty() && format_of(line.input)->parse != parse_ply) {
@@ -251,16 +254,17 @@ void check_paths(const CommandLine& line) {
     if (line.report.empty()) return;
     for (const fs::path& path : {line.input, line.output}) {
         if (!is_same_file(line.report, path)) continue;
-        throw InvalidParameter("--report would overwrite the mesh " + path.string() +
+        throw InvalidParameter("--report would overwrite the mesh " + path.u8string() +
                                "; give it another name.");
     }
 }
 
 }  // namespace
 
-CommandLine parse_command_line(int argc, const char* const* argv) {
+CommandLine parse_command_line(std::vector<std::string> arguments) {
     CommandLine line;
     CLI::App app(wrapped(kDescription, kNameColumns + kTextColumns) + "\n", "tracked_mcf");
+    app.allow_windows_style_options(false);  // on Windows, "/scan.ply" would be an option
     app.get_formatter()->column_width(kNameColumns);
     app.footer(kExamples);
     app.set_version_flag("--version", "tracked_mcf " TRACKED_MCF_VERSION);
@@ -271,7 +275,8 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     add_files(app, line);
     refuse_empty_values(app);
     try {
-        app.parse(argc, argv);
+        std::reverse(arguments.begin(), arguments.end());  // as CLI11 wants them
+        app.parse(std::move(arguments));
     } catch (const CLI::CallForHelp&) {
         line.answer = app.help();
         return line;

@@ -63,8 +63,9 @@ struct CommandLine {
     std::string answer;
 };
 
-/// Parses the arguments of the program. Throws InvalidParameter for unknown options, values that
-/// are no values of their option, and unknown formats. validate() checks the ranges of parameters.
-CommandLine parse_command_line(int argc, const char* const* argv);
+/// Parses the arguments of the program, without its name. Throws InvalidParameter for unknown
+/// options, values that are no values of their option, and unknown formats. validate() checks the
+/// ranges of parameters.
+CommandLine parse_command_line(std::vector<std::string> arguments);
 
 }  // namespace tracked_mcf

@@ -2,9 +2,9 @@
 #include "filter_tracked_mcf/tool/interrupts.h"
 
 #include <atomic>
-#include <csignal>
 #include <cstdlib>
-#include <initializer_list>
+
+#include "filter_tracked_mcf/tool/system.h"
 
 namespace tracked_mcf {
 
@@ -29,9 +29,7 @@ extern "C" void on_interrupt(int number) {
 }  // namespace
 
 void handle_interrupts() {
-    for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
-        if (std::signal(number, SIG_IGN) != SIG_IGN) std::signal(number, on_interrupt);
-    }
+    call_on_interrupts(on_interrupt);
 }
 
 bool interrupted() {
@@ -39,7 +37,8 @@ bool interrupted() {
 }
 
 InterruptHold::InterruptHold() {
-    ++holds;
+    // Another thread may run the handler and have seen no hold. It is about to end the program.
+    if (++holds == 1 && interrupted()) end_program();
 }
 
 InterruptHold::~InterruptHold() {

@@ -2,11 +2,8 @@
 /// The command-line program: reads a mesh, lets it flow and writes it. `tracked_mcf --help`
 /// explains it.
 
-#include <unistd.h>
-
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <csignal>
 #include <iostream>
 #include <memory>
 #include <new>
@@ -20,6 +17,7 @@
 #include "filter_tracked_mcf/tool/output_file.h"
 #include "filter_tracked_mcf/tool/progress_bar.h"
 #include "filter_tracked_mcf/tool/report_json.h"
+#include "filter_tracked_mcf/tool/system.h"
 
 namespace {
 
@@ -40,7 +38,7 @@ FlowReport evolve_with_progress(TriangleMesh& mesh, const Selection& selection,
                                 const CommandLine& line) {
     const InterruptHold hold;
     std::optional<ProgressBar> bar;
-    if (!line.quiet && isatty(STDERR_FILENO)) bar.emplace(std::cerr);
+    if (!line.quiet && writes_to_terminal()) bar.emplace(std::cerr);
     return evolve(mesh, selection, line.parameters,
                   [&bar](double fraction, std::string_view phase) {
                       if (bar) bar->show(fraction, phase);
@@ -92,11 +90,10 @@ int fail(ExitCode code, std::string message) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    // A file that grows beyond a limit then fails with a message instead of a silent end.
-    std::signal(SIGXFSZ, SIG_IGN);
+    report_file_limits();
     handle_interrupts();
     try {
-        const CommandLine line = parse_command_line(argc, argv);
+        const CommandLine line = parse_command_line(utf8_arguments(argc, argv));
         if (line.answer.empty())
             run(line);
         else
@@ -117,7 +114,7 @@ int main(int argc, char** argv) {
         // If a smaller depth can help, NotEnoughMemory has said so.
         return fail(BadMesh,
                     "there is not enough memory; simplify the mesh, free memory, or raise the "
-                    "limit that ulimit -v shows.");
+                    "memory limit of this process.");
     } catch (const std::exception& error) {
         return fail(BadMesh, std::string("unexpected error: ") + error.what() + ".");
     }

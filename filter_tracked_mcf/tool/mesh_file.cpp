@@ -47,7 +47,7 @@ Selection MeshFile::selection_by(const std::string& name) const {
     const std::vector<double> of_faces = ply.faces().numbers(name);
     const std::vector<double> of_vertices = ply.vertices().numbers(name);
     if (of_faces.empty() && of_vertices.empty()) {
-        throw InvalidParameter(path_.string() + " has no number '" + name +
+        throw InvalidParameter(path_.u8string() + " has no number '" + name +
                                "' to select by; its faces have: " + numbers_of(ply.faces()) +
                                "; its vertices: " + numbers_of(ply.vertices()) + ".");
     }
@@ -63,7 +63,7 @@ Selection MeshFile::selection_by(const std::string& name) const {
         selection.insert(selection.end(), polygons.corner_count(i) - 2, is_selected(i) ? 1 : 0);
     }
     if (std::count(selection.begin(), selection.end(), 1) == 0) {
-        throw InvalidMesh("No face of " + path_.string() + " is selected by '" + name +
+        throw InvalidMesh("No face of " + path_.u8string() + " is selected by '" + name +
                           "' of its " + (of_faces.empty() ? "vertices" : "faces") +
                           "; select some, or leave --selected out to smooth the whole mesh.");
     }
@@ -85,7 +85,7 @@ void MeshFile::write(const TriangleMesh& moved, const fs::path& file,
     }
     out.close();
     if (out) return;
-    throw UnwritableFile("cannot write " + (final_folder / file.filename()).string() +
+    throw UnwritableFile("cannot write " + (final_folder / file.filename()).u8string() +
                          ": the disk may be full.");
 }
 
@@ -98,7 +98,7 @@ std::string MeshFile::conversion_warning(const fs::path& file) const {
     if (losses.empty()) return {};
     std::string list;
     for (const std::string& loss : losses) list += (list.empty() ? "" : "; ") + loss;
-    return file.string() + " does not keep everything of " + path_.string() +
+    return file.u8string() + " does not keep everything of " + path_.u8string() +
            ". Left out: " + list + ". To keep it, write a " + from->extension + " file.";
 }
 

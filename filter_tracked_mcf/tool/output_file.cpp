@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "filter_tracked_mcf/tool/output_file.h"
 
-#include <stdlib.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <random>
 #include <vector>
 
 #include "filter_tracked_mcf/tool/file_error.h"
+#include "filter_tracked_mcf/tool/system.h"
 
 namespace tracked_mcf {
 
@@ -19,22 +17,12 @@ namespace fs = std::filesystem;
 namespace {
 
 [[noreturn]] void fail(const fs::path& path, const std::string& why) {
-    throw UnwritableFile("cannot write " + path.string() + ": " + why + ".");
+    throw UnwritableFile("cannot write " + path.u8string() + ": " + why + ".");
 }
 
 /// Returns the reason of the latest failure of a stream, if errno was 0 before.
 std::string reason_of_stream() {
     return errno != 0 ? std::strerror(errno) : "the disk may be full";
-}
-
-/// Gives `staged` the owner and the mode of `old`. Returns false if the system forbids it, or if
-/// `old` has several hard links.
-bool can_replace(const fs::path& old, const fs::path& staged) {
-    struct stat status {};
-    return stat(old.c_str(), &status) == 0 && status.st_nlink == 1 &&
-           // A change of the owner clears the mode's special bits, so the mode comes second.
-           chown(staged.c_str(), status.st_uid, status.st_gid) == 0 &&
-           chmod(staged.c_str(), status.st_mode & 07777) == 0;
 }
 
 /// Copies everything from byte `begin` on to the same bytes of another file. Returns false if that
@@ -89,11 +77,13 @@ fs::path follow_links(const fs::path& path, std::error_code& error) {
 }
 
 OutputFile::StagingFolder::StagingFolder(const fs::path& parent, const fs::path& for_file) {
-    std::string name = (parent / ".tracked_mcf-XXXXXX").string();
-    if (!mkdtemp(name.data())) {
-        fail(for_file, std::string(std::strerror(errno)) + " in folder " + parent.string());
-    }
-    path_ = name;
+    std::random_device random;
+    std::error_code error;
+    do {
+        path_ = parent / (".tracked_mcf-" + std::to_string(random()));
+    } while (!fs::create_directory(path_, error) && !error);  // another program may have the name
+    if (!error) fs::permissions(path_, fs::perms::owner_all, error);
+    if (error) fail(for_file, error.message() + " in folder " + parent.u8string());
 }
 
 OutputFile::StagingFolder::~StagingFolder() {
@@ -107,12 +97,13 @@ OutputFile::OutputFile(const fs::path& path) {
     if (fs::is_directory(status)) fail(path, "it is a folder; add a file name");
     if (fs::exists(status)) {
         if (!fs::is_regular_file(status)) fail(path, "it is not a regular file");
-        if (access(path.c_str(), W_OK) != 0) fail(path, std::strerror(errno));
+        errno = 0;
+        if (!std::ofstream(path, std::ios::app)) fail(path, reason_of_stream());
     }
     path_ = follow_links(path, error);
     if (error) fail(path, error.message());
     if (!fs::is_directory(folder(), error)) {
-        fail(path, "there is no folder " + folder().string() + "; create it first");
+        fail(path, "there is no folder " + folder().u8string() + "; create it first");
     }
     // Finds out whether files can be created there.
     const StagingFolder probe(folder(), path);

@@ -90,8 +90,8 @@ std::string report_json(const CommandLine& line, const FlowReport& report) {
     const Json json = {
         {"program", "tracked_mcf"},
         {"version", TRACKED_MCF_VERSION},
-        {"input", line.input.string()},
-        {"output", line.output.string()},
+        {"input", line.input.u8string()},
+        {"output", line.output.u8string()},
         {"parameters", parameters_json(line)},
         {"vertices", report.vertices},
         {"triangles", report.triangles},
@@ -126,7 +126,7 @@ std::string report_json(const CommandLine& line, const FlowReport& report) {
 
 std::string summary(const CommandLine& line, const FlowReport& report) {
     std::ostringstream text;
-    text << line.input.string() << ": " << report.vertices << " vertices, " << report.triangles
+    text << line.input.u8string() << ": " << report.vertices << " vertices, " << report.triangles
          << " triangles";
     if (report.degenerate_triangles > 0) {
         text << ", of which " << report.degenerate_triangles << " have zero area and were ignored";
@@ -145,7 +145,7 @@ std::string summary(const CommandLine& line, const FlowReport& report) {
          << changes(report) << "\n"
          << report.steps.size() << (report.steps.size() == 1 ? " step in " : " steps in ")
          << std::fixed << std::setprecision(1) << total_seconds(report)
-         << " s: " << line.output.string() << "\n";
+         << " s: " << line.output.u8string() << "\n";
     return text.str();
 }
 

@@ -60,6 +60,7 @@ ALLOWED = [
     ("core/kernels/planted.cpp", "<hwy/highway.h>"),
     ("core/parallel/planted.cpp", "<omp.h>"),
     ("core/memory/planted.cpp", "<sys/resource.h>"),
+    ("core/memory/planted.cpp", "<windows.h>"),
     ("core/flow/planted.cpp", "<Eigen/SparseCore>"),
     ("core/evolve.cpp", f'"{CORE}/flow/flow.h"'),
     ("core/solver/step_solver.cpp", f'"{CORE}/solver/paper/multigrid.h"'),

@@ -143,28 +143,6 @@ TEST(BadInput, MissingFileIsNamed) {
               "the permissions.\n");
 }
 
-TEST(BadInput, LinksThatLeadToThemselvesAndLongNamesAreNamed) {
-    const TemporaryFolder folder;
-    std::filesystem::create_symlink("loop.ply", folder / "loop.ply");
-    const std::string long_name = std::string(300, 'a') + ".ply";
-    for (const auto& [name, why] :
-         {std::pair<std::string, std::string>{"loop.ply", "Too many levels of symbolic links"},
-          {long_name, "File name too long"}}) {
-        const ProgramRun run = run_program(folder, name + " out.ply");
-        EXPECT_EQ(run.exit_code, 1);
-        EXPECT_THAT(run.errors, StartsWith("tracked_mcf: cannot read " + name));
-        EXPECT_THAT(run.errors, EndsWith(": " + why + "; check the name and the permissions.\n"));
-    }
-}
-
-TEST(BadInput, DeviceIsNotRead) {
-    const TemporaryFolder folder;
-    std::filesystem::create_symlink("/dev/null", folder / "a.ply");
-    const ProgramRun run = run_program(folder, "a.ply out.ply");
-    EXPECT_EQ(run.exit_code, 1);
-    EXPECT_EQ(run.errors, "tracked_mcf: a.ply is a device; give a mesh file.\n");
-}
-
 TEST(BadInput, FolderIsNotRead) {
     const TemporaryFolder folder;
     std::filesystem::create_directory(folder / "a.ply");

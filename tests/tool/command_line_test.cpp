@@ -14,9 +14,8 @@ namespace {
 
 using ::testing::HasSubstr;
 
-CommandLine parse(std::vector<const char*> arguments) {
-    arguments.insert(arguments.begin(), "tracked_mcf");
-    return parse_command_line(static_cast<int>(arguments.size()), arguments.data());
+CommandLine parse(const std::vector<const char*>& arguments) {
+    return parse_command_line({arguments.begin(), arguments.end()});
 }
 
 std::string complaint(const std::vector<const char*>& arguments) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "filter_tracked_mcf/tool/documents/file_document.h"
 #include "filter_tracked_mcf/tool/mesh_file.h"
 #include "tests/tool/temporary_folder.h"
 
@@ -103,6 +104,21 @@ TEST(Obj, MaterialLibrariesFollowTheFile) {
     file.write(file.triangle_mesh(), folder / "out/out.obj", folder / "out");
     EXPECT_EQ(read_file(folder / "out/out.obj"),
               "mtllib ../a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+}
+
+TEST(Obj, NamesOfMaterialLibrariesMayBeAbsoluteOrHaveAnyBytes) {
+    const TemporaryFolder folder;
+    const FolderChange change{folder.path(), folder / "out"};
+    EXPECT_EQ(change.relocate("/shared/a.mtl"), "/shared/a.mtl");
+    EXPECT_EQ(change.relocate("a \xC3\xA4.mtl"), "../a \xC3\xA4.mtl");
+    const std::string latin1 = "a \xE4.mtl";
+#ifdef _WIN32
+    EXPECT_EQ(change.relocate(latin1), latin1) << "paths are Unicode";
+    EXPECT_EQ(change.relocate("D:a.mtl"), "D:a.mtl");
+    EXPECT_EQ(change.relocate("textures\\a.mtl"), "../textures/a.mtl");
+#else
+    EXPECT_EQ(change.relocate(latin1), "../" + latin1);
+#endif
 }
 
 TEST(Obj, LinesAreTextWhateverTheirIndices) {

@@ -3,14 +3,13 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/stat.h>
 
 #include <sstream>
 
 #include "filter_tracked_mcf/core/mesh/measures.h"
 #include "filter_tracked_mcf/tool/documents/ply_table.h"
 #include "filter_tracked_mcf/tool/mesh_file.h"
-#include "tests/tool/temporary_folder.h"
+#include "tests/tool/program_fixture.h"
 
 namespace tracked_mcf {
 namespace {
@@ -23,9 +22,6 @@ using ::testing::Not;
 using ::testing::Pointwise;
 using ::testing::StartsWith;
 
-const std::string kTetrahedron =
-    "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
-
 /// Returns all numbers in an OFF file.
 std::vector<double> numbers_in(const std::string& off) {
     std::istringstream text(off);
@@ -36,31 +32,7 @@ std::vector<double> numbers_in(const std::string& off) {
     return numbers;
 }
 
-/// A flat square of n by n vertices.
-std::string grid(int n) {
-    std::ostringstream off;
-    off << "OFF\n" << n * n << ' ' << (n - 1) * (n - 1) << " 0\n";
-    for (int i = 0; i < n * n; ++i) off << i % n << ' ' << i / n << " 0\n";
-    for (int i = 0; i < n * (n - 1); ++i) {
-        if (i % n == n - 1) continue;
-        off << "4 " << i << ' ' << i + 1 << ' ' << i + n + 1 << ' ' << i + n << '\n';
-    }
-    return off.str();
-}
-
-class Program : public ::testing::Test {
-protected:
-    void SetUp() override { write_file(folder_ / "a.off", kTetrahedron); }
-
-    ProgramRun run(const std::string& arguments) const { return run_program(folder_, arguments); }
-
-    /// Returns the area of the surface in a file.
-    double area(const std::string& name) const {
-        return surface_area(MeshFile(folder_ / name).triangle_mesh());
-    }
-
-    TemporaryFolder folder_;
-};
+using Program = ProgramFixture;
 
 TEST_F(Program, SmoothsAndSummarises) {
     const ProgramRun result = run("a.off b.ply --depth 4 --step-size 5e-4 --iterations 3");
@@ -330,50 +302,9 @@ TEST_F(Program, NamesOfOtherFilesFollowTheOutputIntoItsFolder) {
     EXPECT_THAT(read_file(folder_ / "b.obj"), StartsWith("mtllib m.mtl\nv "));
 }
 
-TEST_F(Program, MaterialsAreNotOpened) {
-    const std::string rest = "\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
-    ASSERT_EQ(mkfifo((folder_ / "pipe.mtl").c_str(), 0600), 0);
-    // Both would be read without end.
-    for (const char* material : {"/dev/zero", "pipe.mtl"}) {
-        write_file(folder_ / "a.obj", "mtllib " + std::string(material) + rest);
-        const ProgramRun result = run_program(folder_, "a.obj b.obj --depth 3", "timeout 60");
-        EXPECT_EQ(result.exit_code, 0) << result.errors;
-        EXPECT_THAT(read_file(folder_ / "b.obj"),
-                    StartsWith("mtllib " + std::string(material) + "\nv "));
-    }
-}
-
-TEST_F(Program, PipesAreReadInEveryFormat) {
-    for (const std::string extension : {"ply", "obj", "off", "stl"}) {
-        const std::string file = "a." + extension, pipe = "pipe." + extension;
-        if (extension != "off") {
-            ASSERT_EQ(run("a.off " + file + " --depth 3").exit_code, 0);
-        }
-        std::filesystem::create_symlink("/dev/stdin", folder_ / pipe);
-        ASSERT_EQ(run(file + " b.off --depth 3").exit_code, 0);
-        const ProgramRun result =
-            run_program(folder_, pipe + " c.off --depth 3", "cat " + file + " | timeout 60");
-        EXPECT_EQ(result.exit_code, 0) << result.errors;
-        EXPECT_EQ(read_file(folder_ / "c.off"), read_file(folder_ / "b.off")) << extension;
-    }
-    const ProgramRun result = run_program(folder_, "/dev/stdin c.off", "cat a.off | timeout 60");
-    EXPECT_EQ(result.exit_code, 2);
-    EXPECT_THAT(result.errors, HasSubstr("/dev/stdin: the extension tells the format"));
-}
-
 TEST_F(Program, HelpAndVersionSucceed) {
     EXPECT_EQ(run("--help").exit_code, 0);
     EXPECT_EQ(run("--version").output, "tracked_mcf " TRACKED_MCF_VERSION "\n");
-}
-
-TEST_F(Program, AFullStandardOutputExitsWith3) {
-    for (const char* arguments : {"--help", "--version", "a.off b.ply --depth 3"}) {
-        const ProgramRun result = run(std::string(arguments) + " >/dev/full");
-        EXPECT_EQ(result.exit_code, 3) << arguments;
-        EXPECT_THAT(
-            result.errors,
-            EndsWith("tracked_mcf: cannot write to the standard output; the disk may be full.\n"));
-    }
 }
 
 TEST_F(Program, EmptyValuesAreRefused) {
@@ -381,7 +312,7 @@ TEST_F(Program, EmptyValuesAreRefused) {
          {"--detail-size", "--order", "--depth", "--step-size", "--iterations", "--flow",
           "--boundary", "--selected", "--preserve", "--quality", "--separate-sheets", "--solver",
           "--tolerance", "--stabilization", "--cycles", "--cubature", "--threads", "--report"}) {
-        const ProgramRun result = run("a.off b.ply " + std::string(option) + " ''");
+        const ProgramRun result = run("a.off b.ply " + std::string(option) + " \"\"");
         EXPECT_EQ(result.exit_code, 2) << option;
         EXPECT_THAT(result.errors, HasSubstr(option));
         EXPECT_FALSE(std::filesystem::exists(folder_ / "b.ply")) << option;
@@ -389,7 +320,6 @@ TEST_F(Program, EmptyValuesAreRefused) {
 }
 
 TEST_F(Program, WrongUseExitsWith2) {
-    std::filesystem::create_symlink("b.ply", folder_ / "link.ply");
     for (const char* arguments : {"",
                                   "a.off",
                                   "a.off b.ply --depth 99",
@@ -428,8 +358,8 @@ TEST_F(Program, WrongUseExitsWith2) {
                                   "a.off b.ply --stabilization nan",
                                   "a.off b.ply --stabilization inf",
                                   "a.off b.xyz",
-                                  "a.off ''",
-                                  "a.off b.ply --report link.ply"}) {
+                                  "a.off \"\"",
+                                  "a.off b.ply --report b.ply"}) {
         const ProgramRun result = run(arguments);
         EXPECT_EQ(result.exit_code, 2) << arguments;
         EXPECT_EQ(result.errors.substr(0, 13), "tracked_mcf: ") << arguments;
@@ -443,12 +373,7 @@ TEST_F(Program, WrongUseExitsWith2) {
 }
 
 TEST_F(Program, UnwritableResultsExitWith3BeforeTheWork) {
-    std::filesystem::create_symlink("loop.ply", folder_ / "loop.ply");
-    const std::string long_name = "a.off b.ply --report " + std::string(300, 'r') + ".json";
-    for (const char* arguments :
-         {"a.off missing/b.ply", "a.off b.ply --report missing/r.json",
-          "a.off b.ply --report /dev/full", "a.off /proc/b.ply", "a.off loop.ply",
-          "a.off b.ply --report loop.ply", long_name.c_str()}) {
+    for (const char* arguments : {"a.off missing/b.ply", "a.off b.ply --report missing/r.json"}) {
         // An endless job: the test would time out if it were begun.
         const ProgramRun result = run(std::string(arguments) + " --iterations 1000000 --depth 9");
         EXPECT_EQ(result.exit_code, 3) << arguments;
@@ -456,55 +381,20 @@ TEST_F(Program, UnwritableResultsExitWith3BeforeTheWork) {
     }
 }
 
-TEST_F(Program, FullDiskExitsWith3AndLeavesTheOldFile) {
-    write_file(folder_ / "grid.off", grid(20));
-    for (const char* name : {"b.ply", "b.obj", "b.off", "b.stl"}) {
-        write_file(folder_ / name, "before");
-        // `ulimit -f 1` limits each file to one block, so writing fails as on a full disk.
-        const ProgramRun result =
-            run_program(folder_, "grid.off " + std::string(name) + " --depth 3", "ulimit -f 1;");
-        EXPECT_EQ(result.exit_code, 3) << name;
-        EXPECT_THAT(result.errors, StartsWith("tracked_mcf: cannot write ")) << name;
-        EXPECT_EQ(read_file(folder_ / name), "before");
-    }
-    for (const auto& entry : std::filesystem::directory_iterator(folder_.path())) {
-        EXPECT_TRUE(entry.is_regular_file()) << entry << " is left behind";
-    }
-}
-
-TEST_F(Program, TooLittleMemoryExitsWith1BeforeTheWork) {
-    if (TRACKED_MCF_SANITIZED) GTEST_SKIP() << "sanitizers need the whole address space";
-    write_file(folder_ / "b.ply", "before");
-    const ProgramRun result =
-        run_program(folder_, "a.off b.ply --depth 12 --iterations 1000000 --report r.json",
-                    "ulimit -v 2000000;");
-    EXPECT_EQ(result.exit_code, 1);
-    EXPECT_THAT(result.errors, StartsWith("tracked_mcf: Depth 12 would need about "));
-    EXPECT_THAT(result.errors, HasSubstr(" GB are free. Choose depth "));
-    EXPECT_THAT(result.output, IsEmpty());
-    EXPECT_EQ(read_file(folder_ / "b.ply"), "before");
-    EXPECT_FALSE(std::filesystem::exists(folder_ / "r.json"));
-}
-
-TEST_F(Program, TooLittleMemoryToReadDoesNotBlameTheDepth) {
-    if (TRACKED_MCF_SANITIZED) GTEST_SKIP() << "sanitizers need the whole address space";
-    write_file(folder_ / "grid.off", grid(500));
-    const ProgramRun result = run_program(folder_, "grid.off b.ply", "ulimit -v 60000;");
-    EXPECT_EQ(result.exit_code, 1);
-    EXPECT_EQ(result.errors,
-              "tracked_mcf: there is not enough memory; simplify the mesh, free memory, or raise "
-              "the limit that ulimit -v shows.\n");
-}
-
-TEST_F(Program, GermanLocaleChangesNoNumber) {
-    ASSERT_EQ(run("a.off plain.off --depth 3 --step-size 1.5e-5").exit_code, 0);
-    const ProgramRun german =
-        run_program(folder_, "a.off german.off --depth 3 --step-size 1.5e-5 --report r.json",
-                    "LC_ALL=de_DE.UTF-8");
-    ASSERT_EQ(german.exit_code, 0);
-    EXPECT_THAT(german.output, HasSubstr("The step size was 1.5e-05 squared units"));
-    EXPECT_EQ(read_file(folder_ / "german.off"), read_file(folder_ / "plain.off"));
-    EXPECT_THAT(read_file(folder_ / "r.json"), HasSubstr("\"step_size\": 1.5e-05"));
+TEST_F(Program, NamesMayHaveAnyLetters) {
+    // "Fläche", "曲面" and "отчёт", spelled so that every compiler takes these bytes.
+    const std::string input =
+                          "Fl\xC3\xA4"
+                          "che.off",
+                      output = "\xE6\x9B\xB2\xE9\x9D\xA2.ply";
+    const std::string report = "\xD0\xBE\xD1\x82\xD1\x87\xD1\x91\xD1\x82.json";
+    std::filesystem::rename(folder_ / "a.off", folder_ / input);
+    const ProgramRun result = run(input + " " + output + " --depth 3 --report " + report);
+    EXPECT_EQ(result.exit_code, 0) << result.errors;
+    EXPECT_THAT(result.output, HasSubstr(input + ": 4 vertices"));
+    EXPECT_LT(area(output), 0.99 * area(input));
+    EXPECT_THAT(read_file(folder_ / report), HasSubstr("\"" + output + "\""));
+    EXPECT_THAT(run(output + "x b.ply").errors, HasSubstr(output + "x: the extension"));
 }
 
 }  // namespace

@@ -39,7 +39,8 @@ std::string complaint(const std::string& content, const std::string& name) {
         selected(content, name);
     } catch (const Error& error) {
         const std::string message = error.what();
-        const std::size_t path = message.find('/'), name_in_path = message.find("a.ply");
+        const std::size_t name_in_path = message.find("a.ply");
+        const std::size_t path = message.rfind(' ', name_in_path) + 1;  // 0 if there is no space
         return message.substr(0, path) + message.substr(name_in_path);
     }
     return "none";

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/tool/temporary_folder.h"
 
-#include <stdlib.h>
+#ifndef _WIN32
 #include <sys/wait.h>
+#endif
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
+#include <random>
 #include <sstream>
 #include <stdexcept>
 
@@ -14,9 +17,10 @@ namespace tracked_mcf {
 namespace fs = std::filesystem;
 
 TemporaryFolder::TemporaryFolder() {
-    std::string name = (fs::temp_directory_path() / "tracked_mcf_test_XXXXXX").string();
-    if (!mkdtemp(name.data())) throw std::runtime_error("no temporary folder");
-    path_ = name;
+    std::random_device random;
+    do {
+        path_ = fs::temp_directory_path() / ("tracked_mcf_test_" + std::to_string(random()));
+    } while (!fs::create_directory(path_));
 }
 
 TemporaryFolder::~TemporaryFolder() {
@@ -39,16 +43,44 @@ void write_file(const fs::path& path, const std::string& content) {
     if (!file) throw std::runtime_error("cannot write " + path.string());
 }
 
+namespace {
+
+/// Lets the system's shell run a command. Returns its exit code, or -1 if a signal ended it.
+int exit_code_of(const std::string& command) {
+#ifdef _WIN32
+    return _wsystem(fs::u8path(command).c_str());
+#else
+    // NOLINTNEXTLINE(bugprone-command-processor): tests redirect streams and set limits in a shell
+    const int status = std::system(command.c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+#endif
+}
+
+/// Returns what a program has printed. On Windows, lines of printed text end with "\r\n".
+std::string read_printed(const fs::path& path) {
+    std::string text = read_file(path);
+#ifdef _WIN32
+    text.erase(std::remove(text.begin(), text.end(), '\r'), text.end());
+#endif
+    return text;
+}
+
+}  // namespace
+
 ProgramRun run_program(const TemporaryFolder& folder, const std::string& arguments,
                        const std::string& before) {
     const TemporaryFolder streams;
-    const std::string command =
-        "cd " + folder.path().string() + " && (" + before + " " TRACKED_MCF_PROGRAM " " +
-        arguments + ") >" + (streams / "output").string() + " 2>" + (streams / "errors").string();
-    // NOLINTNEXTLINE(bugprone-command-processor): tests redirect streams and set limits in a shell
-    const int status = std::system(command.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_file(streams / "output"),
-            read_file(streams / "errors")};
+    const std::string to_streams =
+        " >" + (streams / "output").string() + " 2>" + (streams / "errors").string();
+#ifdef _WIN32
+    const std::string command = "cd /d " + folder.path().string() + " && " + before +
+                                " " TRACKED_MCF_PROGRAM " " + arguments + to_streams;
+#else
+    const std::string command = "cd " + folder.path().string() + " && (" + before +
+                                " " TRACKED_MCF_PROGRAM " " + arguments + ")" + to_streams;
+#endif
+    const int exit_code = exit_code_of(command);
+    return {exit_code, read_printed(streams / "output"), read_printed(streams / "errors")};
 }
 
 }  // namespace tracked_mcf

@@ -12,8 +12,10 @@ public:
     TemporaryFolder();
     ~TemporaryFolder();
 
-    /// Returns the path of the file `name` in the folder.
-    std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+    /// Returns the path of the file `name` in the folder. The name is UTF-8.
+    std::filesystem::path operator/(const std::string& name) const {
+        return path_ / std::filesystem::u8path(name);
+    }
 
     const std::filesystem::path& path() const { return path_; }
 

@@ -22,7 +22,7 @@ constexpr std::array<Format, 4> kFormats = {{{".ply", parse_ply, convert_to_ply,
                                              {".stl", parse_stl, convert_to_stl, false}}};
 
 [[noreturn]] void fail_to_read(const fs::path& path, const std::string& why) {
-    throw UnreadableFile("cannot read " + path.string() + ": " + why +
+    throw UnreadableFile("cannot read " + path.u8string() + ": " + why +
                          "; check the name and the permissions.");
 }
 
@@ -32,11 +32,11 @@ std::string read_whole_file(const fs::path& path) {
     const fs::file_status status = fs::status(path, error);
     if (error) fail_to_read(path, error.message());
     if (fs::is_directory(status)) {
-        throw UnreadableFile(path.string() + " is a folder; give a mesh file.");
+        throw UnreadableFile(path.u8string() + " is a folder; give a mesh file.");
     }
     // A device such as /dev/zero may have no end.
     if (fs::is_character_file(status) || fs::is_block_file(status)) {
-        throw UnreadableFile(path.string() + " is a device; give a mesh file.");
+        throw UnreadableFile(path.u8string() + " is a device; give a mesh file.");
     }
     std::string content;
     const auto size = fs::file_size(path, error);
@@ -61,13 +61,27 @@ void check_corner_counts(const Polygons& polygons) {
     }
 }
 
+/// Returns the path of a name in a file. On Windows, paths are UTF-16, so a name that is not UTF-8
+/// has none.
+fs::path path_of(const std::string& name) {
+    try {
+        return fs::u8path(name);
+    } catch (const std::system_error&) {
+        return {};
+    }
+}
+
 }  // namespace
 
 std::string FolderChange::relocate(const std::string& name) const {
-    if (name.empty() || fs::path(name).is_absolute()) return name;
+    const fs::path path = path_of(name);
+    if (path.empty() || path.has_root_path()) return name;
     const fs::path old_folder = fs::weakly_canonical(from), new_folder = fs::weakly_canonical(to);
     if (old_folder == new_folder) return name;
-    return (old_folder / name).lexically_normal().lexically_proximate(new_folder).generic_string();
+    return (old_folder / path)
+        .lexically_normal()
+        .lexically_proximate(new_folder)
+        .generic_u8string();
 }
 
 Color make_color(const std::vector<double>& channels, double full) {
@@ -81,7 +95,7 @@ Color make_color(const std::vector<double>& channels, double full) {
 }
 
 const Format* format_of(const fs::path& path) {
-    std::string extension = path.extension().string();
+    std::string extension = path.extension().u8string();
     for (char& c : extension) {
         if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
     }
@@ -101,7 +115,7 @@ std::unique_ptr<FileDocument> open_document(const fs::path& path) {
         check_corner_counts(document->polygons());
         return document;
     } catch (const UnreadableFile& error) {
-        throw UnreadableFile(path.string() + " cannot be used: " + error.what() +
+        throw UnreadableFile(path.u8string() + " cannot be used: " + error.what() +
                              ". Repair the file or export the mesh again.");
     }
 }

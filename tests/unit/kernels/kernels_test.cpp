@@ -18,9 +18,15 @@ protected:
         const char* const value = std::getenv(kVariable);
         if (value != nullptr) before_ = value;
     }
-    ~InstructionSets() override { ::setenv(kVariable, before_.c_str(), 1); }
+    ~InstructionSets() override { set(before_); }
 
-    static void set(const std::string& value) { ::setenv(kVariable, value.c_str(), 1); }
+    static void set(const std::string& value) {
+#ifdef _WIN32
+        _putenv_s(kVariable, value.c_str());
+#else
+        setenv(kVariable, value.c_str(), 1);
+#endif
+    }
 
 private:
     static constexpr const char* kVariable = "TRACKED_MCF_INSTRUCTIONS";

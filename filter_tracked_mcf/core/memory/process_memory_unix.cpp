@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "filter_tracked_mcf/core/memory/process_memory.h"
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <fstream>
 #include <limits>
 #include <optional>
 
-#if __has_include(<sys/resource.h>)
-#include <sys/resource.h>
-#include <unistd.h>
-#endif
+#include "filter_tracked_mcf/core/memory/process_memory.h"
 
 namespace tracked_mcf {
 
@@ -87,7 +85,6 @@ std::int64_t free_in_groups(const std::string& root) {
     return least;
 }
 
-#if __has_include(<sys/resource.h>)
 /// Returns what a limit of this process leaves if `pages` count towards the limit.
 template <class Resource>
 std::int64_t free_under(Resource resource, std::int64_t pages) {
@@ -102,11 +99,6 @@ std::int64_t free_in_process() {
     if (!(statm >> size >> resident >> shared >> text >> library >> data)) return kUnlimited;
     return std::min(free_under(RLIMIT_AS, size), free_under(RLIMIT_DATA, data));
 }
-#else
-std::int64_t free_in_process() {
-    return kUnlimited;
-}
-#endif
 
 std::int64_t known_or_zero(std::int64_t bytes) {
     return bytes == kUnlimited ? 0 : std::max<std::int64_t>(1, bytes);
@@ -131,7 +123,6 @@ std::int64_t peak_memory_bytes() {
     // The peak that getrusage() reports may be that of the program that started this one.
     if (const auto peak = number_in("/proc/self/status", "VmHWM:"))
         return std::int64_t{1024} * *peak;
-#if __has_include(<sys/resource.h>)
     rusage usage{};
     if (getrusage(RUSAGE_SELF, &usage) != 0) return 0;
 #ifdef __APPLE__
@@ -140,9 +131,6 @@ std::int64_t peak_memory_bytes() {
     constexpr std::int64_t unit = 1024;
 #endif
     return unit * usage.ru_maxrss;
-#else
-    return 0;
-#endif
 }
 
 }  // namespace tracked_mcf

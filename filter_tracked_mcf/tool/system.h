@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace tracked_mcf {
+
+// What differs between Windows and other systems.
+
+/// Returns the arguments of main() behind the program's name, in UTF-8, which all texts of this
+/// program have. On Windows, also lets the console use it.
+std::vector<std::string> utf8_arguments(int argc, const char* const* argv);
+
+/// Returns whether the standard error stream is a terminal that understands escape sequences.
+bool writes_to_terminal();
+
+/// Lets a file that grows beyond a limit of the system fail as on a full disk. On Unix, it would
+/// end the program.
+void report_file_limits();
+
+/// Lets `handler` be called with the number of each signal that interrupts the program, on a thread
+/// of its own on Windows. There, Ctrl-C and Ctrl-Break are SIGINT; closing the console, logging off
+/// and shutting down are SIGTERM. Elsewhere, these signals and SIGHUP are handled, unless they are
+/// ignored, as under nohup.
+void call_on_interrupts(void (*handler)(int number));
+
+/// Makes a new file ready to be renamed to `old`: gives it the owner and the mode of `old`. Returns
+/// false if the system forbids it, or if `old` has several hard links or is a link itself. On
+/// Windows, a new file has the permissions that its folder gives.
+bool can_replace(const std::filesystem::path& old, const std::filesystem::path& new_file);
+
+}  // namespace tracked_mcf

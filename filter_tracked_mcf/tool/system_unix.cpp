@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <initializer_list>
+
+#include "filter_tracked_mcf/tool/system.h"
+
+namespace tracked_mcf {
+
+std::vector<std::string> utf8_arguments(int argc, const char* const* argv) {
+    return {argv + (argc > 0 ? 1 : 0), argv + argc};
+}
+
+bool writes_to_terminal() {
+    return isatty(STDERR_FILENO) != 0;
+}
+
+void report_file_limits() {
+    std::signal(SIGXFSZ, SIG_IGN);
+}
+
+void call_on_interrupts(void (*handler)(int number)) {
+    for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
+        if (std::signal(number, SIG_IGN) != SIG_IGN) std::signal(number, handler);
+    }
+}
+
+bool can_replace(const std::filesystem::path& old, const std::filesystem::path& new_file) {
+    struct stat status {};
+    return stat(old.c_str(), &status) == 0 && status.st_nlink == 1 &&
+           // A change of the owner clears the mode's special bits, so the mode comes second.
+           chown(new_file.c_str(), status.st_uid, status.st_gid) == 0 &&
+           chmod(new_file.c_str(), status.st_mode & 07777) == 0;
+}
+
+}  // namespace tracked_mcf

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Limits of memory that only Unix has.
+
+#include "filter_tracked_mcf/core/memory/process_memory.h"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "filter_tracked_mcf/core/errors.h"
+#include "tests/unit/flows.h"
+
+namespace tracked_mcf {
+namespace {
+
+/// Limits the address space of this process to `bytes` more than it has, for the scope's life.
+class AddressSpaceLimit {
+public:
+    explicit AddressSpaceLimit(std::int64_t bytes) {
+        getrlimit(RLIMIT_AS, &before_);
+        std::ifstream statm("/proc/self/statm");
+        std::int64_t pages = 0;
+        statm >> pages;
+        rlimit limit = before_;
+        limit.rlim_cur = static_cast<rlim_t>(pages * sysconf(_SC_PAGESIZE) + bytes);
+        setrlimit(RLIMIT_AS, &limit);
+    }
+    ~AddressSpaceLimit() { setrlimit(RLIMIT_AS, &before_); }
+    AddressSpaceLimit(const AddressSpaceLimit&) = delete;
+    AddressSpaceLimit& operator=(const AddressSpaceLimit&) = delete;
+
+private:
+    rlimit before_{};
+};
+
+TEST(NotEnoughMemory, LeavesTheMeshAsItWas) {
+    if (TRACKED_MCF_SANITIZED) GTEST_SKIP() << "sanitizers need the whole address space";
+    const TriangleMesh mesh = shapes::geodesic_sphere(20);
+    TriangleMesh after = mesh;
+    const AddressSpaceLimit limit(500'000'000);
+    EXPECT_THROW(evolve(after, parameters(12, 1e-3, 1)), NotEnoughMemory);
+    EXPECT_TRUE(same_bits(after, mesh));
+}
+
+/// Writes files that stand for those of a system.
+class AvailableMemoryByFiles : public ::testing::Test {
+protected:
+    void SetUp() override { std::filesystem::remove_all(root_); }
+    void TearDown() override { std::filesystem::remove_all(root_); }
+
+    void write(const std::string& path, const std::string& content) const {
+        const std::filesystem::path file = root_ + path;
+        std::filesystem::create_directories(file.parent_path());
+        std::ofstream(file) << content;
+    }
+
+    std::int64_t bytes() const { return available_memory_by_files(root_); }
+
+    const std::string root_ =
+        ::testing::TempDir() + "tracked_mcf_available_memory_" + std::to_string(getpid());
+};
+
+TEST_F(AvailableMemoryByFiles, IsUnknownIfNoFileSaysIt) {
+    EXPECT_EQ(bytes(), 0);
+    write("/proc/meminfo", "MemTotal: many kB\nMemAvailable:\n");
+    write("/proc/self/cgroup", "\n:\n::\n0::\n4:memory:/a\n");
+    EXPECT_EQ(bytes(), 0);
+}
+
+TEST_F(AvailableMemoryByFiles, IncludesTheSwapSpace) {
+    write("/proc/meminfo", "MemTotal: 8000 kB\nMemAvailable:    3000 kB\nSwapFree: 500 kB\n");
+    EXPECT_EQ(bytes(), 1024 * 3500);
+}
+
+TEST_F(AvailableMemoryByFiles, IsAtMostWhatEveryControlGroupAllows) {
+    write("/proc/meminfo", "MemAvailable: 3000 kB\n");
+    write("/proc/self/cgroup", "0::/outer/inner\n");
+    write("/sys/fs/cgroup/outer/inner/memory.max", "max\n");
+    write("/sys/fs/cgroup/outer/inner/memory.current", "100000\n");
+    EXPECT_EQ(bytes(), 1024 * 3000);
+    write("/sys/fs/cgroup/outer/memory.max", "1000000\n");
+    write("/sys/fs/cgroup/outer/memory.current", "300000\n");
+    write("/sys/fs/cgroup/outer/memory.stat", "anon 5\ninactive_file 100000\n");
+    EXPECT_EQ(bytes(), 800000) << "inactive files can be reclaimed";
+    write("/sys/fs/cgroup/memory.max", "400000\n");
+    write("/sys/fs/cgroup/memory.current", "300000\n");
+    EXPECT_EQ(bytes(), 100000);
+}
+
+TEST_F(AvailableMemoryByFiles, KnowsVersion1OfControlGroupsAndContainers) {
+    write("/proc/self/cgroup", "5:devices:/x\n4:cpu,memory:/not/seen/inside\n0::/\n");
+    write("/sys/fs/cgroup/memory/memory.limit_in_bytes", "1000000\n");
+    write("/sys/fs/cgroup/memory/memory.usage_in_bytes", "300000\n");
+    write("/sys/fs/cgroup/memory/memory.stat", "inactive_file 7\ntotal_inactive_file 100000\n");
+    EXPECT_EQ(bytes(), 800000);
+}
+
+TEST_F(AvailableMemoryByFiles, IsPositiveEvenIfAllIsUsed) {
+    write("/proc/self/cgroup", "0::/\n");
+    write("/sys/fs/cgroup/memory.max", "1000\n");
+    write("/sys/fs/cgroup/memory.current", "3000\n");
+    EXPECT_EQ(bytes(), 1);
+}
+
+}  // namespace
+}  // namespace tracked_mcf
