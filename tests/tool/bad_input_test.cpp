@@ -11,7 +11,6 @@
 namespace tracked_mcf {
 namespace {
 
-using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 

@@ -15,7 +15,6 @@ namespace tracked_mcf {
 namespace {
 
 using ::testing::DoubleNear;
-using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;

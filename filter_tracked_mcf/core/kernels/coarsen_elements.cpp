@@ -137,11 +137,11 @@ static HWY_INLINE void coarsen_axis(Rows& m, bool upper_child) {
     constexpr int step = 1 << Axis;
     const Row keep = load_row(kKeep[Axis][upper_child ? 1 : 0]);
     HWY_UNROLL(8)
-    for (int i = 0; i < 8; ++i) {
-        const Row other = other_end<Axis>(m.row[i]);
+    for (Row& row : m.row) {
+        const Row other = other_end<Axis>(row);
         for (int k = 0; k < kParts; ++k) {
             const Part take = keep.part[k] - hn::Set(kRow, 0.5F);
-            m.row[i].part[k] = hn::MulAdd(keep.part[k], m.row[i].part[k], take * other.part[k]);
+            row.part[k] = hn::MulAdd(keep.part[k], row.part[k], take * other.part[k]);
         }
     }
     HWY_UNROLL(8)
