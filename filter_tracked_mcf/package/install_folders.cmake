@@ -18,4 +18,4 @@ foreach(name TRACKED_MCF_HOST TRACKED_MCF_HOST_RELEASE TRACKED_MCF_USER_INSTALL
 endforeach()
 install(CODE "${known}" ALL_COMPONENTS)
 install(SCRIPT package/find_folders.cmake ALL_COMPONENTS)
-install(FILES LICENSE DESTINATION share/doc/filter_tracked_mcf)
+install(FILES LICENSE package/THIRD_PARTY.txt DESTINATION share/doc/filter_tracked_mcf)

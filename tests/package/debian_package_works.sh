@@ -56,7 +56,7 @@ for other in 2019.12-1 2021.10-1 "$release.1-1" 2026.01~dfsg-1; do
 done
 echo "== Files"
 expected=$({
-    printf '/usr/share/doc/%s\n' "$name"/{changelog.Debian.gz,changelog.gz,copyright}
+    printf '/usr/share/doc/%s\n' "$name"/{THIRD_PARTY.txt,changelog.Debian.gz,changelog.gz,copyright}
     echo "$library_dir/plugins/$plugin"
     [ -z "$tool" ] || printf '%s\n' "/usr/bin/$tool" "/usr/share/man/man1/$tool.1.gz"
 } | LC_ALL=C sort)

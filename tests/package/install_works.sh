@@ -42,7 +42,7 @@ goes_to() { # PLUGIN_DIR TOOL_DIR NAME=VALUE...
     expected=$({
         echo "$1/$plugin"
         [ -z "$tool" ] || echo "$2/$tool"
-        echo "$(dirname "$2")/share/doc/filter_tracked_mcf/LICENSE"
+        printf '%s\n' "$(dirname "$2")/share/doc/filter_tracked_mcf"/{LICENSE,THIRD_PARTY.txt}
     } | sort)
     if ! run_install "${@:3}"; then
         fail "cannot install: ${*:3}"

@@ -28,7 +28,8 @@ host=meshlab-$release
 version=$(sed -n 's/^CMAKE_PROJECT_VERSION:STATIC=//p' "$build/CMakeCache.txt")
 name=tracked-mcf-$version-$host-$scalar-linux-$(uname -m)
 [ "$(echo ./*.tar.gz)" = "./$name.tar.gz" ] || fail "made $(echo ./*.gz) rather than $name.tar.gz"
-expected=$(printf '%s\n' "$name/INSTALL.txt" "$name/LICENSE" "$name/$plugin" ${tool:+"$name/$tool"})
+expected=$(printf '%s\n' "$name/INSTALL.txt" "$name/LICENSE" "$name/THIRD_PARTY.txt" \
+    "$name/$plugin" ${tool:+"$name/$tool"})
 found=$(tar -tzf "$name.tar.gz" | grep -v '/$' | LC_ALL=C sort)
 [ "$found" = "$expected" ] || fail "$name.tar.gz holds $found"
 mkdir elsewhere

@@ -49,7 +49,8 @@ if(TRACKED_MCF_TOOL)
 set(summary \"smooth triangle meshes by mean-curvature flow\")" ${component})
   install(SCRIPT "${CMAKE_CURRENT_LIST_DIR}/write_man_page.cmake" ${component})
 endif()
-install(FILES "${CMAKE_CURRENT_LIST_DIR}/copyright" DESTINATION ${documents} ${component})
+install(FILES "${CMAKE_CURRENT_LIST_DIR}/copyright" "${CMAKE_CURRENT_LIST_DIR}/../THIRD_PARTY.txt"
+        DESTINATION ${documents} ${component})
 
 # Debian wants the project's changelog and that of the package, compressed.
 set(changelogs "${CMAKE_CURRENT_BINARY_DIR}/debian")

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Packs a Python module with the plugin as a wheel, and prints the wheel's path:
-make_wheel.py MODULE_FOLDER VERSION PYMESHLAB_RELEASE PROCESSOR LICENCE DESTINATION
+make_wheel.py MODULE_FOLDER VERSION PYMESHLAB_RELEASE PROCESSOR DESTINATION LICENCE...
 
 pip installs the wheel only where the C library is at least as new as the plugin needs, and installs the
 PyMeshLab of that release from PyPI too. The same files make the same wheel, byte by byte.
@@ -31,17 +31,19 @@ def record_line(path, data):
     return f"{path},sha256={digest},{len(data)}\n"
 
 
-def main(module, version, release, processor, licence, destination):
+def main(module, version, release, processor, destination, *licences):
     module, destination = pathlib.Path(module), pathlib.Path(destination)
     info = f"{NAME}-{version}.dist-info"
     tag = f"py3-none-{platform(module / 'libfilter_tracked_mcf.so', processor)}"
     files = {f"{module.name}/{name}": (module / name).read_bytes()
              for name in ("__init__.py", "filter.txt", "libfilter_tracked_mcf.so")}
-    files[f"{info}/licenses/LICENSE"] = pathlib.Path(licence).read_bytes()
+    licences = [pathlib.Path(licence) for licence in licences]
+    files.update((f"{info}/licenses/{licence.name}", licence.read_bytes()) for licence in licences)
     files[f"{info}/METADATA"] = (
         f"Metadata-Version: 2.4\nName: {NAME}\nVersion: {version}\n"
         f"Summary: Mean-curvature flow of triangle meshes in PyMeshLab {release}\n"
-        "License-Expression: GPL-3.0-or-later\nLicense-File: LICENSE\n"
+        "License-Expression: GPL-3.0-or-later\n" +
+        "".join(f"License-File: {licence.name}\n" for licence in licences) +
         f"Requires-Dist: pymeshlab=={release}.*\n").encode()
     files[f"{info}/WHEEL"] = (
         f"Wheel-Version: 1.0\nGenerator: {NAME}\nRoot-Is-Purelib: false\nTag: {tag}\n").encode()

@@ -88,6 +88,7 @@ def check_files(wheel, build):
         assert str(build).encode() not in data, f"{name} names the build folder"
     licence = (info / "licenses" / "LICENSE").read_text(encoding="utf-8")
     assert "GNU GENERAL PUBLIC LICENSE" in licence
+    assert (info / "licenses" / "THIRD_PARTY.txt").exists()
 
     # needed_versions.sh reads the files' lists of versions; this test reads their symbols.
     plugin = folder / MODULE / PLUGIN
