@@ -34,14 +34,21 @@ std::vector<std::string> names_in(const TemporaryFolder& folder) {
     return names;
 }
 
+/// Shells ignore SIGINT in what they start in the background, and nohup ignores SIGHUP.
+void ignore_no_interrupts() {
+    for (const int number : {SIGINT, SIGTERM, SIGHUP}) std::signal(number, SIG_DFL);
+}
+
 TEST(InterruptsDeathTest, EndTheProgramAtOnceUnlessTheyAreHeld) {
     for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
         const auto raise_alone = [&] {
+            ignore_no_interrupts();
             handle_interrupts();
             std::raise(number);
         };
         EXPECT_EXIT(raise_alone(), ExitedWithCode(128 + number), "");
         const auto raise_in_holds = [&] {
+            ignore_no_interrupts();
             handle_interrupts();
             const InterruptHold outer;
             {
@@ -87,6 +94,7 @@ protected:
         ASSERT_EQ(mkfifo((folder_ / "pipe.off").c_str(), 0600), 0);
         program_ = fork();
         if (program_ == 0) {
+            ignore_no_interrupts();
             if (chdir(folder_.path().c_str()) != 0) std::_Exit(1);
             execl(TRACKED_MCF_PROGRAM, "tracked_mcf", "pipe.off", "b.off", "--depth", "8",
                   "--boundary", "free", "--step-size", "1e-12", "--iterations", "1000000", nullptr);
