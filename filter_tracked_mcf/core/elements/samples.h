@@ -3,7 +3,6 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 
 #include "filter_tracked_mcf/core/kernels/integrate_elements.h"
@@ -24,12 +23,11 @@ public:
         resize(weight_);
     }
     void set(std::int64_t sample, const Eigen::Vector3d& local, double weight) {
-        std::uint32_t steps[3];
-        for (int axis = 0; axis < 3; ++axis) {
-            steps[axis] = static_cast<std::uint32_t>(std::lround(kSampleSteps * local[axis]));
-        }
-        packed_local_[0][sample] = steps[0] << kPackedShift | steps[2] >> kPackedShift;
-        packed_local_[1][sample] = steps[1] << kPackedShift | (steps[2] & kPackedMask);
+        const std::uint32_t x = rounded(kSampleSteps * local[0]);
+        const std::uint32_t y = rounded(kSampleSteps * local[1]);
+        const std::uint32_t z = rounded(kSampleSteps * local[2]);
+        packed_local_[0][sample] = x << kPackedShift | z >> kPackedShift;
+        packed_local_[1][sample] = y << kPackedShift | (z & kPackedMask);
         weight_[sample] = static_cast<float>(weight);
     }
 
@@ -49,6 +47,12 @@ public:
     const float* weights() const { return weight_.data(); }
 
 private:
+    /// Returns what std::lround would, which is a slow call. The number is negative by rounding
+    /// errors at most.
+    static std::uint32_t rounded(double number) {
+        const auto below = static_cast<std::int32_t>(number);
+        return static_cast<std::uint32_t>(below + (number - below >= 0.5 ? 1 : 0));
+    }
     template <class Number>
     void resize(RawVector<Number>& numbers) const {
         numbers.resize(static_cast<std::size_t>(count_ + kSamplePadding));

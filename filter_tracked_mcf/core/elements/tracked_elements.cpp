@@ -26,6 +26,9 @@ namespace {
 /// order in which threads claim the vertex.
 using Claims = std::vector<std::atomic<std::int32_t>>;
 
+/// FragmentEntry::corners of a triangle that lies in one cell.
+constexpr unsigned kAllCorners = 7;
+
 constexpr std::int32_t kUnclaimed = std::numeric_limits<std::int32_t>::max();
 
 void claim(std::atomic<std::int32_t>& vertex, std::int32_t element) {
@@ -100,7 +103,9 @@ private:
                 continue;
             }
             const auto corners = mesh_.corners(entries_[i].triangle);
-            const Polygon polygon = clip_to_cell(corners, cell);
+            const Polygon polygon = entries_[i].corners == kAllCorners
+                                        ? whole_triangle(corners)
+                                        : clip_to_cell(corners, cell);
             const std::int64_t first_sample = next_sample;
             for_each_node(polygon, corners, rule_, [&](const WeightedPoint& node) {
                 elements_.samples.set(next_sample++, node.point - cell.cast<double>(), node.weight);

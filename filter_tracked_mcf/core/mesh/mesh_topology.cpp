@@ -10,51 +10,91 @@
 #include "filter_tracked_mcf/core/mesh/weld.h"
 #include "filter_tracked_mcf/core/parallel/marks.h"
 #include "filter_tracked_mcf/core/parallel/parallel.h"
-#include "filter_tracked_mcf/core/parallel/sorting.h"
 
 namespace tracked_mcf {
 
 namespace {
 
-/// Returns the sides of all triangles that are edges, sorted by edge. A side's key holds its
-/// smaller vertex in the upper bits and its larger vertex in the lower ones; its value is 3 *
-/// triangle + side.
-RawVector<KeyValue> sorted_sides(const RawVector<Triangle>& triangles, std::size_t vertex_count) {
-    unsigned vertex_bits = 0;
-    while ((vertex_count >> vertex_bits) != 0) ++vertex_bits;
-    // Sides that join a vertex to itself are no edges. They get this key, so they come last.
-    const std::uint64_t no_edge = std::uint64_t{vertex_count} << vertex_bits;
-    RawVector<KeyValue> sides(3 * triangles.size());
+/// The sides of all triangles that are edges, grouped by their smaller vertex.
+struct Stars {
+    RawVector<std::int64_t> begin;   ///< per vertex, its first side; at last the number of sides
+    RawVector<std::uint64_t> sides;  ///< in a group sorted by the larger vertex, then by triangle
+};
+
+/// A side is one number: its larger vertex, then 3 * triangle + side in the lower bits.
+constexpr unsigned kSideBits = 33;
+std::uint64_t larger_vertex(std::uint64_t side) {
+    return side >> kSideBits;
+}
+std::uint64_t place_of(std::uint64_t side) {
+    return side & ((std::uint64_t{1} << kSideBits) - 1);
+}
+
+/// Calls visit(smaller vertex, larger vertex, triangle, side) for all sides that are edges.
+template <class Visit>
+void for_each_side(const RawVector<Triangle>& triangles, const Visit& visit) {
     parallel_for_rows(static_cast<std::int64_t>(triangles.size()), [&](std::int32_t triangle) {
         const Triangle& t = triangles[triangle];
         for (int side = 0; side < 3; ++side) {
             const auto [a, b] = std::minmax({t[side], t[(side + 1) % 3]});
-            const std::uint64_t key =
-                static_cast<std::uint64_t>(a) << vertex_bits | static_cast<std::uint64_t>(b);
-            const auto value = static_cast<std::uint64_t>(3 * std::int64_t{triangle} + side);
-            sides[value] = {a == b ? no_edge : key, value};
+            if (a != b) visit(a, b, triangle, side);
         }
     });
-    sort_by_key(sides);
-    while (!sides.empty() && sides.back().key == no_edge) sides.pop_back();
-    return sides;
+}
+
+/// A comparison sort of each small star is faster than a radix sort of all sides.
+Stars stars_of(const RawVector<Triangle>& triangles, std::size_t vertex_count) {
+    std::vector<std::atomic<std::int32_t>> counts(vertex_count);
+    for_each_side(triangles, [&](std::int32_t a, std::int32_t, std::int32_t, int) {
+        counts[a].fetch_add(1, std::memory_order_relaxed);
+    });
+    const auto vertices = static_cast<std::int64_t>(vertex_count);
+    Stars stars;
+    parallel_prefix_sum(
+        vertices, [&](std::int64_t vertex) { return counts[vertex].load(); }, stars.begin);
+    stars.sides.resize(static_cast<std::size_t>(stars.begin.back()));
+    for_each_side(triangles, [&](std::int32_t a, std::int32_t b, std::int32_t triangle, int side) {
+        // Threads place the sides of a star in any order; sorting makes it the same again.
+        const std::int32_t left = counts[a].fetch_sub(1, std::memory_order_relaxed);
+        stars.sides[stars.begin[a] + left - 1] =
+            static_cast<std::uint64_t>(b) << kSideBits |
+            static_cast<std::uint64_t>(3 * std::int64_t{triangle} + side);
+    });
+    parallel_for_rows(vertices, [&](std::int32_t vertex) {
+        std::sort(stars.sides.begin() + stars.begin[vertex],
+                  stars.sides.begin() + stars.begin[vertex + 1]);
+    });
+    return stars;
 }
 
 void number_edges(MeshTopology& topology) {
-    const RawVector<KeyValue> sides = sorted_sides(topology.triangles, topology.welded.size());
+    const std::size_t vertex_count = topology.welded.size();
+    const Stars stars = stars_of(topology.triangles, vertex_count);
     topology.edges.resize(topology.triangles.size());
     parallel_for_rows(static_cast<std::int64_t>(topology.edges.size()), [&](std::int32_t triangle) {
         topology.edges[triangle].fill(MeshTopology::kNoEdge);
     });
-    const auto begins_edge = runs_by(sides, [](const KeyValue& side) { return side.key; });
-    const std::int64_t edge_count = parallel_scan<std::int64_t>(
-        static_cast<std::int64_t>(sides.size()), begins_edge,
+    const auto begins_edge = [&](std::int64_t vertex, std::int64_t i) {
+        return i == stars.begin[vertex] ||
+               larger_vertex(stars.sides[i]) != larger_vertex(stars.sides[i - 1]);
+    };
+    const auto count_edges = [&](std::int64_t vertex) {
+        std::int64_t count = 0;
+        for (std::int64_t i = stars.begin[vertex]; i < stars.begin[vertex + 1]; ++i) {
+            count += begins_edge(vertex, i) ? 1 : 0;
+        }
+        return count;
+    };
+    const auto edge_count = parallel_scan<std::int64_t>(
+        static_cast<std::int64_t>(vertex_count), count_edges,
         [&](std::int64_t begin, std::int64_t end, std::int64_t edges_before) {
             std::int64_t edge = edges_before - 1;
-            for (std::int64_t i = begin; i < end; ++i) {
-                edge += begins_edge(i) ? 1 : 0;
-                topology.edges[sides[i].value / 3][sides[i].value % 3] =
-                    static_cast<std::int32_t>(edge);
+            for (std::int64_t vertex = begin; vertex < end; ++vertex) {
+                for (std::int64_t i = stars.begin[vertex]; i < stars.begin[vertex + 1]; ++i) {
+                    edge += begins_edge(vertex, i) ? 1 : 0;
+                    const std::uint64_t place = place_of(stars.sides[i]);
+                    topology.edges[place / 3][place % 3] = static_cast<std::int32_t>(edge);
+                }
             }
         });
     if (edge_count > std::numeric_limits<std::int32_t>::max()) {
