@@ -19,6 +19,12 @@ inline FlowParameters parameters(int depth, double step_size, int iterations) {
     return p;
 }
 
+inline FlowParameters preserving(Preserve preserve, double step_size = 1e-3, int iterations = 5) {
+    FlowParameters p = parameters(5, step_size, iterations);
+    p.preserve = preserve;
+    return p;
+}
+
 inline TriangleMesh evolved(TriangleMesh mesh, const FlowParameters& p) {
     evolve(mesh, p);
     return mesh;

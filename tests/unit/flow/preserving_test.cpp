@@ -5,11 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <string>
 #include <utility>
 
 #include "filter_tracked_mcf/core/cells/grid.h"
-#include "filter_tracked_mcf/core/errors.h"
 #include "tests/support/shapes.h"
 #include "tests/unit/flows.h"
 
@@ -19,30 +17,6 @@ namespace {
 /// The volume is restored to the rounding of doubles after every step: Newton's method stops at a
 /// relative correction of 1e-13. The volumes' own sums lose a few digits more.
 constexpr double kRestored = 1e-10;
-
-FlowParameters preserving(Preserve preserve, double step_size = 1e-3, int iterations = 5) {
-    FlowParameters p = parameters(5, step_size, iterations);
-    p.preserve = preserve;
-    return p;
-}
-
-/// Returns the message of the exception that evolve throws, or nothing. Expects an unchanged mesh.
-template <class Error>
-std::string complaint(const TriangleMesh& mesh, const FlowParameters& p,
-                      const Selection& selection = {}) {
-    TriangleMesh after = mesh;
-    try {
-        evolve(after, selection, p);
-    } catch (const Error& error) {
-        EXPECT_TRUE(same_bits(after, mesh));
-        return error.what();
-    }
-    return {};
-}
-
-bool contains(const std::string& text, const char* part) {
-    return text.find(part) != std::string::npos;
-}
 
 /// Returns the volume between two states of a surface.
 double volume_between(const TriangleMesh& before, const TriangleMesh& after) {
@@ -377,53 +351,6 @@ TEST(PreservingArea, OfAFreeOpenSurface) {
     p.boundary = BoundaryCondition::Free;
     const double area = surface_area(cap);
     EXPECT_NEAR(surface_area(evolved(cap, p)), area, kRestored * area);
-}
-
-TEST(Preserving, ByScalingRejectsConstrainedVertices) {
-    const TriangleMesh cap = bumpy_cap(10);
-    EXPECT_TRUE(
-        contains(complaint<InvalidParameter>(cap, preserving(Preserve::Area)), "must stay"));
-    const TriangleMesh sphere = shapes::bumpy_sphere(10);
-    EXPECT_TRUE(
-        contains(complaint<InvalidParameter>(sphere, preserving(Preserve::Area), above(sphere, 0)),
-                 "unselected"));
-    FlowParameters conformalized = preserving(Preserve::Volume);
-    conformalized.flow = FlowKind::Conformalized;
-    EXPECT_TRUE(contains(complaint<InvalidParameter>(cap, conformalized), "must stay"));
-    EXPECT_TRUE(contains(complaint<InvalidParameter>(sphere, conformalized, above(sphere, 0)),
-                         "unselected"));
-}
-
-TEST(PreservingVolume, RejectsSurfacesThatAreNotOrientedConsistently) {
-    for (TriangleMesh mesh : {shapes::bumpy_sphere(10), bumpy_cap(10)}) {
-        const Triangle good = mesh.triangles[7];
-        EXPECT_EQ(complaint<InvalidMesh>(mesh, preserving(Preserve::Volume)), "");
-        mesh.triangles[7] = {good[1], good[0], good[2]};
-        for (const FlowKind flow : {FlowKind::MeanCurvature, FlowKind::Conformalized}) {
-            FlowParameters p = preserving(Preserve::Volume);
-            p.flow = flow;
-            EXPECT_TRUE(contains(complaint<InvalidMesh>(mesh, p), "oriented"));
-        }
-    }
-    FlowParameters p = preserving(Preserve::Volume);
-    EXPECT_TRUE(contains(complaint<InvalidMesh>(shapes::moebius_band(30, 5), p), "oriented"));
-    // Only the triangles that flow count.
-    TriangleMesh mesh = shapes::bumpy_sphere(10);
-    const Selection top = above(mesh, 0);
-    for (std::size_t i = 0; i < top.size(); i += 3) {
-        if (top[i] == 0) std::swap(mesh.triangles[i][0], mesh.triangles[i][1]);
-    }
-    EXPECT_EQ(complaint<InvalidMesh>(mesh, p, top), "");
-}
-
-TEST(PreservingVolume, OfAConformalizedFlowRejectsSurfacesThatEncloseNone) {
-    FlowParameters p = preserving(Preserve::Volume);
-    p.flow = FlowKind::Conformalized;
-    p.boundary = BoundaryCondition::Free;
-    EXPECT_TRUE(contains(complaint<InvalidMesh>(bumpy_cap(10), p), "open"));
-    const TriangleMesh flat = shapes::transformed(shapes::bumpy_sphere(10),
-                                                  Eigen::Affine3d(Eigen::Scaling(1.0, 1.0, 0.0)));
-    EXPECT_TRUE(contains(complaint<InvalidMesh>(flat, p), "encloses none"));
 }
 
 TEST(Preserving, StopsOnceOnlyThreadsRemain) {
