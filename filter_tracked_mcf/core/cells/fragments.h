@@ -50,6 +50,9 @@ struct FragmentEntry {
 };
 static_assert(3 * kMaximumDepth <= 40 && sizeof(FragmentEntry) == 16);
 
+/// FragmentEntry::corners of a triangle that lies in one cell.
+inline constexpr unsigned kAllCorners = 7;
+
 /// Clipping one fragment takes as long as this many light items (Pacer). A large triangle
 /// may have millions of fragments, and so may a cell.
 inline constexpr std::int64_t kItemsPerFragment = 64;

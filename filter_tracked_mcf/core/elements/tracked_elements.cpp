@@ -26,9 +26,6 @@ namespace {
 /// order in which threads claim the vertex.
 using Claims = std::vector<std::atomic<std::int32_t>>;
 
-/// FragmentEntry::corners of a triangle that lies in one cell.
-constexpr unsigned kAllCorners = 7;
-
 constexpr std::int32_t kUnclaimed = std::numeric_limits<std::int32_t>::max();
 
 void claim(std::atomic<std::int32_t>& vertex, std::int32_t element) {

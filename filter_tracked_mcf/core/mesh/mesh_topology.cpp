@@ -15,7 +15,7 @@ namespace tracked_mcf {
 
 namespace {
 
-/// The sides of all triangles that are edges, grouped by their smaller vertex.
+/// The sides of all triangles that join two vertices, grouped by their smaller vertex.
 struct Stars {
     RawVector<std::int64_t> begin;   ///< per vertex, its first side; at last the number of sides
     RawVector<std::uint64_t> sides;  ///< in a group sorted by the larger vertex, then by triangle
@@ -30,9 +30,9 @@ std::uint64_t place_of(std::uint64_t side) {
     return side & ((std::uint64_t{1} << kSideBits) - 1);
 }
 
-/// Calls visit(smaller vertex, larger vertex, triangle, side) for all sides that are edges.
+/// Calls visit(smaller vertex, larger vertex, triangle, side) for all sides that join two vertices.
 template <class Visit>
-void for_each_side(const RawVector<Triangle>& triangles, const Visit& visit) {
+void for_each_proper_side(const RawVector<Triangle>& triangles, const Visit& visit) {
     parallel_for_rows(static_cast<std::int64_t>(triangles.size()), [&](std::int32_t triangle) {
         const Triangle& t = triangles[triangle];
         for (int side = 0; side < 3; ++side) {
@@ -45,7 +45,7 @@ void for_each_side(const RawVector<Triangle>& triangles, const Visit& visit) {
 /// A comparison sort of each small star is faster than a radix sort of all sides.
 Stars stars_of(const RawVector<Triangle>& triangles, std::size_t vertex_count) {
     std::vector<std::atomic<std::int32_t>> counts(vertex_count);
-    for_each_side(triangles, [&](std::int32_t a, std::int32_t, std::int32_t, int) {
+    for_each_proper_side(triangles, [&](std::int32_t a, std::int32_t, std::int32_t, int) {
         counts[a].fetch_add(1, std::memory_order_relaxed);
     });
     const auto vertices = static_cast<std::int64_t>(vertex_count);
@@ -53,13 +53,14 @@ Stars stars_of(const RawVector<Triangle>& triangles, std::size_t vertex_count) {
     parallel_prefix_sum(
         vertices, [&](std::int64_t vertex) { return counts[vertex].load(); }, stars.begin);
     stars.sides.resize(static_cast<std::size_t>(stars.begin.back()));
-    for_each_side(triangles, [&](std::int32_t a, std::int32_t b, std::int32_t triangle, int side) {
-        // Threads place the sides of a star in any order; sorting makes it the same again.
-        const std::int32_t left = counts[a].fetch_sub(1, std::memory_order_relaxed);
-        stars.sides[stars.begin[a] + left - 1] =
-            static_cast<std::uint64_t>(b) << kSideBits |
-            static_cast<std::uint64_t>(3 * std::int64_t{triangle} + side);
-    });
+    for_each_proper_side(
+        triangles, [&](std::int32_t a, std::int32_t b, std::int32_t triangle, int side) {
+            // Threads place the sides of a star in any order; sorting makes it the same again.
+            const std::int32_t left = counts[a].fetch_sub(1, std::memory_order_relaxed);
+            stars.sides[stars.begin[a] + left - 1] =
+                static_cast<std::uint64_t>(b) << kSideBits |
+                static_cast<std::uint64_t>(3 * std::int64_t{triangle} + side);
+        });
     parallel_for_rows(vertices, [&](std::int32_t vertex) {
         std::sort(stars.sides.begin() + stars.begin[vertex],
                   stars.sides.begin() + stars.begin[vertex + 1]);
