@@ -7,11 +7,9 @@
 #include <string>
 
 #include "filter_tracked_mcf/core/flow/flow.h"
-#include "filter_tracked_mcf/core/flow/preserving.h"
 #include "filter_tracked_mcf/core/memory/process_memory.h"
 #include "filter_tracked_mcf/core/mesh/domain.h"
 #include "filter_tracked_mcf/core/mesh/measures.h"
-#include "filter_tracked_mcf/core/mesh/mesh_topology.h"
 #include "filter_tracked_mcf/core/parallel/parallel.h"
 #include "filter_tracked_mcf/core/parallel/progress_meter.h"
 #include "filter_tracked_mcf/core/parallel/setup_phases.h"
@@ -33,57 +31,58 @@ double progress_before(int step, int iterations) {
 /// The area has grown if it did so by more than this fraction.
 constexpr double kGrowth = 1e-3;
 
-/// A flow, and what preserves its area or volume if the parameters ask for it.
-struct Run {
-    std::optional<Flow> flow;
-    std::optional<Preserver> preserver;
-    bool oriented_consistently = true;
-};
-
-void set_up(const TriangleMesh& mesh, const Selection& selection, FlowParameters parameters,
-            Run& run) {
+/// Sets the flow up; returns it in place, since it cannot be moved.
+Flow set_up(const TriangleMesh& mesh, const Selection& selection, FlowParameters parameters) {
+    const ProgressSpan span(0, progress_before(0, parameters.iterations));
     enter_setup_phase(kCheckMesh);
     validate(mesh);
     enter_setup_phase(kFindEdges);
     const Domain domain(mesh, selection, parameters.boundary);
     enter_setup_phase(kMeasureSurface);
     check_preservable(domain, parameters);
-    run.oriented_consistently = is_oriented_consistently(domain.topology());
     if (domain.constrains_all_vertices()) {
         // Nothing can move. The cheapest set-up is enough to say so.
         parameters.depth = 1;
         parameters.separate_sheets = false;
     }
-    run.flow.emplace(domain, parameters);
-    if (parameters.preserve != Preserve::None) {
-        run.preserver.emplace(domain, parameters, *run.flow);
-    }
+    return Flow(domain, parameters);
 }
 
 /// Makes all steps, or fewer if nothing is left to do.
-void make_steps(Run& run, int iterations) {
+void make_steps(Flow& flow, int iterations, const char* note) {
     for (int step = 0; step < iterations; ++step) {
         const ProgressSpan span(progress_before(step, iterations),
                                 progress_before(step + 1, iterations));
-        enter_phase(0, "Step " + std::to_string(step + 1) + " of " + std::to_string(iterations));
-        if (!run.flow->step()) return;
-        if (run.preserver && !run.preserver->restore(*run.flow)) return;
+        enter_phase(
+            0, "Step " + std::to_string(step + 1) + " of " + std::to_string(iterations) + note);
+        if (!flow.step()) return;
     }
 }
 
-/// Returns the positions to which the flow has moved the mesh. If the last step has made the
-/// surface vanish, which the flow itself would notice only in the next step, undoes that step.
-std::vector<Eigen::Vector3d> moved_positions(const TriangleMesh& mesh, const Selection& selection,
-                                             Flow& flow, double area_before) {
-    std::vector<Eigen::Vector3d> positions = mesh.positions;
-    flow.move_vertices(positions);
-    if (flow.report().stop == Stop::None &&
-        surface_area({positions, mesh.triangles}, selection) <= kVanishedArea * area_before) {
-        flow.undo_step(Stop::Vanished);
-        positions = mesh.positions;
-        flow.move_vertices(positions);
+/// Positions to which a flow has moved the mesh, and the area of the triangles that flow.
+struct Moved {
+    std::vector<Eigen::Vector3d> positions;
+    double area;
+};
+
+Moved moved_by(const Flow& flow, const TriangleMesh& mesh, const Selection& selection) {
+    Moved moved{mesh.positions, 0};
+    flow.move_vertices(moved.positions);
+    moved.area = surface_area({moved.positions, mesh.triangles}, selection);
+    return moved;
+}
+
+/// Makes all steps. If the last one has made the surface vanish, which the flow itself would notice
+/// only in the next step, takes it back. `note` follows the name of each step for the user.
+Moved flow_through(Flow& flow, const FlowParameters& parameters, const TriangleMesh& mesh,
+                   const Selection& selection, double area_before, const char* note = "") {
+    make_steps(flow, parameters.iterations, note);
+    Moved moved = moved_by(flow, mesh, selection);
+    if (flow.report().stop == Stop::None && moved.area <= kVanishedArea * area_before) {
+        flow.end_before_last_step(Stop::Vanished);
+        moved = moved_by(flow, mesh, selection);
     }
-    return positions;
+    return moved;
 }
 
 /// Sets the report's measures of the change from `before` to `after`.
@@ -113,7 +112,7 @@ void compare(const TriangleMesh& before, const std::vector<Eigen::Vector3d>& aft
 }
 
 /// Returns what FlowReport::quality holds after the surface has moved from `before` to `after`.
-std::vector<double> measure_quality(Quality quality, const Flow& flow, const TriangleMesh& before,
+std::vector<double> measure_quality(Quality quality, Flow& flow, const TriangleMesh& before,
                                     const std::vector<Eigen::Vector3d>& after,
                                     const Selection& selection) {
     if (quality == Quality::None) return {};
@@ -130,22 +129,20 @@ std::vector<double> measure_quality(Quality quality, const Flow& flow, const Tri
 /// Returns whether a mean-curvature flow has made the area grow, which the exact one does not. The
 /// tolerance is relative to the displacement of the whole surface, so the grid may displace parts
 /// that are much thinner than its cells by more than their width.
-bool area_has_grown(const FlowParameters& parameters, const FlowReport& report) {
+bool area_has_grown(const FlowParameters& parameters, double before, double after) {
     const bool may_grow = parameters.flow != FlowKind::MeanCurvature || parameters.order > 1 ||
                           parameters.preserve != Preserve::None;
-    return !may_grow && report.area_after > (1 + kGrowth) * report.area_before;
+    return !may_grow && after > (1 + kGrowth) * before;
 }
 
-/// Flows again from the start, to a smaller tolerance.
-FlowReport evolve_carefully(TriangleMesh& mesh, const Selection& selection,
-                            const FlowParameters& parameters, const Progress& progress) {
-    FlowParameters careful = parameters;
-    careful.tolerance = kCarefulTolerance;
-    FlowReport report = evolve(mesh, selection, careful, progress);
-    for (StepReport& step : report.steps) {
-        step.reached_tolerance = step.error_estimate <= parameters.tolerance;
+/// Adds the time and the iterations of the steps of a flow that was made again.
+void add_effort(const std::vector<StepReport>& discarded, std::vector<StepReport>& steps) {
+    for (std::size_t i = 0; i < discarded.size() && !steps.empty(); ++i) {
+        StepReport& step = steps[std::min(i, steps.size() - 1)];
+        step.assemble_seconds += discarded[i].assemble_seconds;
+        step.solve_seconds += discarded[i].solve_seconds;
+        step.solver_iterations += discarded[i].solver_iterations;
     }
-    return report;
 }
 
 }  // namespace
@@ -161,36 +158,35 @@ FlowReport evolve(TriangleMesh& mesh, const Selection& selection, const FlowPara
     validate(parameters);
     const ThreadCountScope threads(parameters.threads);
     const std::int64_t memory_before = resident_memory_bytes();
-    Run run;
-
     const Stopwatch setup;
-    {
-        const ProgressSpan span(0, progress_before(0, parameters.iterations));
-        set_up(mesh, selection, parameters, run);
-    }
+    Flow flow = set_up(mesh, selection, parameters);
     const double setup_seconds = setup.seconds();
-    make_steps(run, parameters.iterations);
+
+    const double area_before = surface_area(mesh, selection);
+    Moved after = flow_through(flow, parameters, mesh, selection, area_before);
+    std::vector<StepReport> discarded;
+    if (parameters.tolerance > kCarefulTolerance &&
+        area_has_grown(parameters, area_before, after.area)) {
+        discarded = flow.report().steps;
+        flow.restart_with_care();
+        after =
+            flow_through(flow, parameters, mesh, selection, area_before, ", again with more care");
+    }
 
     enter_phase(progress_before(parameters.iterations, parameters.iterations),
                 "Moving the vertices");
-    const double area_before = surface_area(mesh, selection);
-    auto positions = moved_positions(mesh, selection, *run.flow, area_before);
-    FlowReport report = run.flow->report();
+    FlowReport report = flow.report();
+    add_effort(discarded, report.steps);
     report.setup_seconds = setup_seconds;
     report.area_before = area_before;
-    report.area_after = surface_area({positions, mesh.triangles}, selection);
-    if (parameters.tolerance > kCarefulTolerance && area_has_grown(parameters, report)) {
-        run.flow.reset();
-        return evolve_carefully(mesh, selection, parameters, progress);
-    }
-    report.oriented_consistently = run.oriented_consistently;
-    compare(mesh, positions, selection, report);
-    report.quality = measure_quality(parameters.quality, *run.flow, mesh, positions, selection);
+    report.area_after = after.area;
+    compare(mesh, after.positions, selection, report);
+    report.quality = measure_quality(parameters.quality, flow, mesh, after.positions, selection);
     report.estimated_memory_bytes += memory_before;
     report.peak_memory_bytes = peak_memory_bytes();
     enter_phase(1, "Done");
     // Nothing can fail from here on.
-    mesh.positions.swap(positions);
+    mesh.positions.swap(after.positions);
     return report;
 }
 

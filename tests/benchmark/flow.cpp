@@ -64,7 +64,7 @@ void print_bytes(const Flow& flow) {
         "product_bytes", 0,
         element_count * (sizeof(MatrixBlock) / kBlockElements + 8 * sizeof(std::int32_t)) +
             unknown_count * 3 * 4 * sizeof(float));
-    print_quantity("step_size_in_cells", 0, flow.step_size_in_cells());
+    print_quantity("step_size_in_cells", 0, flow.step_size().in_cells);
 }
 
 bool step(Flow& flow, int number) {
@@ -85,7 +85,7 @@ void print_assembly(const Flow& flow) {
     for (int repetition = 0; repetition < 4; ++repetition) {
         const ProcessStopwatch stopwatch;
         assemble_elements(flow.elements(), flow.displacement(),
-                          {1.0F, static_cast<float>(flow.step_size_in_cells())}, systems);
+                          {1.0F, static_cast<float>(flow.step_size().in_cells)}, systems);
         // The first repetition also allocates memory.
         if (repetition > 0) print_seconds("kernel", repetition, stopwatch.seconds());
     }

@@ -13,6 +13,7 @@
 #include "filter_tracked_mcf/core/mesh/domain.h"
 #include "filter_tracked_mcf/core/parallel/stopwatch.h"
 #include "filter_tracked_mcf/core/solver/step_solver.h"
+#include "filter_tracked_mcf/core/system/constrained_cells.h"
 #include "filter_tracked_mcf/core/system/element_matrices.h"
 #include "filter_tracked_mcf/core/system/stabilization.h"
 #include "tests/support/cotangent_flow.h"
@@ -52,12 +53,11 @@ public:
         check_preservable(domain_, parameters);
         const Stopwatch stopwatch;
         flow_.emplace(domain_, parameters);
-        if (parameters.preserve != Preserve::None) preserver_.emplace(domain_, parameters, *flow_);
         report_.setup_seconds = stopwatch.seconds();
     }
 
     bool step() override {
-        if (!flow_->step() || (preserver_ && !preserver_->restore(*flow_))) return false;
+        if (!flow_->step()) return false;
         add_step(flow_->report(), report_);
         return true;
     }
@@ -68,7 +68,6 @@ public:
 private:
     Domain domain_;
     std::optional<Flow> flow_;
-    std::optional<Preserver> preserver_;
     MethodReport report_;
 };
 
@@ -138,7 +137,9 @@ public:
           displacement_(Coefficients::Zero(elements_.finest().unknown_count(), 3)) {
         draw_samples(count, elements_);
         parameters_.boundary = BoundaryCondition::Free;
-        solver_ = make_step_solver(elements_, parameters_);
+        auto constrained = constrained_unknowns(elements_, parameters_.boundary);
+        constrained_ = constrained.back();
+        solver_ = make_step_solver(elements_, std::move(constrained), parameters_);
         const double cells = longest_side(mesh) / elements_.grid.cell_size;
         step_size_in_cells_ = relative_step_size(mesh, parameters) * cells * cells;
     }
@@ -147,7 +148,9 @@ public:
         assemble_elements(elements_, displacement_, {1, static_cast<float>(step_size_in_cells_)},
                           systems_);
         stabilization_.add(stabilization_of(parameters_), step_size_in_cells_, systems_.matrices);
-        solver_->take(systems_.matrices, systems_.area, step_size_in_cells_);
+        if (first_area_ == 0) first_area_ = systems_.area;
+        solver_->take(systems_.matrices, constrained_,
+                      step_size_in_cells_ * first_area_ / systems_.area);
         StepReport report;
         solver_->solve(systems_.right_sides, parameters_.tolerance, solution_, report);
         displacement_ += solution_.x;
@@ -167,8 +170,10 @@ private:
     FlowParameters parameters_;
     TrackedElements elements_;
     Stabilization stabilization_;
+    std::vector<std::uint8_t> constrained_;
     std::unique_ptr<StepSolver> solver_;
     double step_size_in_cells_ = 0;
+    double first_area_ = 0;  ///< of the surface in the first step, grid units²
     Coefficients displacement_;
     ElementSystems systems_;
     Solution solution_;

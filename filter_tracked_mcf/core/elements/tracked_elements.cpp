@@ -223,4 +223,16 @@ Eigen::Vector3d evaluate_vertex(const TrackedElements& elements, const Coefficie
     return sum;
 }
 
+void add_at_vertices(const TrackedElements& elements, const Coefficients& coefficients,
+                     std::vector<Eigen::Vector3d>& vectors) {
+    parallel_for_rows(static_cast<std::int64_t>(vectors.size()), [&](std::int32_t vertex) {
+        const VertexLocation& location = elements.vertices[vertex];
+        if (location.element == VertexLocation::kNoElement) return;
+        if (elements.vertex_constrained[vertex] != 0) return;
+        const Eigen::Vector3d added =
+            elements.grid.cell_size * evaluate_vertex(elements, coefficients, location);
+        if (!added.isZero(0)) vectors[vertex] += added;
+    });
+}
+
 }  // namespace tracked_mcf

@@ -77,4 +77,9 @@ Coefficients identity_coefficients(const TrackedElements& elements);
 Eigen::Vector3d evaluate_vertex(const TrackedElements& elements, const Coefficients& coefficients,
                                 const VertexLocation& vertex);
 
+/// Adds the map with these coefficients, in mesh units, to `vectors`, one for each vertex of the
+/// mesh. Leaves those of vertices that do not move, or that the map takes to zero, as they are.
+void add_at_vertices(const TrackedElements& elements, const Coefficients& coefficients,
+                     std::vector<Eigen::Vector3d>& vectors);
+
 }  // namespace tracked_mcf

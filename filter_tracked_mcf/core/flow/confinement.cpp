@@ -12,42 +12,45 @@ namespace tracked_mcf {
 Confinement::Confinement(const TrackedElements& elements,
                          const std::vector<std::int32_t>& component_of, double detail_size)
     : elements_(elements), component_of_(component_of) {
-    move_to(Coefficients::Zero(elements.finest().unknown_count(), 3));
+    initial_boxes_ = boxes(Coefficients::Zero(elements.finest().unknown_count(), 3));
     Eigen::AlignedBox3d all;
-    for (const Eigen::AlignedBox3d& box : boxes_) all.extend(box);
+    for (const Eigen::AlignedBox3d& box : initial_boxes_) all.extend(box);
     const double diagonal = all.diagonal().norm();
     margin_ = kMarginInDiagonals * diagonal + kMarginInCells +
               kMarginInDetail * std::min(detail_size, diagonal);
-    for (Eigen::AlignedBox3d& box : boxes_) {
-        box = {box.min().array() - margin_, box.max().array() + margin_};
-    }
-    moved_ = false;
+    add_margin(initial_boxes_);
 }
 
-void Confinement::move_to(const Coefficients& displacement) {
-    moved_ = true;
-    boxes_.assign(static_cast<std::size_t>(component_count(elements_)), {});
+void Confinement::add_margin(std::vector<Eigen::AlignedBox3d>& boxes) const {
+    for (Eigen::AlignedBox3d& box : boxes) {
+        box = {box.min().array() - margin_, box.max().array() + margin_};
+    }
+}
+
+std::vector<Eigen::AlignedBox3d> Confinement::boxes(const Coefficients& displacement) const {
+    std::vector<Eigen::AlignedBox3d> boxes(static_cast<std::size_t>(component_count(elements_)));
     for (std::size_t vertex = 0; vertex < elements_.vertices.size(); ++vertex) {
         const std::int32_t element = elements_.vertices[vertex].element;
         if (element == VertexLocation::kNoElement) continue;
-        boxes_[component_of_[element]].extend(
+        boxes[component_of_[element]].extend(
             position(displacement, static_cast<std::int32_t>(vertex)));
     }
-    for (Eigen::AlignedBox3d& box : boxes_) {
-        box = {box.min().array() - margin_, box.max().array() + margin_};
-    }
+    add_margin(boxes);
+    return boxes;
 }
 
-bool Confinement::holds(const Coefficients& displacement) const {
+bool Confinement::holds(const Coefficients& displacement,
+                        const std::vector<Eigen::AlignedBox3d>& boxes) const {
     // The displacement of a vertex is a mean of coefficients.
     const double largest = displacement.cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
-    if (!moved_ && largest <= margin_) return true;
+    if (boxes.empty() && largest <= margin_) return true;
+    const std::vector<Eigen::AlignedBox3d>& allowed = boxes.empty() ? initial_boxes_ : boxes;
     const auto count = static_cast<std::int64_t>(elements_.vertices.size());
     return 0 == parallel_count(count, [&](std::int64_t vertex) {
                const VertexLocation& location = elements_.vertices[vertex];
                if (location.element == VertexLocation::kNoElement) return false;
                if (elements_.vertex_constrained[vertex] != 0) return false;
-               return !boxes_[component_of_[location.element]].contains(
+               return !allowed[component_of_[location.element]].contains(
                    position(displacement, static_cast<std::int32_t>(vertex)));
            });
 }

@@ -20,27 +20,30 @@ public:
     /// halves, but not more than this fraction of the diagonal.
     static constexpr double kMarginInDiagonals = 0.01, kMarginInCells = 0.1, kMarginInDetail = 0.1;
 
-    /// Confines each component to its initial box. `component_of` is what components_of() returns;
-    /// it and the elements must outlive the confinement. `detail_size` is the length of these
-    /// waves, in grid units, or 0 if the steps have order 1.
+    /// Measures the initial boxes. `component_of` is what components_of() returns; it and the
+    /// elements must outlive the confinement. `detail_size` is the length of these waves, in grid
+    /// units, or 0 if the steps have order 1.
     Confinement(const TrackedElements& elements, const std::vector<std::int32_t>& component_of,
                 double detail_size);
 
-    /// Confines each component to the box that it has now.
-    void move_to(const Coefficients& displacement);
+    /// Returns the box, with the margin, of each component of the surface with this displacement.
+    std::vector<Eigen::AlignedBox3d> boxes(const Coefficients& displacement) const;
 
-    /// Returns whether all vertices are within the boxes of their components.
-    bool holds(const Coefficients& displacement) const;
+    /// Returns whether all vertices are within these boxes of their components, or within the
+    /// initial ones if there are none.
+    bool holds(const Coefficients& displacement,
+               const std::vector<Eigen::AlignedBox3d>& boxes = {}) const;
 
 private:
+    void add_margin(std::vector<Eigen::AlignedBox3d>& boxes) const;
     /// Returns the position of a vertex that has an element, in grid units.
     Eigen::Vector3d position(const Coefficients& displacement, std::int32_t vertex) const;
 
     const TrackedElements& elements_;
     const std::vector<std::int32_t>& component_of_;
-    std::vector<Eigen::AlignedBox3d> boxes_;  ///< per component, grid units, with the margin
-    double margin_ = 0;
-    bool moved_ = false;  ///< whether the boxes are not the initial ones
+    double margin_ = 0;  ///< grid units
+    std::vector<Eigen::AlignedBox3d>
+        initial_boxes_;  ///< per component, grid units, with the margin
 };
 
 }  // namespace tracked_mcf

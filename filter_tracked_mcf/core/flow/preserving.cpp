@@ -10,7 +10,7 @@
 #include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/mesh/measures.h"
 #include "filter_tracked_mcf/core/mesh/mesh_topology.h"
-#include "filter_tracked_mcf/core/parallel/parallel.h"
+#include "filter_tracked_mcf/core/parallel/progress_meter.h"
 
 namespace tracked_mcf {
 
@@ -85,14 +85,16 @@ void check_preservable(const Domain& domain, const FlowParameters& parameters) {
     check_encloses_volume(domain);
 }
 
-Preserver::Preserver(const Domain& domain, const FlowParameters& parameters, const Flow& flow)
-    : mesh_(domain.mesh()),
+Preserver::Preserver(const Domain& domain, const FlowParameters& parameters, Stepper& stepper)
+    : stepper_(stepper),
+      mesh_(domain.mesh()),
       triangles_(domain.surface().triangles),
       kind_(parameters.preserve),
       flow_(parameters.flow) {
     component_of_.reserve(triangles_.size());
     for (const Triangle& triangle : triangles_) {
-        component_of_.push_back(flow.component_of()[flow.elements().vertices[triangle[0]].element]);
+        component_of_.push_back(
+            stepper.component_of()[stepper.elements().vertices[triangle[0]].element]);
     }
     initial_ = measure(mesh_.positions);
     const double growth =
@@ -131,36 +133,47 @@ std::vector<Preserver::Measures> Preserver::measure(
     return components;
 }
 
-std::vector<Eigen::Vector3d> Preserver::moved(const Flow& flow) const {
+std::vector<Eigen::Vector3d> Preserver::moved(const FlowState& state) const {
     std::vector<Eigen::Vector3d> positions = mesh_.positions;
-    flow.move_vertices(positions);
+    add_at_vertices(stepper_.elements(), state.displacement, positions);
     return positions;
 }
 
-bool Preserver::restore(Flow& flow) {
-    std::vector<Eigen::Vector3d> positions = moved(flow);
+StepResult Preserver::restore(const FlowState& from, FlowState to, const Care& care,
+                              StepReport& report) const {
+    std::vector<Eigen::Vector3d> positions = moved(to);
     const std::vector<Measures> present = measure(positions);
     double area = 0, initial_area = 0;
     for (std::size_t i = 0; i < present.size(); ++i) {
         area += present[i].area;
         initial_area += initial_[i].area;
     }
-    if (!(area > kVanishedArea * initial_area)) {
-        flow.undo_step(Stop::Vanished);
-        return false;
-    }
+    if (!(area > kVanishedArea * initial_area)) return Stop::Vanished;
     double blown_up = 0;  // initial area
     if (scales(kind_, flow_)) {
-        flow.scale(scalings(present, blown_up));
-    } else if (!restore_volumes(flow, std::move(positions), blown_up)) {
-        flow.undo_step(Stop::NotPreserved);
-        return false;
+        scale(to, scalings(present, blown_up));
+    } else if (!restore_volumes(to, stepper_.pressure_response(from, care, report),
+                                std::move(positions), blown_up)) {
+        return Stop::NotPreserved;
     }
-    if (blown_up > kMostBlownUp * initial_area) {
-        flow.undo_step(Stop::Pinched);
-        return false;
-    }
-    return true;
+    if (blown_up > kMostBlownUp * initial_area) return Stop::Pinched;
+    to.boxes = stepper_.confinement().boxes(to.displacement);
+    return to;
+}
+
+void Preserver::scale(FlowState& state, std::vector<Scaling> scalings) const {
+    const TrackedElements& elements = stepper_.elements();
+    const Coefficients identity = identity_coefficients(elements);
+    const auto scale = [&](std::int32_t unknown, std::int32_t component) {
+        const auto& [centre, factor] = scalings[component];
+        const Eigen::RowVector3d from_centre =
+            identity.row(unknown) - elements.grid.to_grid(centre).transpose();
+        auto displacement = state.displacement.row(unknown);
+        displacement = factor * displacement + (factor - 1) * from_centre;
+    };
+    poll_progress();
+    for_each_unknown(elements, stepper_.component_of(), scale);
+    state.scalings = std::move(scalings);
 }
 
 std::vector<Scaling> Preserver::scalings(const std::vector<Measures>& present,
@@ -186,23 +199,12 @@ std::vector<Scaling> Preserver::scalings(const std::vector<Measures>& present,
     return scalings;
 }
 
-std::vector<Eigen::Vector3d> Preserver::velocities(const Flow& flow,
-                                                   const Coefficients& response) const {
-    const TrackedElements& elements = flow.elements();
-    std::vector<Eigen::Vector3d> velocities(mesh_.positions.size(), Eigen::Vector3d::Zero());
-    parallel_for_rows(static_cast<std::int64_t>(velocities.size()), [&](std::int32_t vertex) {
-        const VertexLocation& location = elements.vertices[vertex];
-        if (location.element == VertexLocation::kNoElement) return;
-        if (elements.vertex_constrained[vertex] != 0) return;
-        velocities[vertex] =
-            elements.grid.cell_size * evaluate_vertex(elements, response, location);
-    });
-    return velocities;
-}
-
-bool Preserver::restore_volumes(Flow& flow, std::vector<Eigen::Vector3d> positions,
-                                double& blown_up) const {
-    const auto velocity = velocities(flow, flow.pressure_response());
+bool Preserver::restore_volumes(FlowState& state, const Coefficients& response,
+                                std::vector<Eigen::Vector3d> positions, double& blown_up) const {
+    const TrackedElements& elements = stepper_.elements();
+    // Of the vertices, under a pressure of 1.
+    std::vector<Eigen::Vector3d> velocity(positions.size(), Eigen::Vector3d::Zero());
+    add_at_vertices(elements, response, velocity);
     std::vector<double> pressures(initial_.size(), 0);
     double worst = 0;  // swept volume, relative
     for (int step = 0; step <= kMostNewtonSteps; ++step) {
@@ -218,7 +220,7 @@ bool Preserver::restore_volumes(Flow& flow, std::vector<Eigen::Vector3d> positio
         std::vector<double> change(initial_.size(), 0);
         for (std::size_t i = 0; i < initial_.size(); ++i) {
             const double area = initial_[i].area;
-            if (std::abs(rate[i]) <= kImmovable * flow.report().cell_size * area) continue;
+            if (std::abs(rate[i]) <= kImmovable * elements.grid.cell_size * area) continue;
             const double size = initial_[i].box.sizes().maxCoeff();
             worst = std::max(worst, std::abs(swept[i]) / (area * size));
             change[i] = -swept[i] / rate[i];
@@ -226,9 +228,9 @@ bool Preserver::restore_volumes(Flow& flow, std::vector<Eigen::Vector3d> positio
         if (worst <= kSweptGoal || step == kMostNewtonSteps) break;
         for (std::size_t i = 0; i < initial_.size(); ++i) pressures[i] += change[i];
         for (std::size_t i = 0; i < positions.size(); ++i) {
-            const std::int32_t element = flow.elements().vertices[i].element;
+            const std::int32_t element = elements.vertices[i].element;
             if (element == VertexLocation::kNoElement) continue;
-            positions[i] += change[flow.component_of()[element]] * velocity[i];
+            positions[i] += change[stepper_.component_of()[element]] * velocity[i];
         }
     }
     if (!(worst <= kSweptAtMost)) return false;
@@ -238,7 +240,11 @@ bool Preserver::restore_volumes(Flow& flow, std::vector<Eigen::Vector3d> positio
         blown_up += initial_[i].area;
         pressures[i] = 0;
     }
-    flow.inflate(pressures);
+    poll_progress();
+    for_each_unknown(
+        elements, stepper_.component_of(), [&](std::int32_t unknown, std::int32_t component) {
+            state.displacement.row(unknown) += pressures[component] * response.row(unknown);
+        });
     return true;
 }
 

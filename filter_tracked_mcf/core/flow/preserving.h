@@ -4,7 +4,8 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "filter_tracked_mcf/core/flow/flow.h"
+#include "filter_tracked_mcf/core/flow/flow_state.h"
+#include "filter_tracked_mcf/core/flow/stepper.h"
 #include "filter_tracked_mcf/core/flow_parameters.h"
 #include "filter_tracked_mcf/core/mesh/domain.h"
 #include "filter_tracked_mcf/core/triangle_mesh.h"
@@ -25,14 +26,16 @@ void check_preservable(const Domain& domain, const FlowParameters& parameters);
 class Preserver {
 public:
     /// Measures the domain's surface. The domain's mesh must outlive the preserver and keep its
-    /// positions, and `flow` must have been made from this domain.
-    Preserver(const Domain& domain, const FlowParameters& parameters, const Flow& flow);
+    /// positions. `stepper` must have been made from this domain and outlive the preserver.
+    Preserver(const Domain& domain, const FlowParameters& parameters, Stepper& stepper);
 
-    /// Restores what is preserved after a step. Returns false, with that step undone, if the step
-    /// has left almost nothing, or only thin threads, or has changed the volume so much that no
-    /// pressure restores it. A component that has vanished, cannot move, or would blow up because
-    /// only thin threads are left of it, stays as it is.
-    bool restore(Flow& flow);
+    /// Restores what is preserved in `to`, the state after the stepper's last step, which was made
+    /// from `from` with this care. Returns Stop::Vanished if the step has left almost nothing,
+    /// Stop::Pinched if it has left only thin threads, and Stop::NotPreserved if it has changed the
+    /// volume so much that no pressure restores it. A component that has vanished, cannot move, or
+    /// would blow up because only thin threads are left of it, stays as it is.
+    StepResult restore(const FlowState& from, FlowState to, const Care& care,
+                       StepReport& report) const;
 
 private:
     /// Measures of a component, mesh units.
@@ -46,19 +49,20 @@ private:
     };
 
     std::vector<Measures> measure(const std::vector<Eigen::Vector3d>& positions) const;
-    /// Moves the vertices to where the flow has brought them.
-    std::vector<Eigen::Vector3d> moved(const Flow& flow) const;
+    /// Returns the vertices' positions in a state.
+    std::vector<Eigen::Vector3d> moved(const FlowState& state) const;
     /// Adds the initial area of components that a scaling would take out of their bounds to
     /// `blown_up`; they are not scaled. restore_volumes() does alike.
     std::vector<Scaling> scalings(const std::vector<Measures>& present, double& blown_up) const;
+    /// Scales the embedding of each component.
+    void scale(FlowState& state, std::vector<Scaling> scalings) const;
     /// Adds to the displacement, for each component, the multiple of the pressure response that
     /// takes the swept volume back to zero. `positions` are those after the step. Returns false,
     /// without a change, if there is no such multiple.
-    bool restore_volumes(Flow& flow, std::vector<Eigen::Vector3d> positions,
-                         double& blown_up) const;
-    /// Returns the velocities of the vertices under a pressure of 1.
-    std::vector<Eigen::Vector3d> velocities(const Flow& flow, const Coefficients& response) const;
+    bool restore_volumes(FlowState& state, const Coefficients& response,
+                         std::vector<Eigen::Vector3d> positions, double& blown_up) const;
 
+    Stepper& stepper_;
     const TriangleMesh& mesh_;
     std::vector<Triangle> triangles_;         ///< those that flow
     std::vector<std::int32_t> component_of_;  ///< per triangle

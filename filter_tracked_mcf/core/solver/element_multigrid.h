@@ -53,9 +53,8 @@ public:
     /// method has missed the largest eigenvalue, V-cycles are not positive without this.
     void widen() { margin_ *= 1.5; }
 
-    /// Returns the flags of the finest level's constrained unknowns. The caller may constrain more
-    /// before a refresh.
-    std::vector<std::uint8_t>& constrained() { return constrained_.back(); }
+    /// Replaces the flags of the finest level's constrained unknowns, from the next refresh on.
+    void constrain(const std::vector<std::uint8_t>& finest) { constrained_.back() = finest; }
 
     /// Returns for each unknown of the finest level whether it is free (not 0).
     const std::vector<std::uint8_t>& free_unknowns() const {

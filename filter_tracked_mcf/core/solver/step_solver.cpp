@@ -6,11 +6,9 @@
 #include <utility>
 
 #include "filter_tracked_mcf/core/parallel/progress_meter.h"
-#include "filter_tracked_mcf/core/parallel/setup_phases.h"
 #include "filter_tracked_mcf/core/solver/conjugate_gradients.h"
 #include "filter_tracked_mcf/core/solver/element_multigrid.h"
 #include "filter_tracked_mcf/core/solver/paper/multigrid.h"
-#include "filter_tracked_mcf/core/system/constrained_cells.h"
 
 namespace tracked_mcf {
 
@@ -38,14 +36,11 @@ public:
     ConvergedSolver(const TrackedElements& elements, ConstrainedByLevel constrained)
         : multigrid_(elements, std::move(constrained)) {}
 
-    std::vector<std::uint8_t>& constrained() override { return multigrid_.constrained(); }
-
-    void take(MatrixBlocks& matrices, double area, double step_size_in_cells) override {
-        if (first_area_ == 0) first_area_ = area;
-        // When a surface shrinks, its mass shrinks and its stiffness does not.
-        stiffness_to_mass_ =
-            area > 0 ? step_size_in_cells * first_area_ / area : step_size_in_cells;
+    void take(MatrixBlocks& matrices, const std::vector<std::uint8_t>& constrained,
+              double stiffness_to_mass) override {
         matrices_ = &matrices;
+        stiffness_to_mass_ = stiffness_to_mass;
+        multigrid_.constrain(constrained);
         multigrid_.refresh(*matrices_, stiffness_to_mass_, effort_);
     }
 
@@ -83,7 +78,6 @@ public:
         if (!(convergence.error_estimate <= report.error_estimate)) {
             report.error_estimate = convergence.error_estimate;
         }
-        report.reached_tolerance = report.reached_tolerance && convergence.reached_tolerance;
     }
 
 private:
@@ -96,7 +90,6 @@ private:
 
     ElementMultigrid multigrid_;
     ConjugateGradients conjugate_gradients_;
-    double first_area_ = 0;         ///< area of the surface in the first step, grid units²
     double stiffness_to_mass_ = 0;  ///< see ElementMultigrid::refresh
     Effort effort_ = Effort::Usual;
     MatrixBlocks* matrices_ = nullptr;
@@ -109,9 +102,9 @@ public:
     CycleSolver(const TrackedElements& elements, ConstrainedByLevel constrained, int cycles)
         : multigrid_(elements, std::move(constrained)), cycles_(cycles) {}
 
-    std::vector<std::uint8_t>& constrained() override { return multigrid_.constrained(); }
-
-    void take(MatrixBlocks& matrices, double /*area*/, double /*step_size_in_cells*/) override {
+    void take(MatrixBlocks& matrices, const std::vector<std::uint8_t>& constrained,
+              double /*stiffness_to_mass*/) override {
+        multigrid_.constrain(constrained);
         multigrid_.refresh(matrices);
     }
 
@@ -148,9 +141,8 @@ private:
 }  // namespace
 
 std::unique_ptr<StepSolver> make_step_solver(const TrackedElements& elements,
+                                             ConstrainedByLevel constrained,
                                              const FlowParameters& parameters) {
-    enter_setup_phase(kPrepareSolver);
-    ConstrainedByLevel constrained = constrained_unknowns(elements, parameters.boundary);
     if (parameters.solver == Solver::OneWCycle) {
         return std::make_unique<CycleSolver>(elements, std::move(constrained), parameters.cycles);
     }

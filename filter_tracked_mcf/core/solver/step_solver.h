@@ -27,27 +27,26 @@ class StepSolver {
 public:
     virtual ~StepSolver() = default;
 
-    /// Returns the flags of the finest level's constrained unknowns, which stay zero. The caller
-    /// may constrain more before take().
-    virtual std::vector<std::uint8_t>& constrained() = 0;
-
-    /// Takes the matrices of the next step, which must stay valid until the step after it. Sets the
-    /// rows and columns of constrained unknowns to zero in them. `area` is that of the embedded
-    /// surface, in grid units².
-    virtual void take(MatrixBlocks& matrices, double area, double step_size_in_cells) = 0;
+    /// Takes the matrices of the next step, which must stay valid until the step after it, and the
+    /// flags of the finest level's constrained unknowns, which stay zero. Sets the rows and columns
+    /// of these unknowns to zero in the matrices. `stiffness_to_mass` is the ratio of δ S to D.
+    virtual void take(MatrixBlocks& matrices, const std::vector<std::uint8_t>& constrained,
+                      double stiffness_to_mass) = 0;
 
     /// Returns whether the system that was taken has any free unknown.
     virtual bool has_free_unknowns() const = 0;
 
     /// Solves the system that was taken for a right-hand side, given by its elements, and adds the
-    /// solver's numbers to the report. `tolerance` is as in FlowParameters; cycles ignore it. On
-    /// entry, `solution` is that of the last step.
+    /// solver's numbers to the report. `tolerance` is as in FlowParameters; cycles ignore it, and
+    /// estimate no error. On entry, `solution` is that of the last step.
     virtual void solve(const std::vector<ElementVector>& right_sides, double tolerance,
                        Solution& solution, StepReport& report) = 0;
 };
 
-/// Returns a new solver; `elements` must outlive it.
+/// Returns a new solver. `constrained` is what constrained_unknowns() returns; `elements` must
+/// outlive the solver.
 std::unique_ptr<StepSolver> make_step_solver(const TrackedElements& elements,
+                                             std::vector<std::vector<std::uint8_t>> constrained,
                                              const FlowParameters& parameters);
 
 }  // namespace tracked_mcf

@@ -20,29 +20,35 @@ namespace tracked_mcf {
 ///
 /// As the surface moves, its pull turns. The penalty alone would give way by up to 1/η of a cell,
 /// so each element has a multiplier λ, zero at the start, which after each step takes over the
-/// penalty's mean force in the element. λ is constant in an element and η is moderate because a
-/// constraint at every point of a curved boundary would lock its cells. The remaining displacement
-/// is of second order in the cell size.
+/// penalty's mean force in the element. The multipliers belong to the state of the flow. λ is
+/// constant in an element and η is moderate because a constraint at every point of a curved
+/// boundary would lock its cells. The remaining displacement is of second order in the cell size.
 class CurveConstraint {
 public:
     /// Groups the samples of the constrained edges by element. `elements` must outlive this;
     /// `penalty` is η.
     CurveConstraint(const TrackedElements& elements, double penalty);
 
+    /// Returns the multipliers λ at the start.
+    std::vector<Eigen::Vector3d> zero_multipliers() const {
+        return std::vector<Eigen::Vector3d>(pieces_.size(), Eigen::Vector3d::Zero());
+    }
+
     /// Adds the constraint to the finest level's system, for the step size δ in squared sides of a
     /// cell and the embedding with this displacement.
-    void add(const Coefficients& displacement, double step_size_in_cells,
-             ElementSystems& systems) const;
+    void add(const Coefficients& displacement, const std::vector<Eigen::Vector3d>& multipliers,
+             double step_size_in_cells, ElementSystems& systems) const;
 
-    /// Updates the multipliers λ after a step, given the displacement that the step has led to.
-    void update_multipliers(const Coefficients& displacement);
+    /// Returns the multipliers after a step, given those before it and the displacement that the
+    /// step has led to.
+    std::vector<Eigen::Vector3d> updated(std::vector<Eigen::Vector3d> multipliers,
+                                         const Coefficients& displacement) const;
 
 private:
     /// The pieces of constrained edges in one element.
     struct Piece {
         std::int32_t element;
-        std::size_t begin, end;      ///< indices into TrackedElements::curve_samples
-        Eigen::Vector3d multiplier;  ///< λ
+        std::size_t begin, end;  ///< indices into TrackedElements::curve_samples
     };
 
     const TrackedElements& elements_;

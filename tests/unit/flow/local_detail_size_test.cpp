@@ -98,7 +98,7 @@ TEST(LocalDetailSize, IsATenthToTenTimesTheDetailSize) {
     EXPECT_GT(*most, 1);
     // The limit holds where the step is largest.
     p.step_size = 1e9;
-    EXPECT_NEAR(Flow(mesh, p).step_size_in_cells(), 1e5 * double{*least}, 1);
+    EXPECT_NEAR(Flow(mesh, p).step_size().in_cells, 1e5 * double{*least}, 1);
 }
 
 }  // namespace

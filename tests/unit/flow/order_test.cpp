@@ -25,7 +25,7 @@ FlowParameters of_order(int order) {
 /// Returns the embedding's coefficients after applying h to them `order` times, by dense matrices.
 Dense apply_h(const Flow& flow, const FlowParameters& p) {
     const TrackedElements& elements = flow.elements();
-    const auto step_size = static_cast<float>(flow.step_size_in_cells());
+    const auto step_size = static_cast<float>(flow.step_size().in_cells);
     const Coefficients rest = Coefficients::Zero(elements.finest().unknown_count(), 3);
     ElementSystems whole, stiffness;
     assemble_elements(elements, rest, {1, step_size}, whole);

@@ -80,6 +80,32 @@ TEST(Quality, MeanCurvatureOfASphereIsOneOverItsRadius) {
     expect_all_near(quality_of(sphere(), p), 1 / kRadius, 0.05 / kRadius);
 }
 
+TEST(Quality, MeanCurvatureIsThatOfTheSurfaceIfItsFirstStepIsTakenBack) {
+    FlowParameters p = measuring(Quality::MeanCurvature);
+    p.step_size = 1000;
+    for (const Preserve preserve : {Preserve::None, Preserve::Area}) {
+        p.preserve = preserve;
+        TriangleMesh mesh = sphere();
+        const FlowReport report = evolve(mesh, p);
+        EXPECT_EQ(report.stop, Stop::Vanished);
+        EXPECT_TRUE(report.steps.empty());
+        expect_all_near(report.quality, 1 / kRadius, 0.05 / kRadius);
+    }
+}
+
+TEST(Quality, MeanCurvatureIsThatOfTheLastStepThatIsKept) {
+    // In steps of 1, the radius becomes 2.45, 1.84, 1.16, 0.47 and 0.05.
+    FlowParameters p = measuring(Quality::MeanCurvature);
+    p.step_size = 1;
+    p.iterations = 10;
+    TriangleMesh mesh = sphere();
+    const FlowReport stopped = evolve(mesh, p);
+    ASSERT_EQ(stopped.stop, Stop::Vanished);
+    ASSERT_GE(stopped.steps.size(), 2U);
+    p.iterations = static_cast<int>(stopped.steps.size());
+    EXPECT_EQ(stopped.quality, quality_of(sphere(), p));
+}
+
 TEST(Quality, MeanCurvatureDoesNotSeeWhatIsPreserved) {
     for (const Preserve preserve : {Preserve::Area, Preserve::Volume}) {
         FlowParameters p = measuring(Quality::MeanCurvature);

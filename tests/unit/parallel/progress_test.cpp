@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "filter_tracked_mcf/core/evolve.h"
+#include "filter_tracked_mcf/core/flow/flow.h"
 #include "filter_tracked_mcf/core/parallel/progress_meter.h"
 #include "tests/support/shapes.h"
 #include "tests/unit/flows.h"
@@ -130,6 +131,27 @@ TEST(Progress, IsReportedByTheCallingThreadAndRisesFromZeroToOne) {
         // Within a step, the solver's iterations also advance the fraction.
         const std::set<double> different(calls.fractions.begin(), calls.fractions.end());
         EXPECT_GT(different.size(), calls.phases.size() + 2);
+    }
+}
+
+TEST(Progress, NeverDecreasesInAFlowThatIsMadeAgainBecauseItsAreaHasGrown) {
+    // A cap that is much thinner than a cell.
+    TriangleMesh mesh =
+        shapes::transformed(bumpy_cap(9), Eigen::Affine3d(Eigen::Scaling(1.0, 1e-3, 1e-3)));
+    FlowParameters p = parameters(4, 1e-3, 2);
+    Calls calls;
+    TriangleMesh flowing = mesh;
+    const FlowReport report = evolve(flowing, p, calls.progress());
+    ASSERT_EQ(
+        std::count(calls.phases.begin(), calls.phases.end(), "Step 2 of 2, again with more care"),
+        1);
+    EXPECT_TRUE(std::is_sorted(calls.fractions.begin(), calls.fractions.end()));
+    EXPECT_EQ(std::count(calls.phases.begin(), calls.phases.end(), "Checking the mesh"), 1);
+    // The report has the iterations of both.
+    p.tolerance = kCarefulTolerance;
+    const FlowReport careful = evolve(mesh, p);
+    for (std::size_t i = 0; i < 2; ++i) {
+        EXPECT_GT(report.steps[i].solver_iterations, careful.steps[i].solver_iterations);
     }
 }
 

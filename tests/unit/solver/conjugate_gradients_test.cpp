@@ -157,8 +157,9 @@ TEST(ConjugateGradients, IgnoresTheGuessForUnknownsConstrainedSince) {
     for (int i = 0; i < 2; ++i) {
         conjugate_gradients.solve(system.multigrid, system.right_side, 1e-6, 30, x, earlier_guess);
     }
-    std::vector<std::uint8_t>& constrained = system.multigrid.constrained();
+    std::vector<std::uint8_t> constrained = system.constrained.back();
     for (std::size_t i = 0; i < constrained.size(); i += 3) constrained[i] = 1;
+    system.multigrid.constrain(constrained);
     system.multigrid.refresh(system.systems.matrices, 1);
     system.multigrid.assemble(system.systems.right_sides, system.right_side);
     const Convergence convergence =

@@ -31,8 +31,9 @@ TEST(ElementMultigrid, ACycleReducesTheErrorIndependentlyOfDepthAndStep) {
 TEST(ElementMultigrid, KeepsConstrainedUnknownsAtZero) {
     // Every third unknown, wherever it is.
     ElementSystem system(shapes::bumpy_sphere(8), 4, 0.5F, {false, 0.01});
-    std::vector<std::uint8_t>& constrained = system.multigrid.constrained();
+    std::vector<std::uint8_t> constrained = system.constrained.back();
     for (std::size_t i = 0; i < constrained.size(); i += 3) constrained[i] = 1;
+    system.multigrid.constrain(constrained);
     system.multigrid.refresh(system.systems.matrices, 0.5);
     system.multigrid.assemble(system.systems.right_sides, system.right_side);
     const Dense a = assembled(system);

@@ -28,9 +28,8 @@ public:
     /// to zero in them, and computes every level's matrix.
     void refresh(MatrixBlocks& finest);
 
-    /// Returns the flags of the finest level's constrained unknowns. The caller may constrain more
-    /// before a refresh.
-    std::vector<std::uint8_t>& constrained() { return constrained_.back(); }
+    /// Replaces the flags of the finest level's constrained unknowns, from the next refresh on.
+    void constrain(const std::vector<std::uint8_t>& finest) { constrained_.back() = finest; }
 
     /// Improves x, an approximate solution of A x = right_side on the finest level, by one W-cycle.
     void cycle(const Field& right_side, Field& x);

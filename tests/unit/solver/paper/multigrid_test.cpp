@@ -29,8 +29,9 @@ TEST(Multigrid, CoarseMatricesAreTheGalerkinProducts) {
 TEST(Multigrid, CoarseMatricesLeaveOutConstrainedUnknowns) {
     // Every third unknown, wherever it is.
     System system(shapes::bumpy_sphere(8), 4, 0.5F);
-    std::vector<std::uint8_t>& constrained = system.multigrid.constrained();
+    std::vector<std::uint8_t> constrained = system.constrained.back();
     for (std::size_t i = 0; i < constrained.size(); i += 3) constrained[i] = 1;
+    system.multigrid.constrain(constrained);
     system.multigrid.refresh(system.systems.matrices);
     Dense fine = dense(system.multigrid.matrix(4).matrix());
     for (std::size_t i = 0; i < constrained.size(); i += 3) {

@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "filter_tracked_mcf/core/flow/stepper.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "filter_tracked_mcf/core/elements/components.h"
+#include "filter_tracked_mcf/core/flow/drift.h"
+#include "filter_tracked_mcf/core/mesh/measures.h"
+#include "filter_tracked_mcf/core/parallel/parallel.h"
+#include "filter_tracked_mcf/core/parallel/progress_meter.h"
+#include "filter_tracked_mcf/core/parallel/setup_phases.h"
+#include "filter_tracked_mcf/core/parallel/stopwatch.h"
+#include "filter_tracked_mcf/core/system/constrained_cells.h"
+
+namespace tracked_mcf {
+
+namespace {
+
+/// The fraction of a step's time before the solver begins.
+constexpr double kAssemblyShare = 0.45;
+
+/// Beyond this δ, in squared sides of a cell, single precision loses the mass matrix beside δ S,
+/// and with it the location of a closed surface.
+constexpr double kLargestStepSizeInCells = 1e5;
+
+/// Beyond this error, relative to its solution, a solve has reached nothing.
+constexpr double kNothingReached = 0.5;
+
+/// Returns the greatest step size, in squared sides of a cell. A step size that follows the local
+/// edge length is greatest where the density is smallest.
+double largest_step_size(const std::vector<float>& densities) {
+    const auto smallest = std::min_element(densities.begin(), densities.end());
+    return kLargestStepSizeInCells * (smallest == densities.end() ? 1.0 : double{*smallest});
+}
+
+StepSize in_cells(double cells, const Grid& grid) {
+    return {cells, cells * (grid.cell_size * grid.cell_size)};
+}
+
+/// Returns the step size that the parameters ask for, in squared sides of a cell.
+double asked_in_cells(const FlowParameters& parameters, const Domain& domain, const Grid& grid) {
+    if (parameters.step_size > 0) {
+        const double unit = parameters.absolute ? 1 : longest_side(domain.mesh());
+        const double cells = unit / grid.cell_size;
+        return parameters.step_size * cells * cells;
+    }
+    const double detail_size = parameters.detail_size > 0
+                                   ? parameters.detail_size
+                                   : kDefaultDetailInEdges * mean_edge_length(domain.surface());
+    return step_size_for(detail_size / grid.cell_size, parameters.iterations, parameters.order);
+}
+
+}  // namespace
+
+Stepper::Stepper(const Domain& domain, ClippedSurface surface, const FlowParameters& parameters)
+    : parameters_(parameters),
+      elements_(build_tracked_elements(domain, std::move(surface), parameters)),
+      component_of_(components_of(elements_)),
+      asked_size_(in_cells(asked_in_cells(parameters, domain, elements_.grid), elements_.grid)),
+      size_(in_cells(std::min(asked_size_.in_cells, largest_step_size(elements_.densities)),
+                     elements_.grid)),
+      stabilization_(elements_),
+      curve_constraint_(elements_, parameters.boundary_penalty),
+      confinement_(
+          elements_, component_of_,
+          parameters.order == 1 ? 0 : detail_size_for(size_.in_cells, 1, parameters.order)),
+      solutions_(parameters.order) {
+    enter_setup_phase(kPrepareSolver);
+    auto constrained = constrained_unknowns(elements_, parameters.boundary);
+    initially_constrained_ = constrained.back();
+    locked_unknown_count_ =
+        std::count(initially_constrained_.begin(), initially_constrained_.end(), 1);
+    solver_ = make_step_solver(elements_, std::move(constrained), parameters);
+    if (parameters.flow == FlowKind::Conformalized) vanished_components_.emplace(elements_);
+    // With the stabilisation, functions that hardly meet the surface follow those that do.
+    if (stabilization_of(parameters) == 0) constrain_negligible(supports(), initially_constrained_);
+}
+
+FlowState Stepper::start() const {
+    FlowState state;
+    state.displacement = Coefficients::Zero(elements_.finest().unknown_count(), 3);
+    state.multipliers = curve_constraint_.zero_multipliers();
+    state.constrained = initially_constrained_;
+    return state;
+}
+
+StepResult Stepper::advance(const FlowState& from, const StepSize& size, const Care& care,
+                            StepReport& report) {
+    const double delta = size.in_cells;
+    FlowState to;
+    to.boxes = from.boxes;
+    to.constrained = from.constrained;
+    to.multipliers = constrains_curve() && parameters_.update_boundary_multipliers
+                         ? curve_constraint_.updated(from.multipliers, from.displacement)
+                         : from.multipliers;
+
+    const Stopwatch assembling;
+    assemble(from, delta);  // A = D + δS, b = -δ S x(t)
+    report.area = systems_.area * elements_.grid.cell_size * elements_.grid.cell_size;
+    report.collapsed_samples = systems_.collapsed_samples;
+    if (first_area_ == 0) first_area_ = systems_.area;
+    if (systems_.area < kVanishedArea * first_area_) return Stop::Vanished;
+    predict(care.removes_drift ? std::vector<Scaling>() : from.scalings, from.displacement);
+    add_curve_constraint(from, delta, to.multipliers);  // A += δη C, b += δ (n + λ) - δη C u
+    stabilize(delta);                                   // A += κ (δ + 0.1) N
+    constrain_pinches(to.constrained);
+    // Constrained unknowns: zero rows and columns of A. When a surface shrinks, its mass shrinks
+    // and its stiffness does not.
+    solver_->take(systems_.matrices, to.constrained,
+                  systems_.area > 0 ? delta * first_area_ / systems_.area : delta);
+    report.assemble_seconds += assembling.seconds();
+
+    const ProgressSpan solving(kAssemblyShare, 1);
+    if (elements_.constrained_vertex_count == elements_.referenced_vertex_count ||
+        !solver_->has_free_unknowns()) {
+        return Stop::NothingMoves;
+    }
+    const Stopwatch stopwatch;
+    solve(care.tolerance, report);  // A d = b, and again for a greater order
+    report.reached_tolerance = report.error_estimate <= parameters_.tolerance;
+    poll_progress();
+    to.displacement = step_of(parameters_.order);
+    if (care.removes_drift) remove_drift_from(to.displacement, from, to.constrained);
+    to.displacement += from.displacement;  // x(t+δ) = x(t) + d
+    if (parameters_.quality == Quality::MeanCurvature) {
+        to.velocity = step_of(1) / size.in_mesh_units;
+    }
+    report.solve_seconds += stopwatch.seconds();
+    const bool reached = report.reached_tolerance || report.error_estimate <= kNothingReached;
+    if (!reached || !confinement_.holds(to.displacement, to.boxes)) return Stop::StepFailed;
+    return to;
+}
+
+void Stepper::assemble(const FlowState& from, double delta) {
+    assemble_elements(elements_, from.displacement,
+                      {1.0F, static_cast<float>(delta), parameters_.flow, parameters_.order > 1},
+                      systems_);
+}
+
+void Stepper::predict(const std::vector<Scaling>& scalings, const Coefficients& displacement) {
+    prediction_.embedding.resize(0, 3);
+    if (scalings.empty()) return;
+    prediction_.losses.clear();
+    for (const Scaling& scaling : scalings) prediction_.losses.push_back(1 - 1 / scaling.factor);
+    prediction_.embedding = identity_coefficients(elements_);
+    for_each_unknown(elements_, component_of_, [&](std::int32_t unknown, std::int32_t component) {
+        auto from_centre = prediction_.embedding.row(unknown);
+        from_centre -= elements_.grid.to_grid(scalings[component].centre).transpose();
+        from_centre += displacement.row(unknown);
+    });
+    multiply(elements_, systems_.matrices, prediction_.embedding, prediction_.products);
+}
+
+void Stepper::add_curve_constraint(const FlowState& from, double delta,
+                                   const std::vector<Eigen::Vector3d>& multipliers) {
+    if (constrains_curve()) curve_constraint_.add(from.displacement, multipliers, delta, systems_);
+}
+
+void Stepper::stabilize(double delta) {
+    stabilization_.add(stabilization_of(parameters_), delta, systems_.matrices);
+}
+
+void Stepper::constrain_pinches(std::vector<std::uint8_t>& constrained) {
+    if (!parameters_.constrain_pinches) return;
+    if (vanished_components_) {
+        vanished_components_->constrain(systems_, kVanishedArea, constrained);
+    } else if (!systems_.collapses.empty()) {
+        const bool converged = parameters_.solver == Solver::Converged;
+        constrain_pinched(elements_, supports(), systems_,
+                          converged ? kPinchedShareConverged : kPinchedShareOneWCycle, constrained);
+    }
+}
+
+const Supports& Stepper::supports() {
+    if (!supports_) supports_ = measure_supports(elements_);
+    return *supports_;
+}
+
+void Stepper::solve(double tolerance, StepReport& report) {
+    for (int i = 0; i < parameters_.order; ++i) {
+        const ProgressSpan span(1.0 * i / parameters_.order, (i + 1.0) / parameters_.order);
+        // A d = δ S d', where d' is the displacement of a step of one order less
+        if (i > 0) multiply(elements_, systems_.stiffnesses, step_of(i), systems_.right_sides);
+        if (predicts()) subtract_prediction(i + 1);
+        solver_->solve(systems_.right_sides, tolerance, solutions_[i], report);
+    }
+}
+
+double Stepper::Prediction::loss(std::int32_t component, int order, int all_orders) const {
+    const double loss = losses[component];
+    return std::copysign(std::pow(std::abs(loss), double(order) / all_orders), loss);
+}
+
+void Stepper::subtract_prediction(int order) {
+    parallel_for_rows(elements_.finest().element_count(), [&](std::int32_t element) {
+        const auto loss =
+            static_cast<float>(prediction_.loss(component_of_[element], order, parameters_.order));
+        for (int axis = 0; axis < 3; ++axis) {
+            for (int row = 0; row < 8; ++row) {
+                systems_.right_sides[element].entry[axis][row] +=
+                    loss * prediction_.products[element].entry[axis][row];
+            }
+        }
+    });
+}
+
+Coefficients Stepper::step_of(int order) const {
+    Coefficients step = solutions_[order - 1].x;
+    if (!predicts()) return step;
+    for_each_unknown(elements_, component_of_, [&](std::int32_t unknown, std::int32_t component) {
+        step.row(unknown) -= prediction_.loss(component, order, parameters_.order) *
+                             prediction_.embedding.row(unknown);
+    });
+    return step;
+}
+
+void Stepper::remove_drift_from(Coefficients& step, const FlowState& from,
+                                const std::vector<std::uint8_t>& constrained) const {
+    ElementSystems masses;
+    assemble_elements(elements_, from.displacement, {1.0F, 0.0F, parameters_.flow, false}, masses);
+    remove_drift(elements_, component_of_, masses.matrices, constrained_components(constrained),
+                 step);
+}
+
+std::vector<std::uint8_t> Stepper::constrained_components(
+    const std::vector<std::uint8_t>& constrained) const {
+    std::vector<std::uint8_t> components(static_cast<std::size_t>(component_count(elements_)), 0);
+    for_each_unknown(elements_, component_of_, [&](std::int32_t unknown, std::int32_t component) {
+        if (constrained[unknown] != 0) components[component] = 1;
+    });
+    for (const CurveSample& sample : elements_.curve_samples) {
+        if (constrains_curve()) components[component_of_[sample.element]] = 1;
+    }
+    return components;
+}
+
+const Coefficients& Stepper::pressure_response(const FlowState& from, const Care& care,
+                                               StepReport& report) {
+    const Stopwatch stopwatch;
+    integrate_normals(elements_, from.displacement, systems_.right_sides);
+    solver_->solve(systems_.right_sides, care.tolerance, pressure_response_, report);
+    report.reached_tolerance = report.error_estimate <= parameters_.tolerance;
+    report.solve_seconds += stopwatch.seconds();
+    return pressure_response_.x;
+}
+
+}  // namespace tracked_mcf

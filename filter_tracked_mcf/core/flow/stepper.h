@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <variant>
+#include <vector>
+
+#include "filter_tracked_mcf/core/elements/supports.h"
+#include "filter_tracked_mcf/core/elements/tracked_elements.h"
+#include "filter_tracked_mcf/core/flow/confinement.h"
+#include "filter_tracked_mcf/core/flow/flow_state.h"
+#include "filter_tracked_mcf/core/flow_parameters.h"
+#include "filter_tracked_mcf/core/flow_report.h"
+#include "filter_tracked_mcf/core/solver/step_solver.h"
+#include "filter_tracked_mcf/core/system/curve_constraint.h"
+#include "filter_tracked_mcf/core/system/pinches.h"
+#include "filter_tracked_mcf/core/system/stabilization.h"
+
+namespace tracked_mcf {
+
+/// A surface whose area is below this fraction of its initial area has vanished.
+inline constexpr double kVanishedArea = 1e-3;
+
+/// A step size δ, a squared length.
+struct StepSize {
+    double in_cells;       ///< in squared sides of a finest cell
+    double in_mesh_units;  ///< in squared units of the mesh
+};
+
+inline StepSize operator*(double factor, const StepSize& size) {
+    return {factor * size.in_cells, factor * size.in_mesh_units};
+}
+
+/// How carefully a step is made.
+struct Care {
+    double tolerance;  ///< see FlowParameters::tolerance
+    /// Whether the step's drift is removed (drift.h), and no scaling is predicted.
+    bool removes_drift = false;
+};
+
+/// The state after a step, or why there is none.
+using StepResult = std::variant<FlowState, Stop>;
+
+inline bool is(const StepResult& result, Stop reason) {
+    const Stop* const stop = std::get_if<Stop>(&result);
+    return stop != nullptr && *stop == reason;
+}
+
+/// Makes the steps of a flow: functions from a state to the next one. Set up once from the clipped
+/// surface. Afterwards only workspaces change: what they hold from earlier steps, such as the
+/// guesses that a solver starts from, changes a result by less than the tolerance.
+class Stepper {
+public:
+    /// The mesh and the parameters must have passed validate(). The domain is not needed
+    /// afterwards. Throws InvalidMesh if all triangles are degenerate.
+    Stepper(const Domain& domain, ClippedSurface surface, const FlowParameters& parameters);
+    Stepper(const Stepper&) = delete;
+    Stepper& operator=(const Stepper&) = delete;
+
+    /// Returns the state of the initial surface.
+    FlowState start() const;
+
+    /// Makes one step of equation 2: solves (D + δS) d = -δ S x(t) for the displacement
+    /// d = x(t+δ) - x(t), with the stabilisation and the constraints that the parameters ask for,
+    /// and adds d to the embedding. A step of order m solves m times, see FlowParameters::order.
+    ///
+    /// Returns Stop::Vanished if `from` has almost no area, Stop::NothingMoves if it has no free
+    /// unknown, and Stop::StepFailed if the solver reaches nothing, or if the step takes the
+    /// surface where it cannot be (confinement.h). Sets the report's area and collapsed samples to
+    /// those of `from`, and adds its other numbers to those of earlier parts of the step.
+    StepResult advance(const FlowState& from, const StepSize& size, const Care& care,
+                       StepReport& report);
+
+    /// Returns the displacement z by which the last step, made from `from`, answers a pressure of
+    /// 1: the solution of its system for the right-hand side ∫ B_I n, with the normal n before the
+    /// step. In grid units. Adds the solver's numbers to the report. Valid until the next call.
+    const Coefficients& pressure_response(const FlowState& from, const Care& care,
+                                          StepReport& report);
+
+    /// Makes the next solves start from zero instead of the last step's solutions.
+    void forget_solutions() { solutions_.assign(solutions_.size(), {}); }
+
+    const TrackedElements& elements() const { return elements_; }
+    /// Returns the connected component of each finest element.
+    const std::vector<std::int32_t>& component_of() const { return component_of_; }
+    const Confinement& confinement() const { return confinement_; }
+    /// Returns the number of unknowns that a boundary of locked cells constrains.
+    std::int64_t locked_unknown_count() const { return locked_unknown_count_; }
+    /// Returns δ as the parameters ask for it.
+    const StepSize& asked_size() const { return asked_size_; }
+    /// Returns δ, which is at most 1e5 squared sides of a cell.
+    const StepSize& size() const { return size_; }
+
+private:
+    /// The prediction that each component shrinks about a point (FlowState::scalings).
+    struct Prediction {
+        Coefficients embedding;      ///< relative to these points; empty if nothing is predicted
+        std::vector<double> losses;  ///< the fraction that the step removes, for each component
+        std::vector<ElementVector> products;  ///< (D + δS) embedding
+        /// Returns the fraction that a step of one order removes of a component, if that of
+        /// `all_orders` removes losses[component] = h^all_orders of it.
+        double loss(std::int32_t component, int order, int all_orders) const;
+    };
+
+    // The parts of a step, in order. n is the conormal and λ the multiplier of the curve
+    // constraint, C its matrix and u its displacement; N is the matrix of the stabilisation.
+    void assemble(const FlowState& from, double delta);  // A = D + δS, b = -δ S x(t)
+    void predict(const std::vector<Scaling>& scalings, const Coefficients& displacement);
+    void add_curve_constraint(const FlowState& from, double delta,
+                              const std::vector<Eigen::Vector3d>& multipliers);
+    void stabilize(double delta);
+    void constrain_pinches(std::vector<std::uint8_t>& constrained);
+    void solve(double tolerance, StepReport& report);
+
+    bool predicts() const { return prediction_.embedding.size() > 0; }
+    void subtract_prediction(int order);  // b -= A p, with p the prediction for the order
+    Coefficients step_of(int order) const;
+    void remove_drift_from(Coefficients& step, const FlowState& from,
+                           const std::vector<std::uint8_t>& constrained) const;
+    /// Returns flags, per component, of those that a boundary or a constrained unknown holds.
+    std::vector<std::uint8_t> constrained_components(
+        const std::vector<std::uint8_t>& constrained) const;
+    bool constrains_curve() const { return parameters_.boundary != BoundaryCondition::LockedCells; }
+    const Supports& supports();
+
+    const FlowParameters parameters_;
+    const TrackedElements elements_;
+    const std::vector<std::int32_t> component_of_;
+    const StepSize asked_size_, size_;
+    const Stabilization stabilization_;
+    const CurveConstraint curve_constraint_;
+    const Confinement confinement_;
+    std::vector<std::uint8_t> initially_constrained_;  ///< as FlowState::constrained
+    std::int64_t locked_unknown_count_ = 0;
+    std::optional<VanishedComponents> vanished_components_;  ///< only in a conformalized flow
+    std::optional<Supports> supports_;                       ///< measured when first needed
+    double first_area_ = 0;  ///< of the surface in the first step, grid units²
+
+    // Workspaces.
+    std::unique_ptr<StepSolver> solver_;
+    ElementSystems systems_;
+    Prediction prediction_;
+    std::vector<Solution> solutions_;  ///< one for each solve of a step; the last one is d
+    Solution pressure_response_;
+};
+
+}  // namespace tracked_mcf
