@@ -36,50 +36,28 @@ std::int64_t free_in_machine(const std::string& root) {
     return std::int64_t{1024} * (*available + number_in(file, "SwapFree:").value_or(0));
 }
 
-/// The names of the files of a version of control groups.
-struct GroupFiles {
-    const char* mount;
-    const char* limit;
-    const char* use;
-    const char* inactive_files;  ///< in memory.stat: the part of the use that can be reclaimed
-};
-
-constexpr GroupFiles kVersion1 = {"/sys/fs/cgroup/memory", "memory.limit_in_bytes",
-                                  "memory.usage_in_bytes", "total_inactive_file"};
-constexpr GroupFiles kVersion2 = {"/sys/fs/cgroup", "memory.max", "memory.current",
-                                  "inactive_file"};
-
-std::int64_t free_in_folder(const std::string& folder, const GroupFiles& files) {
-    const auto limit = number_in(folder + "/" + files.limit);
-    const auto use = number_in(folder + "/" + files.use);
+/// Returns what the limit of one control group leaves.
+std::int64_t free_in_folder(const std::string& folder) {
+    const auto limit = number_in(folder + "/memory.max");
+    const auto use = number_in(folder + "/memory.current");
     if (!limit || !use) return kUnlimited;
-    const auto reclaimable = number_in(folder + "/memory.stat", files.inactive_files);
+    const auto reclaimable = number_in(folder + "/memory.stat", "inactive_file");
     return *limit - std::max<std::int64_t>(0, *use - reclaimable.value_or(0));
 }
 
-/// Returns the least of a control group and its parents. Inside a container, the path may be one
-/// outside of it that does not exist here; then the mount itself is the container's own group.
-std::int64_t free_in_group(const std::string& root, std::string path, const GroupFiles& files) {
-    const std::string mount = root + files.mount;
-    std::int64_t least = free_in_folder(mount, files);
-    while (!path.empty()) {
-        least = std::min(least, free_in_folder(mount + path, files));
-        const std::size_t parent_end = path.find_last_of('/');
-        path.resize(parent_end == std::string::npos ? 0 : parent_end);
-    }
-    return least;
-}
-
+/// Returns the least of this process's control group and its parents (cgroup v2). Inside a
+/// container, the path may be one outside of it that does not exist here; then the mount itself is
+/// the container's own group.
 std::int64_t free_in_groups(const std::string& root) {
-    std::int64_t least = kUnlimited;
+    const std::string mount = root + "/sys/fs/cgroup";
+    std::int64_t least = free_in_folder(mount);
     std::ifstream groups(root + "/proc/self/cgroup");
-    // A line is NUMBER:CONTROLLERS:PATH, without controllers in version 2.
-    std::string number, controllers, path;
-    while (std::getline(groups, number, ':') && std::getline(groups, controllers, ':') &&
-           std::getline(groups, path)) {
-        if (controllers.empty()) least = std::min(least, free_in_group(root, path, kVersion2));
-        if (("," + controllers + ",").find(",memory,") != std::string::npos) {
-            least = std::min(least, free_in_group(root, path, kVersion1));
+    std::string line;
+    while (std::getline(groups, line)) {
+        if (line.rfind("0::", 0) != 0) continue;  // a hierarchy of cgroup v1
+        const std::string path = mount + line.substr(3);
+        for (std::size_t end = path.size(); end > mount.size(); end = path.rfind('/', end - 1)) {
+            least = std::min(least, free_in_folder(path.substr(0, end)));
         }
     }
     return least;

@@ -90,12 +90,11 @@ TEST_F(AvailableMemoryByFiles, IsAtMostWhatEveryControlGroupAllows) {
     EXPECT_EQ(bytes(), 100000);
 }
 
-TEST_F(AvailableMemoryByFiles, KnowsVersion1OfControlGroupsAndContainers) {
-    write("/proc/self/cgroup", "5:devices:/x\n4:cpu,memory:/not/seen/inside\n0::/\n");
-    write("/sys/fs/cgroup/memory/memory.limit_in_bytes", "1000000\n");
-    write("/sys/fs/cgroup/memory/memory.usage_in_bytes", "300000\n");
-    write("/sys/fs/cgroup/memory/memory.stat", "inactive_file 7\ntotal_inactive_file 100000\n");
-    EXPECT_EQ(bytes(), 800000);
+TEST_F(AvailableMemoryByFiles, IsThatOfTheMountIfAContainerHidesTheGroup) {
+    write("/proc/self/cgroup", "5:devices:/x\n0::/not/seen/inside\n");
+    write("/sys/fs/cgroup/memory.max", "1000000\n");
+    write("/sys/fs/cgroup/memory.current", "300000\n");
+    EXPECT_EQ(bytes(), 700000);
 }
 
 TEST_F(AvailableMemoryByFiles, IsPositiveEvenIfAllIsUsed) {
