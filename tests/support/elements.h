@@ -31,10 +31,8 @@ inline int automatic_depth(const TriangleMesh& mesh, bool separate_sheets = true
     const Domain domain(mesh, BoundaryCondition::Free);
     const Grid cube = enclosing_grid(mesh, 0);
     const MemoryCheck memory(size_of(domain), cube, parameters, 0);
-    const auto unknowns = [&](int depth) { return memory.separate_unknowns(depth); };
-    return clip_at_automatic_depth(mesh, cube, count_vertices(domain.topology()), unknowns,
-                                   [](int) {})
-        .grid.depth;
+    const std::int64_t vertices = count_vertices(domain.topology());
+    return clip_at_automatic_depth(mesh, cube, vertices, memory).grid.depth;
 }
 
 }  // namespace tracked_mcf

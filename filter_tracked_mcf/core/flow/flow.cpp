@@ -45,10 +45,8 @@ Flow::Start Flow::start(const Domain& domain, const FlowParameters& parameters,
     const MemoryCheck memory = check_of(domain, cube, parameters);
     // Depth 0 asks for the automatic depth.
     if (cube.depth == 0) {
-        ClippedSurface surface = clip_at_automatic_depth(
-            domain.surface(), cube, count_vertices(domain.topology()),
-            [&](int depth) { return memory.separate_unknowns(depth); },
-            [&](int depth) { memory.before_clipping(depth); });
+        ClippedSurface surface = clip_at_automatic_depth(domain.surface(), cube,
+                                                         count_vertices(domain.topology()), memory);
         const int depth = surface.grid.depth;
         memory.before_flow(depth);
         return {std::move(surface), memory.flow_bytes(depth)};

@@ -6,7 +6,6 @@
 #include <optional>
 #include <utility>
 
-#include "filter_tracked_mcf/core/flow_parameters.h"
 #include "filter_tracked_mcf/core/mesh/measures.h"
 #include "filter_tracked_mcf/core/octree/octree.h"
 #include "filter_tracked_mcf/core/parallel/parallel.h"
@@ -58,13 +57,8 @@ std::int64_t count_corners(const std::vector<MortonCode>& cells) {
 /// Clips a mesh and counts its unknowns at several depths.
 class UnknownCounter {
 public:
-    UnknownCounter(const TriangleMesh& mesh, const Grid& cube, int depth,
-                   const std::function<double(int)>& separate_unknowns,
-                   const std::function<void(int)>& before_clipping)
-        : mesh_(mesh),
-          cube_(cube),
-          separate_unknowns_(separate_unknowns),
-          before_clipping_(before_clipping) {
+    UnknownCounter(const TriangleMesh& mesh, const Grid& cube, const MemoryCheck& memory, int depth)
+        : mesh_(mesh), cube_(cube), memory_(memory) {
         clip(depth);
     }
 
@@ -73,7 +67,7 @@ public:
     std::int64_t unknowns_at(int depth) {
         if (depth > clipped_->grid.depth) clip(depth);
         const std::int64_t corners = count_corners(ancestors(cells_, clipped_->grid.depth - depth));
-        const double separate = separate_unknowns_(depth);
+        const double separate = memory_.separate_unknowns(depth);
         return separate > kMuchMore * static_cast<double>(corners)
                    ? static_cast<std::int64_t>(separate)
                    : corners;
@@ -86,7 +80,7 @@ public:
 
 private:
     void clip(int depth) {
-        before_clipping_(depth);
+        memory_.before_clipping(depth);
         clipped_.reset();  // two clipped surfaces at once would set the peak of memory use
         clipped_.emplace(clip_to_grid(mesh_, with_depth(cube_, depth)));
         cells_ = occupied_cells(clipped_->fragments);
@@ -94,8 +88,7 @@ private:
 
     const TriangleMesh& mesh_;
     const Grid& cube_;
-    const std::function<double(int)>& separate_unknowns_;
-    const std::function<void(int)>& before_clipping_;
+    const MemoryCheck& memory_;
     std::optional<ClippedSurface> clipped_;
     std::vector<MortonCode> cells_;
 };
@@ -130,15 +123,12 @@ int choose_depth(UnknownCounter& counter, int first_depth, std::int64_t vertices
 }  // namespace
 
 ClippedSurface clip_at_automatic_depth(const TriangleMesh& mesh, const Grid& cube,
-                                       std::int64_t vertices,
-                                       const std::function<double(int)>& separate_unknowns,
-                                       const std::function<void(int)>& before_clipping) {
+                                       std::int64_t vertices, const MemoryCheck& memory) {
     if (!has_area(mesh, cube)) return clip_to_grid(mesh, with_depth(cube, 1));
     // The search starts one depth below the expected one, but the mesh is clipped at the expected
     // one, since that is most often the result.
     const int expected = expected_depth(mesh, cube, vertices);
-    UnknownCounter counter(mesh, cube, std::clamp(expected, 1, kMaximumDepth), separate_unknowns,
-                           before_clipping);
+    UnknownCounter counter(mesh, cube, memory, std::clamp(expected, 1, kMaximumDepth));
     const int depth = choose_depth(counter, std::clamp(expected - 1, 1, kMaximumDepth), vertices);
     enter_setup_phase(kClipTriangles);
     return std::move(counter).take(depth);

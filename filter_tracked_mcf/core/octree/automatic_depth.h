@@ -2,10 +2,10 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 
 #include "filter_tracked_mcf/core/cells/fragments.h"
 #include "filter_tracked_mcf/core/cells/grid.h"
+#include "filter_tracked_mcf/core/memory/memory_check.h"
 #include "filter_tracked_mcf/core/triangle_mesh.h"
 
 namespace tracked_mcf {
@@ -14,13 +14,10 @@ namespace tracked_mcf {
 /// unknowns is nearest to `vertices`. The depth is 1 if all triangles are degenerate.
 ///
 /// The unknowns without separate sheets are counted, at the depths that can decide, assuming that
-/// each depth has at least twice as many as the one before. `separate_unknowns` returns the
-/// expected number of unknowns with separate sheets at a depth, or 0 if they must not count.
-/// It replaces the count where it is much larger. `before_clipping` is called with each depth about
-/// to be clipped at, and may throw. Throws what clip_to_grid throws.
+/// each depth has at least twice as many as the one before. MemoryCheck::separate_unknowns()
+/// replaces the count where it is much larger. Throws what clip_to_grid throws, and NotEnoughMemory
+/// if clipping does not fit.
 ClippedSurface clip_at_automatic_depth(const TriangleMesh& mesh, const Grid& cube,
-                                       std::int64_t vertices,
-                                       const std::function<double(int)>& separate_unknowns,
-                                       const std::function<void(int)>& before_clipping);
+                                       std::int64_t vertices, const MemoryCheck& memory);
 
 }  // namespace tracked_mcf
