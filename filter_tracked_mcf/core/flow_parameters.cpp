@@ -54,6 +54,10 @@ double detail_size_for(double step_size, int iterations, int order) {
     return kTwoPi * std::sqrt(step_size / halved_waves(iterations, order));
 }
 
+double detail_size_of(const FlowParameters& parameters, double mean_edge) {
+    return parameters.detail_size > 0 ? parameters.detail_size : kDefaultDetailInEdges * mean_edge;
+}
+
 double stabilization_of(const FlowParameters& parameters) {
     const bool needed = parameters.solver == Solver::Converged;
     return parameters.stabilization.value_or(needed ? kDefaultStabilization : 0.0);

@@ -68,7 +68,8 @@ inline constexpr int kMaximumThreads = 1024;
 /// The parameters of a flow, with defaults for a scan.
 struct FlowParameters {
     /// Octree depth, 1 to kMaximumDepth: the octree's cube has 2^depth cells along each side. 0
-    /// chooses the depth whose number of unknowns is nearest to the number of referenced vertices.
+    /// chooses the depth whose number of unknowns is nearest to the number of referenced vertices,
+    /// or one or two more if the detail size needs them and the memory allows them.
     int depth = 0;
 
     /// Detail size ℓ, mesh units: after all steps, a wave of length ℓ on a plane keeps half its
@@ -152,6 +153,9 @@ double step_size_for(double detail_size, int iterations, int order);
 
 /// Returns the length of the waves whose amplitude the steps halve: the inverse of step_size_for().
 double detail_size_for(double step_size, int iterations, int order);
+
+/// Returns the detail size that the parameters ask for if a mesh has edges of this mean length.
+double detail_size_of(const FlowParameters& parameters, double mean_edge);
 
 /// Returns the weight of the stabilisation that the parameters ask for.
 double stabilization_of(const FlowParameters& parameters);

@@ -45,6 +45,7 @@ struct FlowReport {
     double step_size = 0;    ///< δ, mesh units²
     double asked_step_size = 0;  ///< larger if δ was limited, see FlowParameters::step_size
     int depth = 0;               ///< 1 if all vertices are constrained
+    int resolving_depth = 0;     ///< the least that resolves the detail size; 0 for a step size
     double cell_size = 0;        ///< side of a finest cell, mesh units
     std::int64_t cells = 0;      ///< occupied cells of the finest level
     std::int64_t elements = 0;   ///< elements of the finest level

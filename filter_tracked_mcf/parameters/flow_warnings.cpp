@@ -62,16 +62,14 @@ std::string limited_step_size(const FlowReport& report) {
     return text.str();
 }
 
-/// Empty unless the grid is too coarse for the detail of a surface that moves. A caller who gives a
-/// step size knows the grid.
-std::string unresolved_detail(const FlowParameters& parameters, const FlowReport& report) {
-    if (parameters.step_size > 0 || report.detail_size >= report.cell_size) return {};
-    if (report.stop == Stop::NothingMoves) return {};
+/// Empty unless the grid is too coarse for the detail of a surface that moves.
+std::string unresolved_detail(const FlowReport& report) {
+    if (report.depth >= report.resolving_depth || report.stop == Stop::NothingMoves) return {};
     std::ostringstream text;
     text.precision(3);
-    text << "The detail size " << report.detail_size << " is smaller than a cell of the grid, "
-         << report.cell_size
-         << ". If the mesh has detail as small as that, take a greater depth than " << report.depth
+    text << "The cells of depth " << report.depth << " are " << report.cell_size
+         << " wide, too wide for the detail size " << report.detail_size
+         << ". If the mesh has detail as small as that, take depth " << report.resolving_depth
          << ".";
     return text.str();
 }
@@ -142,7 +140,7 @@ std::vector<std::string> flow_warnings(const FlowParameters& parameters, const F
     std::vector<std::string> warnings;
     for (const std::string& warning :
          {early_stop(report, parameters.iterations), limited_step_size(report),
-          unresolved_detail(parameters, report), sudden_loss(report)}) {
+          unresolved_detail(report), sudden_loss(report)}) {
         if (!warning.empty()) warnings.push_back(warning);
     }
     const std::string short_steps = shortfall(report, parameters.tolerance);

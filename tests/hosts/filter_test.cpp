@@ -343,11 +343,12 @@ TEST(Warnings, TellOfALimitedStepADetailBelowACellAndASuddenLoss) {
     report.asked_step_size = 1;
     report.cell_size = 2;
     report.depth = 7;
+    report.resolving_depth = 9;
     ASSERT_EQ(warnings().size(), 1U);
     EXPECT_EQ(warnings()[0],
-              "The detail size 1 is smaller than a cell of the grid, 2. If the mesh has detail as "
-              "small as that, take a greater depth than 7.");
-    report.cell_size = 1;
+              "The cells of depth 7 are 2 wide, too wide for the detail size 1. If the mesh has "
+              "detail as small as that, take depth 9.");
+    report.depth = 9;
     report.area_after = 8;
     ASSERT_EQ(warnings().size(), 1U);
     EXPECT_EQ(warnings()[0],

@@ -24,15 +24,16 @@ inline TrackedElements build_tracked_elements(const TriangleMesh& mesh, const Gr
                                   separate_sheets);
 }
 
-/// Returns the automatic depth of a whole mesh.
-inline int automatic_depth(const TriangleMesh& mesh, bool separate_sheets = true) {
+/// Returns the automatic depth of a whole mesh, for a detail that needs `least_depth`.
+inline int automatic_depth(const TriangleMesh& mesh, bool separate_sheets = true,
+                           int least_depth = 0) {
     FlowParameters parameters;
     parameters.separate_sheets = separate_sheets;
     const Domain domain(mesh, BoundaryCondition::Free);
     const Grid cube = enclosing_grid(mesh, 0);
     const MemoryCheck memory(size_of(domain), cube, parameters, 0);
     const std::int64_t vertices = count_vertices(domain.topology());
-    return clip_at_automatic_depth(mesh, cube, vertices, memory).grid.depth;
+    return clip_at_automatic_depth(mesh, cube, vertices, least_depth, memory).grid.depth;
 }
 
 }  // namespace tracked_mcf

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <regex>
 #include <sstream>
 
 #include "filter_tracked_mcf/core/mesh/measures.h"
@@ -267,6 +268,22 @@ TEST_F(Program, AMeshThatCannotMoveIsAWarning) {
     EXPECT_THAT(result.output,
                 HasSubstr("\n16 vertices are constrained: they keep their positions\n"));
     EXPECT_THAT(result.output, HasSubstr("\n0 steps in "));
+}
+
+TEST_F(Program, AWarningNamesTheDepthThatResolvesTheDetail) {
+    const auto errors_at = [&](const std::string& depth) {
+        return run("a.off b.ply --detail-size 10% --quiet --depth " + depth).errors;
+    };
+    const std::string errors = errors_at("3");
+    std::smatch depth;
+    ASSERT_TRUE(std::regex_match(
+        errors, depth,
+        std::regex("tracked_mcf: warning: The cells of depth 3 are [0-9.]+ wide, too wide for the "
+                   "detail size [0-9.]+. If the mesh has detail as small as that, take depth "
+                   "([0-9]+).\n")))
+        << errors;
+    EXPECT_THAT(errors_at(depth[1]), IsEmpty());
+    EXPECT_THAT(errors_at("0"), IsEmpty());
 }
 
 TEST_F(Program, FlowsDiffer) {

@@ -36,6 +36,7 @@ void replace_attempt(StepReport& report, StepReport again) {
 struct Flow::Start {
     ClippedSurface surface;
     double estimated_bytes;
+    int resolving_depth;  ///< see FlowReport
 };
 
 Flow::Start Flow::start(const Domain& domain, const FlowParameters& parameters,
@@ -43,17 +44,18 @@ Flow::Start Flow::start(const Domain& domain, const FlowParameters& parameters,
     if (!grid) enter_setup_phase(kChooseGrid);
     const Grid cube = grid ? *grid : enclosing_grid(domain.surface(), parameters.depth);
     const MemoryCheck memory = check_of(domain, cube, parameters);
+    const int resolving = resolving_depth(domain.surface(), cube, parameters);
     // Depth 0 asks for the automatic depth.
     if (cube.depth == 0) {
-        ClippedSurface surface = clip_at_automatic_depth(domain.surface(), cube,
-                                                         count_vertices(domain.topology()), memory);
+        ClippedSurface surface = clip_at_automatic_depth(
+            domain.surface(), cube, count_vertices(domain.topology()), resolving, memory);
         const int depth = surface.grid.depth;
         memory.before_flow(depth);
-        return {std::move(surface), memory.flow_bytes(depth)};
+        return {std::move(surface), memory.flow_bytes(depth), resolving};
     }
     memory.before_flow(cube.depth);
     enter_setup_phase(kClipTriangles);
-    return {clip_to_grid(domain.surface(), cube), memory.flow_bytes(cube.depth)};
+    return {clip_to_grid(domain.surface(), cube), memory.flow_bytes(cube.depth), resolving};
 }
 
 Flow::Flow(const Domain& domain, const FlowParameters& parameters, const std::optional<Grid>& grid)
@@ -70,6 +72,7 @@ Flow::Flow(const Domain& domain, const FlowParameters& parameters, Start start)
       state_(stepper_.start()) {
     if (parameters.preserve != Preserve::None) preserver_.emplace(domain, parameters, stepper_);
     fill_report(domain);
+    report_.resolving_depth = start.resolving_depth;
     report_.estimated_memory_bytes = static_cast<std::int64_t>(start.estimated_bytes);
 }
 

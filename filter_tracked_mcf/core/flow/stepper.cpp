@@ -46,9 +46,7 @@ double asked_in_cells(const FlowParameters& parameters, const Domain& domain, co
         const double cells = unit / grid.cell_size;
         return parameters.step_size * cells * cells;
     }
-    const double detail_size = parameters.detail_size > 0
-                                   ? parameters.detail_size
-                                   : kDefaultDetailInEdges * mean_edge_length(domain.surface());
+    const double detail_size = detail_size_of(parameters, mean_edge_length(domain.surface()));
     return step_size_for(detail_size / grid.cell_size, parameters.iterations, parameters.order);
 }
 

@@ -27,7 +27,7 @@ std::string in_words(double bytes) {
 
 }  // namespace
 
-bool MemoryCheck::fits(double bytes) const {
+bool MemoryCheck::is_free(double bytes) const {
     return available_ == 0 || bytes <= static_cast<double>(available_);
 }
 
@@ -43,16 +43,16 @@ double MemoryCheck::separate_unknowns(int depth) const {
 }
 
 void MemoryCheck::before_flow(int depth) const {
-    if (!fits(flow_bytes(depth))) refuse(depth);
+    if (!fits(depth)) refuse(depth);
 }
 
 void MemoryCheck::before_clipping(int depth) const {
-    if (!fits(estimate_clip_bytes(size_, with_depth(cube_, depth), parameters_))) refuse(depth);
+    if (!is_free(estimate_clip_bytes(size_, with_depth(cube_, depth), parameters_))) refuse(depth);
 }
 
 void MemoryCheck::refuse(int depth) const {
     int less = depth - 1;
-    while (less > 0 && !fits(flow_bytes(less))) --less;
+    while (less > 0 && !fits(less)) --less;
     const std::string need = "Depth " + std::to_string(depth) + " would need about " +
                              in_words(flow_bytes(depth)) + " of memory, but only " +
                              in_words(static_cast<double>(available_)) + " are free.";

@@ -18,6 +18,9 @@ public:
                 std::int64_t available)
         : size_(size), cube_(cube), parameters_(parameters), available_(available) {}
 
+    /// Returns whether a flow at this depth is expected to fit.
+    bool fits(int depth) const { return is_free(flow_bytes(depth)); }
+
     /// Throws NotEnoughMemory if a flow at this depth does not fit. The message names the largest
     /// depth that fits.
     void before_flow(int depth) const;
@@ -34,7 +37,7 @@ public:
     double separate_unknowns(int depth) const;
 
 private:
-    bool fits(double bytes) const;
+    bool is_free(double bytes) const;
     [[noreturn]] void refuse(int depth) const;
 
     SurfaceSize size_;

@@ -23,6 +23,20 @@ constexpr double kUnknownsPerArea = 3;
 /// this many times as many. The expected number of an ordinary surface is a few per cent off.
 constexpr double kMuchMore = 1.5;
 
+/// A grid expresses no wave shorter than two cells.
+constexpr double kCellsPerDetail = 2;
+
+/// The same for the default detail size and greater ones. A grid with about as many unknowns as
+/// vertices has 0.95 to 2.2 cells per default detail size.
+constexpr double kCellsPerDefaultDetail = 0.9;
+
+/// Allows for the digits that a host rounds the default detail size to.
+constexpr double kAlmost = 0.99;
+
+/// The automatic depth is at most this much greater for the detail size. Each depth more has about
+/// four times as many unknowns.
+constexpr int kMostDeeper = 2;
+
 /// Returns the depth at which a surface of this area is expected to have as many unknowns as
 /// vertices. The area says little about a surface much thinner than its box, so at least the area
 /// of a flat square is assumed.
@@ -122,14 +136,27 @@ int choose_depth(UnknownCounter& counter, int first_depth, std::int64_t vertices
 
 }  // namespace
 
+int resolving_depth(const TriangleMesh& mesh, const Grid& grid, const FlowParameters& parameters) {
+    if (parameters.step_size > 0) return 0;
+    const double mean_edge = mean_edge_length(mesh);
+    const double detail_size = detail_size_of(parameters, mean_edge);
+    const bool is_fine = detail_size < kAlmost * kDefaultDetailInEdges * mean_edge;
+    const double details = grid.cell_size * grid.cells_per_side() / detail_size;
+    const double cells = (is_fine ? kCellsPerDetail : kCellsPerDefaultDetail) * details;
+    return static_cast<int>(std::clamp(std::ceil(std::log2(cells)), 1.0, double{kMaximumDepth}));
+}
+
 ClippedSurface clip_at_automatic_depth(const TriangleMesh& mesh, const Grid& cube,
-                                       std::int64_t vertices, const MemoryCheck& memory) {
+                                       std::int64_t vertices, int least_depth,
+                                       const MemoryCheck& memory) {
     if (!has_area(mesh, cube)) return clip_to_grid(mesh, with_depth(cube, 1));
     // The search starts one depth below the expected one, but the mesh is clipped at the expected
     // one, since that is most often the result.
     const int expected = expected_depth(mesh, cube, vertices);
     UnknownCounter counter(mesh, cube, memory, std::clamp(expected, 1, kMaximumDepth));
-    const int depth = choose_depth(counter, std::clamp(expected - 1, 1, kMaximumDepth), vertices);
+    const int least = choose_depth(counter, std::clamp(expected - 1, 1, kMaximumDepth), vertices);
+    int depth = std::clamp(least_depth, least, std::min(least + kMostDeeper, kMaximumDepth));
+    while (depth > least && !memory.fits(depth)) --depth;
     enter_setup_phase(kClipTriangles);
     return std::move(counter).take(depth);
 }

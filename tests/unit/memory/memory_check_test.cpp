@@ -70,8 +70,8 @@ TEST_F(CheckOfASphere, ClippingNeedsLess) {
 
 TEST_F(CheckOfASphere, RefusesToClipAtTheAutomaticDepth) {
     const Grid cube = enclosing_grid(mesh_, 0);
-    EXPECT_NO_THROW(clip_at_automatic_depth(mesh_, cube, 4002, with(0)));
-    EXPECT_THROW(clip_at_automatic_depth(mesh_, cube, 4002, with(1000)), NotEnoughMemory);
+    EXPECT_NO_THROW(clip_at_automatic_depth(mesh_, cube, 4002, 0, with(0)));
+    EXPECT_THROW(clip_at_automatic_depth(mesh_, cube, 4002, 0, with(1000)), NotEnoughMemory);
 }
 
 TEST(AvailableMemory, IsKnown) {
