@@ -2,7 +2,6 @@
 #include "filter_tracked_mcf/tool/interrupts.h"
 
 #include <atomic>
-#include <cstdlib>
 
 #include "filter_tracked_mcf/tool/system.h"
 
@@ -16,14 +15,9 @@ static_assert(std::atomic<int>::is_always_lock_free);
 std::atomic<int> holds{0};
 std::atomic<int> received{0};  ///< the signal's number, or 0
 
-/// Ends the program without destructors or buffers, which a handler must not touch.
-[[noreturn]] void end_program() {
-    std::_Exit(128 + received);
-}
-
 extern "C" void on_interrupt(int number) {
     received = number;
-    if (holds == 0) end_program();
+    if (holds == 0) die_of_interrupt(number);
 }
 
 }  // namespace
@@ -38,11 +32,11 @@ bool interrupted() {
 
 InterruptHold::InterruptHold() {
     // Another thread may run the handler and have seen no hold. It is about to end the program.
-    if (++holds == 1 && interrupted()) end_program();
+    if (++holds == 1 && interrupted()) die_of_interrupt(received);
 }
 
 InterruptHold::~InterruptHold() {
-    if (--holds == 0 && interrupted()) end_program();
+    if (--holds == 0 && interrupted()) die_of_interrupt(received);
 }
 
 }  // namespace tracked_mcf

@@ -3,9 +3,9 @@
 
 namespace tracked_mcf {
 
-/// Makes SIGINT, SIGTERM and SIGHUP end the program with exit code 128 plus the signal's number,
-/// at once or when the last InterruptHold ends. Signals that are ignored, as under nohup, stay
-/// ignored. On Windows, Ctrl-C counts as SIGINT, and closing the console as SIGTERM.
+/// Makes the program die of SIGINT, SIGTERM and SIGHUP at once or when the last InterruptHold ends.
+/// Signals that are ignored, as under nohup, stay ignored. On Windows, Ctrl-C counts as SIGINT, and
+/// closing the console as SIGTERM; they end the program with 128 plus the signal's number.
 void handle_interrupts();
 
 /// Returns whether an interrupt waits for the end of a hold.

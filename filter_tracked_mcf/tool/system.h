@@ -26,6 +26,12 @@ void report_file_limits();
 /// ignored, as under nohup.
 void call_on_interrupts(void (*handler)(int number));
 
+/// Ends the program as the default action of the signal `number` does, without destructors or
+/// buffers. A shell then sees that a signal ended it, and ends its own loop on Ctrl-C. In a
+/// handler, the program ends when the handler returns. Windows knows no such end: the exit code is
+/// 128 plus the number.
+void die_of_interrupt(int number);
+
 /// Makes a new file ready to be renamed to `old`: gives it the owner and the mode of `old`. Returns
 /// false if the system forbids it, or if `old` has several hard links or is a link itself. On
 /// Windows, a new file has the permissions that its folder gives.

@@ -27,6 +27,12 @@ void call_on_interrupts(void (*handler)(int number)) {
     }
 }
 
+void die_of_interrupt(int number) {
+    // Signal handlers may call both functions.
+    std::signal(number, SIG_DFL);
+    std::raise(number);
+}
+
 bool can_replace(const std::filesystem::path& old, const std::filesystem::path& new_file) {
     struct stat status {};
     return stat(old.c_str(), &status) == 0 && status.st_nlink == 1 &&

@@ -5,6 +5,7 @@
 #include <shellapi.h>
 
 #include <csignal>
+#include <cstdlib>
 
 #include "filter_tracked_mcf/tool/system.h"
 
@@ -57,6 +58,10 @@ void report_file_limits() {}
 void call_on_interrupts(void (*handler)(int number)) {
     interrupt_handler = handler;
     SetConsoleCtrlHandler(on_console_event, TRUE);
+}
+
+void die_of_interrupt(int number) {
+    std::_Exit(128 + number);
 }
 
 bool can_replace(const std::filesystem::path& old, const std::filesystem::path& /*new_file*/) {
