@@ -78,11 +78,10 @@ void MeshFile::write(const TriangleMesh& moved, const fs::path& file,
                      const fs::path& final_folder) const {
     const Format* const format = format_of(file);
     std::ofstream out(file, std::ios::binary);
-    if (format == format_of(path_)) {
-        document_->write(out, moved.positions, {fs::absolute(path_).parent_path(), final_folder});
-    } else {
+    if (format == format_of(path_))
+        document_->write(out, moved.positions);
+    else
         format->convert(out, *document_, moved.positions);
-    }
     out.close();
     if (out) return;
     throw UnwritableFile("cannot write " + (final_folder / file.filename()).u8string() +

@@ -39,8 +39,8 @@ public:
     void set_quality(const std::vector<double>& quality);
 
     /// Writes the mesh with the positions of `moved`, which triangle_mesh() made, in the format of
-    /// `file`'s extension; PLY and STL are binary. Names of textures and material libraries become
-    /// relative to `final_folder`, to which the caller will move the file. Throws UnwritableFile.
+    /// `file`'s extension; PLY and STL are binary. Throws UnwritableFile, which says that the file
+    /// is in `final_folder`, to which the caller will move it.
     void write(const TriangleMesh& moved, const std::filesystem::path& file,
                const std::filesystem::path& final_folder) const;
 

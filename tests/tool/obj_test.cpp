@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include "filter_tracked_mcf/tool/documents/file_document.h"
 #include "filter_tracked_mcf/tool/mesh_file.h"
 #include "tests/tool/temporary_folder.h"
 
@@ -29,7 +28,7 @@ std::string written_with_x_doubled(const std::string& content) {
 TEST(Obj, EverythingButPositionsStaysToTheLetter) {
     const std::string content =
         "# made by hand\r\n"
-        "mtllib two words.mtl\n"
+        "mtllib two words \xE4.mtl\n"
         "o thing\n"
         "v  1.50 0 0 1 0 0\n"
         "v\t0 1 0   0 1 0\n"
@@ -94,31 +93,6 @@ TEST(Obj, NormalsAreThoseOfTheNewShapeAndCreasesStaySharp) {
     EXPECT_EQ(written.substr(0, begin.size()), begin);
     EXPECT_NE(written.find(" 0 0.894427190"), std::string::npos);
     EXPECT_NE(written.find("\nvn 0 0.6 0.8\nf 1//1 2//1 3//3\n"), std::string::npos);
-}
-
-TEST(Obj, MaterialLibrariesFollowTheFile) {
-    const TemporaryFolder folder;
-    std::filesystem::create_directory(folder / "out");
-    write_file(folder / "in.obj", "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-    MeshFile file(folder / "in.obj");
-    file.write(file.triangle_mesh(), folder / "out/out.obj", folder / "out");
-    EXPECT_EQ(read_file(folder / "out/out.obj"),
-              "mtllib ../a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-}
-
-TEST(Obj, NamesOfMaterialLibrariesMayBeAbsoluteOrHaveAnyBytes) {
-    const TemporaryFolder folder;
-    const FolderChange change{folder.path(), folder / "out"};
-    EXPECT_EQ(change.relocate("/shared/a.mtl"), "/shared/a.mtl");
-    EXPECT_EQ(change.relocate("a \xC3\xA4.mtl"), "../a \xC3\xA4.mtl");
-    const std::string latin1 = "a \xE4.mtl";
-#ifdef _WIN32
-    EXPECT_EQ(change.relocate(latin1), latin1) << "paths are Unicode";
-    EXPECT_EQ(change.relocate("D:a.mtl"), "D:a.mtl");
-    EXPECT_EQ(change.relocate("textures\\a.mtl"), "../textures/a.mtl");
-#else
-    EXPECT_EQ(change.relocate(latin1), "../" + latin1);
-#endif
 }
 
 TEST(Obj, LinesAreTextWhateverTheirIndices) {

@@ -228,16 +228,5 @@ TEST(Ply, TheQualityReplacesThePropertyOfThatNameOrComesLast) {
                   packed(.25, 0., 0., 0., -1., 1., 0., 0., 1e-9, 0., 1., .5) + face);
 }
 
-TEST(Ply, TextureNamesFollowTheFile) {
-    const TemporaryFolder folder;
-    std::filesystem::create_directory(folder / "out");
-    const std::string head = "ply\nformat ascii 1.0\ncomment TextureFile skin.png\n";
-    write_file(folder / "in.ply", head + kPlain + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
-    MeshFile file(folder / "in.ply");
-    file.write(file.triangle_mesh(), folder / "out/out.ply", folder / "out");
-    const std::string written = read_file(folder / "out/out.ply");
-    EXPECT_EQ(written.substr(36, 31), "comment TextureFile ../skin.png");
-}
-
 }  // namespace
 }  // namespace tracked_mcf

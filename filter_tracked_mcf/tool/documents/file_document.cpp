@@ -61,28 +61,7 @@ void check_corner_counts(const Polygons& polygons) {
     }
 }
 
-/// Returns the path of a name in a file. On Windows, paths are UTF-16, so a name that is not UTF-8
-/// has none.
-fs::path path_of(const std::string& name) {
-    try {
-        return fs::u8path(name);
-    } catch (const std::system_error&) {
-        return {};
-    }
-}
-
 }  // namespace
-
-std::string FolderChange::relocate(const std::string& name) const {
-    const fs::path path = path_of(name);
-    if (path.empty() || path.has_root_path()) return name;
-    const fs::path old_folder = fs::weakly_canonical(from), new_folder = fs::weakly_canonical(to);
-    if (old_folder == new_folder) return name;
-    return (old_folder / path)
-        .lexically_normal()
-        .lexically_proximate(new_folder)
-        .generic_u8string();
-}
 
 Color make_color(const std::vector<double>& channels, double full) {
     Color color = kWhite;

@@ -15,15 +15,6 @@
 
 namespace tracked_mcf {
 
-/// A move of a file to another folder. Names of textures and material libraries are relative to the
-/// folder of the file that refers to them.
-struct FolderChange {
-    std::filesystem::path from, to;
-
-    /// Returns the name by which the file `name` of folder `from` is found from folder `to`.
-    std::string relocate(const std::string& name) const;
-};
-
 /// Red, green, blue and alpha, 0 to 255.
 using Color = std::array<std::uint8_t, 4>;
 
@@ -66,10 +57,8 @@ public:
     virtual std::vector<std::string> extras() const = 0;
 
     /// Writes the file with other positions. Its normals become those of the new shape; a normal
-    /// that no face with an area defines stays. Textures and material libraries get the names by
-    /// which they are found after `change`.
-    virtual void write(std::ostream& out, const Points& positions,
-                       const FolderChange& change) const = 0;
+    /// that no face with an area defines stays.
+    virtual void write(std::ostream& out, const Points& positions) const = 0;
 
 protected:
     Points positions_;

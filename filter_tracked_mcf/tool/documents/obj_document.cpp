@@ -13,19 +13,13 @@ namespace tracked_mcf {
 
 namespace {
 
-/// A part of the text that is written anew: a coordinate, or the name of a material library.
+/// A coordinate in the text, which is written anew.
 struct Slot {
-    enum class Kind { Position, Normal, Library } kind;
+    bool is_normal;
     std::int32_t index;
     std::int32_t axis;
     std::string_view text;
 };
-
-/// Returns everything after the first word. File names may contain blanks.
-std::string_view rest_of_line(const Words& words) {
-    const char* const end = words.back().data() + words.back().size();
-    return {words[1].data(), static_cast<std::size_t>(end - words[1].data())};
-}
 
 class ObjDocument : public FileDocument {
 public:
@@ -54,22 +48,18 @@ public:
         return {extras.begin(), extras.end()};
     }
 
-    void write(std::ostream& out, const Points& positions,
-               const FolderChange& change) const override {
+    void write(std::ostream& out, const Points& positions) const override {
         const Points normals =
             corner_normals(positions, polygons_, normal_of_corner_, normals_.size());
         TextPatch patch(out, content_);
         for (const Slot& slot : slots_) {
             const auto i = static_cast<std::size_t>(slot.index);
-            if (slot.kind == Slot::Kind::Library) {
-                patch.replace(slot.text, change.relocate(std::string(slot.text)));
-            } else if (slot.kind == Slot::Kind::Position) {
-                // A vertex that has not moved keeps its text.
-                if (positions[i] == positions_[i]) continue;
-                patch.replace(slot.text, format_number(positions[i][slot.axis]));
-            } else if (!normals[i].isZero(0)) {
-                patch.replace(slot.text, format_number(normals[i][slot.axis]));
-            }
+            // A vertex that has not moved keeps its text.
+            const bool keeps_text =
+                slot.is_normal ? normals[i].isZero(0) : positions[i] == positions_[i];
+            if (keeps_text) continue;
+            const Points& points = slot.is_normal ? normals : positions;
+            patch.replace(slot.text, format_number(points[i][slot.axis]));
         }
         patch.finish();
     }
@@ -92,20 +82,19 @@ private:
                 read_face(words);
             else if (words[0] == "q")
                 throw UnreadableFile("quadrangles of the QOBJ dialect; write them as f");
-            else if (words[0] == "mtllib" && words.size() > 1)
-                slots_.push_back({Slot::Kind::Library, 0, 0, rest_of_line(words)});
         } catch (const UnreadableFile& error) {
             reader.fail(error.what());
         }
     }
 
     /// Reads a point, with a slot for each of its coordinates.
-    void read_point(const Words& words, Slot::Kind kind, Points& points) {
+    void read_point(const Words& words, Points& points) {
         Eigen::Vector3d point;
         for (std::int32_t axis = 0; axis < 3; ++axis) {
             const std::string_view word = words[static_cast<std::size_t>(axis) + 1];
             point[axis] = parse_number(word);
-            slots_.push_back({kind, static_cast<std::int32_t>(points.size()), axis, word});
+            slots_.push_back(
+                {&points == &normals_, static_cast<std::int32_t>(points.size()), axis, word});
         }
         points.push_back(point);
     }
@@ -115,7 +104,7 @@ private:
         const auto is_remark = [](std::string_view word) { return word.front() == '#'; };
         words.erase(std::find_if(words.begin(), words.end(), is_remark), words.end());
         if (words.size() < 4) throw UnreadableFile("a vertex has fewer than 3 coordinates");
-        read_point(words, Slot::Kind::Position, positions_);
+        read_point(words, positions_);
         if (words.size() < 7) return;
         std::vector<double> channels;
         for (std::size_t i = 4; i < 7; ++i) channels.push_back(parse_number(words[i]));
@@ -126,7 +115,7 @@ private:
 
     void read_normal(const Words& words) {
         if (words.size() != 4) throw UnreadableFile("a normal has not 3 coordinates");
-        read_point(words, Slot::Kind::Normal, normals_);
+        read_point(words, normals_);
     }
 
     void read_face(const Words& words) {

@@ -76,7 +76,7 @@ public:
         return extras;
     }
 
-    void write(std::ostream& out, const Points& positions, const FolderChange&) const override {
+    void write(std::ostream& out, const Points& positions) const override {
         Points normals;
         if (layout_.normal) {
             normals = corner_normals(positions, polygons_, polygons_.corners, positions.size());

@@ -117,15 +117,9 @@ PlyType written_type(const PlyElement& element, const PlyProperty& property) {
     return computed && !property.is_list() ? PlyType::Double : property.type;
 }
 
-void write_header(std::ostream& out, const PlyTable& table, const FolderChange& change) {
+void write_header(std::ostream& out, const PlyTable& table) {
     out << "ply\nformat binary_little_endian 1.0\n";
-    for (const std::string& comment : table.comments) {
-        if (names_texture(comment)) {
-            out << kTexture << change.relocate(comment.substr(kTexture.size())) << '\n';
-        } else {
-            out << comment << '\n';
-        }
-    }
+    for (const std::string& comment : table.comments) out << comment << '\n';
     for (const PlyElement& element : table.elements) {
         out << "element " << element.name << ' ' << element.count << '\n';
         for (const PlyProperty& property : element.properties) {
@@ -205,8 +199,7 @@ std::vector<std::string> PlyDocument::extras() const {
     return extras;
 }
 
-void PlyDocument::write(std::ostream& out, const Points& positions,
-                        const FolderChange& change) const {
+void PlyDocument::write(std::ostream& out, const Points& positions) const {
     std::optional<PlyTable> with_quality;
     if (!quality().empty()) {
         with_quality = table_;
@@ -215,7 +208,7 @@ void PlyDocument::write(std::ostream& out, const Points& positions,
         }
     }
     const PlyTable& table = with_quality ? *with_quality : table_;
-    write_header(out, table, change);
+    write_header(out, table);
     for (const PlyElement& element : table.elements) {
         Points normals;
         if (element.name == "vertex") {

@@ -16,8 +16,7 @@ public:
     std::vector<std::string> extras() const override;
 
     /// Writes a binary file in this machine's byte order, which must be little-endian.
-    void write(std::ostream& out, const Points& positions,
-               const FolderChange& change) const override;
+    void write(std::ostream& out, const Points& positions) const override;
 
     const PlyElement& vertices() const { return *table_.find("vertex"); }
     const PlyElement& faces() const { return *table_.find("face"); }

@@ -74,7 +74,7 @@ public:
     }
 
     /// Writes a binary file whatever the file was.
-    void write(std::ostream& out, const Points& positions, const FolderChange&) const override {
+    void write(std::ostream& out, const Points& positions) const override {
         write_binary(out, header_, positions, triangles(), attributes_);
     }
 
