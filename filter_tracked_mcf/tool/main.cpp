@@ -70,9 +70,11 @@ void run(CommandLine line) {
     const FlowReport report = evolve_with_progress(mesh, selection, line);
 
     file.set_quality(report.quality);
-    file.write(mesh, output.stage(), output.folder());
-    if (report_file) report_file->stage_text(report_json(line, report));
-    if (interrupted()) return;  // the end of the last temporary folder ends the program
+    output.write([&](std::ostream& out) { file.write(mesh, out, line.output); });
+    if (report_file) {
+        report_file->write([&](std::ostream& out) { out << report_json(line, report); });
+    }
+    if (interrupted()) return;  // the end of the last temporary file ends the program
     output.commit();
     if (report_file) report_file->commit();
     if (!line.quiet) std::cout << summary(line, report) << std::flush;

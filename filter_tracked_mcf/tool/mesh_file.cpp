@@ -3,11 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 
 #include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/tool/documents/ply_document.h"
-#include "filter_tracked_mcf/tool/file_error.h"
 
 namespace tracked_mcf {
 
@@ -74,18 +72,12 @@ void MeshFile::set_quality(const std::vector<double>& quality) {
     document_->set_quality(quality);
 }
 
-void MeshFile::write(const TriangleMesh& moved, const fs::path& file,
-                     const fs::path& final_folder) const {
+void MeshFile::write(const TriangleMesh& moved, std::ostream& out, const fs::path& file) const {
     const Format* const format = format_of(file);
-    std::ofstream out(file, std::ios::binary);
     if (format == format_of(path_))
         document_->write(out, moved.positions);
     else
         format->convert(out, *document_, moved.positions);
-    out.close();
-    if (out) return;
-    throw UnwritableFile("cannot write " + (final_folder / file.filename()).u8string() +
-                         ": the disk may be full.");
 }
 
 std::string MeshFile::conversion_warning(const fs::path& file) const {

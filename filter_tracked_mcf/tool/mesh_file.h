@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <iosfwd>
 #include <memory>
 #include <string>
 #include <vector>
@@ -39,10 +40,9 @@ public:
     void set_quality(const std::vector<double>& quality);
 
     /// Writes the mesh with the positions of `moved`, which triangle_mesh() made, in the format of
-    /// `file`'s extension; PLY and STL are binary. Throws UnwritableFile, which says that the file
-    /// is in `final_folder`, to which the caller will move it.
-    void write(const TriangleMesh& moved, const std::filesystem::path& file,
-               const std::filesystem::path& final_folder) const;
+    /// the extension of `file`; PLY and STL are binary.
+    void write(const TriangleMesh& moved, std::ostream& out,
+               const std::filesystem::path& file) const;
 
     /// Tells the user what write() leaves out of `file`, and how to keep it; empty if nothing.
     std::string conversion_warning(const std::filesystem::path& file) const;

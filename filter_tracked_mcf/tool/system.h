@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -31,10 +30,5 @@ void call_on_interrupts(void (*handler)(int number));
 /// handler, the program ends when the handler returns. Windows knows no such end: the exit code is
 /// 128 plus the number.
 void die_of_interrupt(int number);
-
-/// Makes a new file ready to be renamed to `old`: gives it the owner and the mode of `old`. Returns
-/// false if the system forbids it, or if `old` has several hard links or is a link itself. On
-/// Windows, a new file has the permissions that its folder gives.
-bool can_replace(const std::filesystem::path& old, const std::filesystem::path& new_file);
 
 }  // namespace tracked_mcf

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -31,14 +30,6 @@ void die_of_interrupt(int number) {
     // Signal handlers may call both functions.
     std::signal(number, SIG_DFL);
     std::raise(number);
-}
-
-bool can_replace(const std::filesystem::path& old, const std::filesystem::path& new_file) {
-    struct stat status {};
-    return stat(old.c_str(), &status) == 0 && status.st_nlink == 1 &&
-           // A change of the owner clears the mode's special bits, so the mode comes second.
-           chown(new_file.c_str(), status.st_uid, status.st_gid) == 0 &&
-           chmod(new_file.c_str(), status.st_mode & 07777) == 0;
 }
 
 }  // namespace tracked_mcf

@@ -64,16 +64,4 @@ void die_of_interrupt(int number) {
     std::_Exit(128 + number);
 }
 
-bool can_replace(const std::filesystem::path& old, const std::filesystem::path& /*new_file*/) {
-    // Renaming would replace a symbolic link instead of the file that it leads to.
-    const DWORD attributes = GetFileAttributesW(old.c_str());
-    if ((attributes & FILE_ATTRIBUTE_REPARSE_POINT) != 0) return false;
-    constexpr DWORD for_all = FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE;
-    const HANDLE file = CreateFileW(old.c_str(), 0, for_all, nullptr, OPEN_EXISTING, 0, nullptr);
-    BY_HANDLE_FILE_INFORMATION information{};
-    const bool known = GetFileInformationByHandle(file, &information) != 0;
-    CloseHandle(file);
-    return known && information.nNumberOfLinks == 1;
-}
-
 }  // namespace tracked_mcf

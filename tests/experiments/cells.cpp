@@ -159,7 +159,8 @@ private:
         write(tracked, "tracked", step);
         write(grid, "grid", step);
         const std::string name = "surface_" + std::to_string(step) + ".ply";
-        file_.write(moved, options_.folder / name, options_.folder);
+        std::ofstream out(options_.folder / name, std::ios::binary);
+        file_.write(moved, out, name);
     }
 
     void write(std::vector<Corners> cells, const std::string& name, int step) const {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <string>
 #include <vector>
@@ -91,8 +92,9 @@ private:
     void save(const TriangleMesh& moved, const std::string& name, int steps) {
         if (options_.folder.empty()) return;
         std::filesystem::create_directories(options_.folder);
-        file_.write(moved, options_.folder / (name + "_" + std::to_string(steps) + ".ply"),
-                    options_.folder);
+        const std::string file = name + "_" + std::to_string(steps) + ".ply";
+        std::ofstream out(options_.folder / file, std::ios::binary);
+        file_.write(moved, out, file);
     }
 
     PinchOptions options_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <string>
 #include <vector>
@@ -161,7 +162,8 @@ private:
         if (options_.folder.empty()) return;
         std::filesystem::create_directories(options_.folder);
         const std::string name = std::to_string(index) + "_" + std::to_string(step) + ".ply";
-        file_.write(moved, options_.folder / name, options_.folder);
+        std::ofstream out(options_.folder / name, std::ios::binary);
+        file_.write(moved, out, name);
     }
 
     StageOptions options_;

@@ -18,8 +18,7 @@ std::string converted(const std::string& content, const std::string& from, const
     const TemporaryFolder folder;
     write_file(folder / ("in." + from), content);
     const MeshFile file(folder / ("in." + from));
-    file.write(file.triangle_mesh(), folder / ("out." + to), folder.path());
-    return read_file(folder / ("out." + to));
+    return written(file, file.triangle_mesh(), "out." + to);
 }
 
 /// Digits that floats do not have, a quadrangle, colours, and texture coordinates with a seam.

@@ -78,8 +78,8 @@ TEST(InterruptsDeathTest, RemoveStagedFiles) {
     const auto interrupt_writing = [&] {
         handle_interrupts();
         OutputFile mesh(folder / "a.ply"), report(folder / "r.json");
-        mesh.stage_text("half");
-        report.stage_text("half");
+        write_text(mesh, "half");
+        write_text(report, "half");
         std::raise(SIGTERM);
     };
     EXPECT_EXIT(interrupt_writing(), KilledBySignal(SIGTERM), "");

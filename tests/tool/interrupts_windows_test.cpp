@@ -66,8 +66,8 @@ TEST(InterruptsDeathTest, RemoveStagedFiles) {
         const auto path = std::filesystem::u8path(std::getenv(variable));
         handle_interrupts();
         OutputFile mesh(path / "a.ply"), report(path / "r.json");
-        mesh.stage_text("half");
-        report.stage_text("half");
+        write_text(mesh, "half");
+        write_text(report, "half");
         press_keys();
         wait_for_interrupt();
     };

@@ -21,8 +21,7 @@ std::string written_with_x_doubled(const std::string& content) {
     MeshFile file(folder / "in.obj");
     TriangleMesh mesh = file.triangle_mesh();
     for (auto& p : mesh.positions) p.x() *= 2;
-    file.write(mesh, folder / "out.obj", folder.path());
-    return read_file(folder / "out.obj");
+    return written(file, mesh, "out.obj");
 }
 
 TEST(Obj, EverythingButPositionsStaysToTheLetter) {

@@ -16,8 +16,7 @@ std::string written_with_x_doubled(const std::string& content) {
     MeshFile file(folder / "in.off");
     TriangleMesh mesh = file.triangle_mesh();
     for (auto& p : mesh.positions) p.x() *= 2;
-    file.write(mesh, folder / "out.off", folder.path());
-    return read_file(folder / "out.off");
+    return written(file, mesh, "out.off");
 }
 
 TEST(Off, PolygonsColoursAndCommentsStayToTheLetter) {

@@ -17,7 +17,7 @@ TEST(OutputFileOnWindows, LeavesAFileThatAnotherProgramHasOpen) {
     write_file(folder / "a.ply", "before");
     const auto commit = [&] {
         OutputFile output(folder / "a.ply");
-        output.stage_text("after");
+        write_text(output, "after");
         output.commit();
     };
     {

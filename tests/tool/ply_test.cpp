@@ -16,8 +16,7 @@ std::string written_with_x_doubled(const std::string& content) {
     MeshFile file(folder / "in.ply");
     TriangleMesh mesh = file.triangle_mesh();
     for (auto& p : mesh.positions) p.x() *= 2;
-    file.write(mesh, folder / "out.ply", folder.path());
-    return read_file(folder / "out.ply");
+    return written(file, mesh, "out.ply");
 }
 
 const std::string kPlain =
@@ -211,19 +210,18 @@ TEST(Ply, TheQualityReplacesThePropertyOfThatNameOrComesLast) {
     const std::string rest = "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
     const std::string face = packed(std::uint8_t{3}, 0, 1, 2);
     const TemporaryFolder folder;
-    const auto written = [&](const std::string& content) {
+    const auto with_quality = [&](const std::string& content) {
         write_file(folder / "in.ply", content);
         MeshFile file(folder / "in.ply");
         file.set_quality({0.25, -1, 1e-9});
-        file.write(file.triangle_mesh(), folder / "out.ply", folder.path());
-        return read_file(folder / "out.ply");
+        return written(file, file.triangle_mesh(), "out.ply");
     };
-    EXPECT_EQ(written(header + coordinates("float") + rest +
-                      packed(0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 1.f, .5f) + face),
+    EXPECT_EQ(with_quality(header + coordinates("float") + rest +
+                           packed(0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 1.f, .5f) + face),
               header + coordinates("double") + "property double quality\n" + rest +
                   packed(0., 0., 0., .25, 1., 0., 0., -1., 0., 1., .5, 1e-9) + face);
-    EXPECT_EQ(written(header + "property float quality\n" + coordinates("double") + rest +
-                      packed(9.f, 0., 0., 0., 9.f, 1., 0., 0., 9.f, 0., 1., .5) + face),
+    EXPECT_EQ(with_quality(header + "property float quality\n" + coordinates("double") + rest +
+                           packed(9.f, 0., 0., 0., 9.f, 1., 0., 0., 9.f, 0., 1., .5) + face),
               header + "property double quality\n" + coordinates("double") + rest +
                   packed(.25, 0., 0., 0., -1., 1., 0., 0., 1e-9, 0., 1., .5) + face);
 }

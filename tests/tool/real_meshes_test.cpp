@@ -31,12 +31,12 @@ TEST_P(RealMeshes, ComeBackInEveryFormat) {
     EXPECT_EQ(mesh.positions.size(), GetParam().vertices);
     EXPECT_EQ(mesh.triangles.size(), GetParam().triangles);
     for (const char* name : {"a.ply", "a.obj", "a.off"}) {
-        file.write(mesh, folder / name, folder.path());
+        write_file(folder / name, written(file, mesh, name));
         const TriangleMesh read = MeshFile(folder / name).triangle_mesh();
         EXPECT_EQ(read.positions, mesh.positions) << name;
         EXPECT_EQ(read.triangles.size(), mesh.triangles.size()) << name;
     }
-    file.write(mesh, folder / "a.stl", folder.path());
+    write_file(folder / "a.stl", written(file, mesh, "a.stl"));
     EXPECT_EQ(MeshFile(folder / "a.stl").triangle_mesh().triangles.size(), mesh.triangles.size());
 }
 
@@ -55,10 +55,8 @@ INSTANTIATE_TEST_SUITE_P(Shared, RealMeshes,
 TEST(RealObj, TexturesAreKeptToTheLetter) {
     const auto path = std::filesystem::path(TRACKED_MCF_SHARED_MESHES) / "bunny10k_textured.obj";
     if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not here";
-    const TemporaryFolder folder;
-    MeshFile file(path);
-    file.write(file.triangle_mesh(), folder / "a.obj", path.parent_path());
-    EXPECT_EQ(read_file(folder / "a.obj"), read_file(path));
+    const MeshFile file(path);
+    EXPECT_EQ(written(file, file.triangle_mesh(), "a.obj"), read_file(path));
 }
 
 }  // namespace

@@ -25,8 +25,7 @@ TEST(Stl, TrianglesColoursAndOrderAreKept) {
     TriangleMesh mesh = file.triangle_mesh();
     ASSERT_EQ(mesh.triangles, (std::vector<Triangle>{{0, 1, 2}, {3, 4, 5}}));
     for (auto& p : mesh.positions) p.x() *= 2;
-    file.write(mesh, folder / "out.stl", folder.path());
-    EXPECT_EQ(read_file(folder / "out.stl"),
+    EXPECT_EQ(written(file, mesh, "out.stl"),
               header + triangle_bytes(0, 0, 1, 2, red) + triangle_bytes(0, 0, 1, 8, blue));
 }
 
@@ -36,8 +35,7 @@ TEST(Stl, AsciiIsReadAndBecomesBinary) {
                "solid thing\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1.5 0 0\n"
                "vertex 0 1 0\nendloop\nendfacet\nendsolid thing\n");
     MeshFile file(folder / "in.stl");
-    file.write(file.triangle_mesh(), folder / "out.stl", folder.path());
-    EXPECT_EQ(read_file(folder / "out.stl").substr(80),
+    EXPECT_EQ(written(file, file.triangle_mesh(), "out.stl").substr(80),
               packed(1u) + triangle_bytes(0, 0, 1, 1.5, 0));
 }
 

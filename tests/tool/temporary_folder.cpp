@@ -43,6 +43,16 @@ void write_file(const fs::path& path, const std::string& content) {
     if (!file) throw std::runtime_error("cannot write " + path.string());
 }
 
+std::string written(const MeshFile& file, const TriangleMesh& mesh, const std::string& name) {
+    std::ostringstream out;
+    file.write(mesh, out, name);
+    return out.str();
+}
+
+void write_text(OutputFile& output, const std::string& text) {
+    output.write([&](std::ostream& out) { out << text; });
+}
+
 namespace {
 
 /// Lets the system's shell run a command. Returns its exit code, or -1 if a signal ended it.

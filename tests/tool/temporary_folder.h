@@ -4,6 +4,9 @@
 #include <filesystem>
 #include <string>
 
+#include "filter_tracked_mcf/tool/mesh_file.h"
+#include "filter_tracked_mcf/tool/output_file.h"
+
 namespace tracked_mcf {
 
 /// A folder for the files of one test. The destructor removes it with all files.
@@ -25,6 +28,13 @@ private:
 
 std::string read_file(const std::filesystem::path& path);
 void write_file(const std::filesystem::path& path, const std::string& content);
+
+/// Returns the bytes of `file` with the positions of `mesh`, in the format of the extension of
+/// `name`.
+std::string written(const MeshFile& file, const TriangleMesh& mesh, const std::string& name);
+
+/// Writes `text`, and does not commit it.
+void write_text(OutputFile& output, const std::string& text);
 
 /// The results of a run of the program tracked_mcf.
 struct ProgramRun {
