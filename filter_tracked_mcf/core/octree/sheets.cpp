@@ -26,14 +26,49 @@ FinestElements group_fragments(const RawVector<FragmentEntry>& fragments, const 
     return elements;
 }
 
+/// The last fragment of a cell with each key. A hash table with linear probing: an entry whose
+/// fragment is not one of the cell's is empty, so the table need not be cleared for the next cell.
+class LastFragments {
+public:
+    /// Starts with the cell of the fragments [begin, end). Each may have six keys.
+    void start(std::int32_t begin, std::int32_t end) {
+        begin_ = begin;
+        end_ = end;
+        size_ = std::uint64_t{8} * static_cast<std::uint64_t>(end - begin);
+        if (entries_.size() < size_) entries_.resize(size_);
+    }
+
+    /// Makes `fragment` the last one with the key. Returns the one before it, or kNone.
+    std::int32_t exchange(std::uint32_t key, std::int32_t fragment) {
+        const std::uint32_t hash = key * 0x9E3779B1U;  // 2^32 over the golden ratio
+        for (std::uint64_t i = hash * size_ >> 32U;; i = i + 1 < size_ ? i + 1 : 0) {
+            Entry& entry = entries_[i];
+            const bool empty = entry.fragment < begin_ || entry.fragment >= end_;
+            if (!empty && entry.key != key) continue;
+            entry.key = key;
+            const std::int32_t last = std::exchange(entry.fragment, fragment);
+            return empty ? kNone : last;
+        }
+    }
+
+    static constexpr std::int32_t kNone = -1;
+
+private:
+    struct Entry {
+        std::uint32_t key = 0;
+        std::int32_t fragment = kNone;
+    };
+
+    std::int32_t begin_ = 0, end_ = 0;
+    std::uint64_t size_ = 0;  ///< entries of this cell; the largest cell so far may have had more
+    std::vector<Entry> entries_;
+};
+
 /// Finds the sheets of one cell at a time.
 class SheetFinder {
 public:
     SheetFinder(const MeshTopology& topology, RawVector<FragmentEntry>& fragments)
-        : topology_(topology),
-          fragments_(fragments),
-          last_with_vertex_(topology.welded.size(), kNone),
-          last_with_edge_(static_cast<std::size_t>(topology.edge_count), kNone) {}
+        : topology_(topology), fragments_(fragments) {}
 
     /// Sorts the fragments [begin, end) of a cell by sheet and flags the first fragment of each
     /// sheet in `begins_sheet`.
@@ -55,44 +90,41 @@ public:
     }
 
 private:
-    static constexpr std::int32_t kNone = -1;
+    /// Distinguishes the key of an edge from that of a vertex.
+    static constexpr std::uint32_t kEdge = std::uint32_t{1} << 31U;
 
     /// Joins the fragments [begin, end) of a cell in sheets_. Returns true, and stops, as soon as
     /// they are one sheet.
     bool are_one_sheet(std::int32_t begin, std::int32_t end) {
         sheets_.reset(end - begin);
+        last_.start(begin, end);
         std::int32_t sheet_count = end - begin;
+        const auto join = [&](std::uint32_t key, std::int32_t fragment) {
+            const std::int32_t other = last_.exchange(key, fragment);
+            if (other == LastFragments::kNone) return;
+            if (sheets_.unite(other - begin, fragment - begin)) --sheet_count;
+        };
         for (std::int32_t i = begin; i < end; ++i) {
             if (sheet_count == 1) return true;
             const FragmentEntry& fragment = fragments_[i];
             const Triangle& vertices = topology_.triangles[fragment.triangle];
             const auto& edges = topology_.edges[fragment.triangle];
             for (int k = 0; k < 3; ++k) {
-                if (has_bit(fragment.corners, k)) {
-                    sheet_count -= join(last_with_vertex_[vertices[k]], i, begin, end);
-                }
+                const auto vertex = static_cast<std::uint32_t>(vertices[k]);
+                const auto edge = static_cast<std::uint32_t>(edges[k]);
+                if (has_bit(fragment.corners, k)) join(vertex, i);
                 if (has_bit(fragment.edges, k) && edges[k] != MeshTopology::kNoEdge) {
-                    sheet_count -= join(last_with_edge_[edges[k]], i, begin, end);
+                    join(kEdge | edge, i);
                 }
             }
         }
         return sheet_count == 1;
     }
 
-    /// Joins a fragment to `last`, the last fragment with the same vertex or edge, if that lies in
-    /// the same cell. Sets `last` to the fragment. Returns by how much the number of sheets fell.
-    int join(std::int32_t& last, std::int32_t fragment, std::int32_t cell_begin,
-             std::int32_t cell_end) {
-        const std::int32_t other = std::exchange(last, fragment);
-        if (other < cell_begin || other >= cell_end) return 0;
-        return sheets_.unite(other - cell_begin, fragment - cell_begin) ? 1 : 0;
-    }
-
     const MeshTopology& topology_;
     RawVector<FragmentEntry>& fragments_;
     DisjointSets sheets_{0};  ///< of the cell's fragments, numbered from 0
-    std::vector<std::int32_t> last_with_vertex_;
-    std::vector<std::int32_t> last_with_edge_;
+    LastFragments last_;
     std::vector<std::pair<std::int32_t, FragmentEntry>> labelled_;
 };
 

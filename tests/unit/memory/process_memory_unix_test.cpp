@@ -4,7 +4,6 @@
 #include "filter_tracked_mcf/core/memory/process_memory.h"
 
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -12,29 +11,10 @@
 
 #include "filter_tracked_mcf/core/errors.h"
 #include "tests/unit/flows.h"
+#include "tests/unit/memory/address_space_limit.h"
 
 namespace tracked_mcf {
 namespace {
-
-/// Limits the address space of this process to `bytes` more than it has, for the scope's life.
-class AddressSpaceLimit {
-public:
-    explicit AddressSpaceLimit(std::int64_t bytes) {
-        getrlimit(RLIMIT_AS, &before_);
-        std::ifstream statm("/proc/self/statm");
-        std::int64_t pages = 0;
-        statm >> pages;
-        rlimit limit = before_;
-        limit.rlim_cur = static_cast<rlim_t>(pages * sysconf(_SC_PAGESIZE) + bytes);
-        setrlimit(RLIMIT_AS, &limit);
-    }
-    ~AddressSpaceLimit() { setrlimit(RLIMIT_AS, &before_); }
-    AddressSpaceLimit(const AddressSpaceLimit&) = delete;
-    AddressSpaceLimit& operator=(const AddressSpaceLimit&) = delete;
-
-private:
-    rlimit before_{};
-};
 
 TEST(NotEnoughMemory, LeavesTheMeshAsItWas) {
     if (TRACKED_MCF_SANITIZED) GTEST_SKIP() << "sanitizers need the whole address space";
