@@ -18,14 +18,9 @@ struct Piece {
     Cell cell;
 };
 
-/// Returns the faces of a cell, as bits, through which one gets nearer to the cell at an offset.
-int faces_towards(const Cell& offset) {
-    int faces = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-        if (offset[axis] < 0) faces |= 1 << (2 * axis);
-        if (offset[axis] > 0) faces |= 2 << (2 * axis);
-    }
-    return faces;
+/// Returns the number of faces that one crosses from the cell `a` to the cell `b`.
+int steps_between(const Cell& a, const Cell& b) {
+    return (b - a).cwiseAbs().sum();
 }
 
 /// Links pieces in touching cells. Leaves out most copies of a link before they take memory, since
@@ -50,35 +45,22 @@ private:
     static constexpr std::size_t kWorthSearching = 64;
     static constexpr std::size_t kRecent = 1024;
 
-    /// Two pieces whose cells share only an edge or a corner.
-    struct Diagonal {
-        std::size_t first, second;
-        int faces;  ///< of the first cell, towards the second
-    };
-
     /// Compares all pairs of pieces.
     void link_pairs(const std::vector<Piece>& pieces) {
-        faces_.assign(pieces.size(), 0);
-        diagonals_.clear();
-        for (std::size_t i = 1; i < pieces.size(); ++i) {
-            for (std::size_t j = 0; j < i; ++j) {
-                const Cell offset = pieces[i].cell - pieces[j].cell;
-                const auto distance = offset.cwiseAbs();
-                if (distance.maxCoeff() > 1) continue;
-                if (distance.sum() > 1) {
-                    diagonals_.push_back({j, i, faces_towards(offset)});
-                    continue;
-                }
-                faces_[i] |= faces_towards(-offset);
-                faces_[j] |= faces_towards(offset);
-                add(pieces[j].element, pieces[i].element);
+        for (auto second = pieces.begin(); second != pieces.end(); ++second) {
+            for (auto first = pieces.begin(); first != second; ++first) {
+                const Cell offset = second->cell - first->cell;
+                if (offset.cwiseAbs().maxCoeff() > 1) continue;
+                const int steps = steps_between(first->cell, second->cell);
+                // A piece one step on the way makes the link unnecessary: its cell touches both
+                // cells at all corners that they share.
+                const auto on_the_way = [&](const Piece& piece) {
+                    return steps_between(first->cell, piece.cell) == 1 &&
+                           steps_between(piece.cell, second->cell) == steps - 1;
+                };
+                if (steps > 1 && std::any_of(pieces.begin(), pieces.end(), on_the_way)) continue;
+                add(first->element, second->element);
             }
-        }
-        // A piece behind a face of the first cell towards the second makes the link unnecessary:
-        // its cell touches both cells at all corners that they share.
-        for (const Diagonal& pair : diagonals_) {
-            if ((faces_[pair.first] & pair.faces) != 0) continue;
-            add(pieces[pair.first].element, pieces[pair.second].element);
         }
     }
 
@@ -110,8 +92,6 @@ private:
 
     std::vector<Link>& links_;
     std::array<Link, kRecent> recent_;
-    std::vector<int> faces_;  ///< per piece: the faces of its cell with another piece behind them
-    std::vector<Diagonal> diagonals_;
 };
 
 /// Returns, as bit `axis`, whether the point lies in a grid plane across that axis.
