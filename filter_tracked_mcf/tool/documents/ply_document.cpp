@@ -6,6 +6,7 @@
 #include <optional>
 #include <ostream>
 
+#include "filter_tracked_mcf/tool/documents/binary.h"
 #include "filter_tracked_mcf/tool/documents/text.h"
 #include "filter_tracked_mcf/tool/file_error.h"
 
@@ -154,7 +155,7 @@ void write_rows(std::ostream& out, const PlyElement& element, const Points* posi
         const int normal = normals.empty() ? -1 : index_in(kNormal, property.name);
         if (coordinate >= 0) number = (*positions)[row][coordinate];
         if (normal >= 0 && !normals[row].isZero(0)) number = normals[row][normal];
-        out.write(reinterpret_cast<const char*>(&number), sizeof number);
+        out << as_bytes(number);
     };
     element.for_each_field(write_field);
 }
@@ -248,19 +249,15 @@ void convert_to_ply(std::ostream& out, const FileDocument& source, const Points&
     out << "element face " << polygons.size() << "\nproperty list "
         << (short_lists ? "uchar" : "int") << " int vertex_indices\nend_header\n";
     for (std::size_t i = 0; i < positions.size(); ++i) {
-        out.write(reinterpret_cast<const char*>(positions[i].data()), 3 * sizeof(double));
-        if (!colors.empty()) {
-            out.write(reinterpret_cast<const char*>(colors[i].data()), sizeof colors[i]);
-        }
-        if (!quality.empty()) {
-            out.write(reinterpret_cast<const char*>(&quality[i]), sizeof quality[i]);
-        }
+        out << as_bytes(positions[i]);
+        if (!colors.empty()) out << as_bytes(colors[i]);
+        if (!quality.empty()) out << as_bytes(quality[i]);
     }
     for (std::size_t i = 0; i < polygons.size(); ++i) {
         // In the little-endian order the first byte is the short length.
         const auto count = static_cast<std::int32_t>(polygons.corner_count(i));
-        out.write(reinterpret_cast<const char*>(&count), short_lists ? 1 : sizeof count);
-        out.write(reinterpret_cast<const char*>(&polygons.corners[polygons.first[i]]),
+        out << as_bytes(count).substr(0, short_lists ? 1 : sizeof count);
+        out.write(as_bytes(polygons.corners[polygons.first[i]]).data(),
                   count * static_cast<std::streamsize>(sizeof(std::int32_t)));
     }
 }

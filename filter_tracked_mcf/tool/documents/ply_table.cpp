@@ -9,6 +9,7 @@
 #include <utility>
 #include <variant>
 
+#include "filter_tracked_mcf/tool/documents/binary.h"
 #include "filter_tracked_mcf/tool/documents/text.h"
 #include "filter_tracked_mcf/tool/file_error.h"
 
@@ -55,7 +56,7 @@ void append_text(std::string_view text, PlyType type, std::string& bytes) {
         } else {
             number = static_cast<Number>(parse_number(text));
         }
-        bytes.append(reinterpret_cast<const char*>(&number), sizeof number);
+        bytes += as_bytes(number);
     });
 }
 
@@ -213,8 +214,7 @@ const char* name_of(PlyType type) {
 
 double number_at(const char* bytes, PlyType type) {
     return with_type(type, [bytes](auto number) {
-        std::memcpy(&number, bytes, sizeof number);
-        return static_cast<double>(number);
+        return static_cast<double>(number_from<decltype(number)>(bytes));
     });
 }
 
@@ -240,7 +240,7 @@ void PlyElement::set_numbers(std::string_view property_name, const std::vector<d
     for_each_field([&](std::size_t row, const PlyProperty& property, std::string_view bytes) {
         if (&property != replaced) changed += bytes;
         if (&property != (replaced ? replaced : &properties.back())) return;
-        changed.append(reinterpret_cast<const char*>(&numbers[row]), sizeof(double));
+        changed += as_bytes(numbers[row]);
     });
     rows = std::move(changed);
     const PlyProperty number{std::string(property_name), PlyType::Double, PlyType::None};

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <Eigen/Geometry>
-#include <cstring>
 #include <ostream>
 
+#include "filter_tracked_mcf/tool/documents/binary.h"
 #include "filter_tracked_mcf/tool/documents/file_document.h"
 #include "filter_tracked_mcf/tool/documents/text.h"
 #include "filter_tracked_mcf/tool/file_error.h"
@@ -15,20 +15,8 @@ namespace {
 /// (the normal and three vertices) and 2 bytes, which some programs use for a colour.
 constexpr std::size_t kHeaderSize = 80, kCountSize = 4, kFloatsSize = 48, kTriangleSize = 50;
 
-template <class Number>
-Number load(const char* bytes) {
-    Number number;
-    std::memcpy(&number, bytes, sizeof number);
-    return number;
-}
-
-template <class Number>
-void store(std::ostream& out, Number number) {
-    out.write(reinterpret_cast<const char*>(&number), sizeof number);
-}
-
-void store_floats(std::ostream& out, const Eigen::Vector3d& v) {
-    for (int axis = 0; axis < 3; ++axis) store(out, static_cast<float>(v[axis]));
+void write_floats(std::ostream& out, const Eigen::Vector3d& v) {
+    out << as_bytes(Eigen::Vector3f(v.cast<float>()));
 }
 
 /// Writes a binary file. `attributes` has the last two bytes of each triangle; empty is all zero.
@@ -37,16 +25,16 @@ void write_binary(std::ostream& out, std::string header, const Points& positions
                   const std::vector<std::uint16_t>& attributes) {
     header.resize(kHeaderSize, ' ');
     out << header;
-    store(out, static_cast<std::uint32_t>(triangles.size()));
+    out << as_bytes(static_cast<std::uint32_t>(triangles.size()));
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         std::array<Eigen::Vector3d, 3> corners;
         for (std::size_t k = 0; k < 3; ++k) {
             corners[k] = positions[static_cast<std::size_t>(triangles[i][k])];
         }
         const Eigen::Vector3d area = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
-        store_floats(out, area.stableNormalized());
-        for (const Eigen::Vector3d& corner : corners) store_floats(out, corner);
-        store(out, attributes.empty() ? std::uint16_t{0} : attributes[i]);
+        write_floats(out, area.stableNormalized());
+        for (const Eigen::Vector3d& corner : corners) write_floats(out, corner);
+        out << as_bytes(attributes.empty() ? std::uint16_t{0} : attributes[i]);
     }
 }
 
@@ -84,7 +72,7 @@ private:
         if (content.size() < kHeaderSize + kCountSize) {
             return "it is neither a binary nor an ASCII STL file";
         }
-        const auto count = load<std::uint32_t>(content.data() + kHeaderSize);
+        const auto count = number_from<std::uint32_t>(content.data() + kHeaderSize);
         if (count == 0) return "it has no triangles";
         const std::size_t announced = kHeaderSize + kCountSize + kTriangleSize * count;
         if (content.size() == announced) return {};
@@ -97,13 +85,13 @@ private:
         content.remove_prefix(kHeaderSize + kCountSize);
         for (; !content.empty(); content.remove_prefix(kTriangleSize)) {
             const auto number = [&](std::size_t i) {
-                return double{load<float>(content.data() + i * sizeof(float))};
+                return double{number_from<float>(content.data() + i * sizeof(float))};
             };
             for (std::size_t i = 3; i < 12; i += 3) {
                 add_corner({number(i), number(i + 1), number(i + 2)});
             }
             polygons_.close();
-            attributes_.push_back(load<std::uint16_t>(content.data() + kFloatsSize));
+            attributes_.push_back(number_from<std::uint16_t>(content.data() + kFloatsSize));
         }
     }
 
