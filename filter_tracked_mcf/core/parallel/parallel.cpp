@@ -3,11 +3,28 @@
 
 #ifdef _OPENMP
 #include <omp.h>
+#ifndef _WIN32
+#include <pthread.h>
+#endif
 #endif
 
 namespace tracked_mcf {
 
 #ifdef _OPENMP
+
+namespace {
+
+std::atomic<bool> forked{false};
+
+}  // namespace
+
+bool may_use_threads() {
+#ifndef _WIN32  // Windows does not fork.
+    [[maybe_unused]] static const int registered =
+        pthread_atfork(nullptr, nullptr, [] { forked = true; });
+#endif
+    return !forked;
+}
 
 ThreadCountScope::ThreadCountScope(int threads) : previous_(omp_get_max_threads()) {
     if (threads > 0) omp_set_num_threads(threads);
@@ -25,6 +42,10 @@ std::size_t thread_number() {
     return static_cast<std::size_t>(omp_get_thread_num());
 }
 #else
+bool may_use_threads() {
+    return false;
+}
+
 ThreadCountScope::ThreadCountScope(int /*threads*/) : previous_(1) {}
 
 ThreadCountScope::~ThreadCountScope() {

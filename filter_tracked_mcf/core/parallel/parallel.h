@@ -32,6 +32,10 @@ private:
     int previous_;
 };
 
+/// Returns whether a loop may use several threads. OpenMP's threads do not survive fork, and a
+/// child would wait for them for ever: once a process has asked, the processes that it forks may
+/// not.
+bool may_use_threads();
 /// Returns the largest number of threads of a loop that the caller starts.
 std::size_t thread_count();
 /// Returns the caller's index, from 0, among the threads of the current loop.
@@ -47,7 +51,7 @@ void parallel_for(std::int64_t count, const Body& body,
     std::exception_ptr failure;
     std::atomic<bool> failed{false};
 #ifdef _OPENMP  // Else, the loop runs on the caller's thread.
-#pragma omp parallel for schedule(dynamic, 1) if (count >= worth_threads)
+#pragma omp parallel for schedule(dynamic, 1) if (count >= worth_threads && may_use_threads())
 #endif
     for (std::int64_t i = 0; i < count; ++i) {
         if (failed.load(std::memory_order_relaxed)) continue;

@@ -211,6 +211,20 @@ def check_quality(apply, tool, mesh, work):
             sys.exit(f"the quality '{name}' differs by {abs(qualities(meshes) - expected).max()}")
 
 
+def smoothed(mesh):
+    meshes = load(mesh)
+    meshes.apply_filter(FILTER, **COARSE)
+    return vertices(meshes).tobytes()
+
+
+def check_fork(mesh):
+    """A forked process must give the same bits as its parent, which has used OpenMP's threads."""
+    expected = smoothed(mesh)
+    with multiprocessing.get_context("fork").Pool(1) as pool:
+        if pool.apply_async(smoothed, (mesh,)).get(timeout=120) != expected:
+            sys.exit("the positions differ in a forked process")
+
+
 def check_script(plugin, tool, page, mesh, work):
     """The result of the page's script must be that of the tool with the script's detail size."""
     text = pathlib.Path(page).read_text(encoding="utf-8")
@@ -243,6 +257,7 @@ def main(plugin, tool, page, work, *meshes):
     check_detail_size(apply, tool, meshes[0], work)
     check_quality(apply, tool, meshes[0], work)
     check_selection(apply, meshes[0])
+    check_fork(meshes[0])
     refuse_all(plugin, meshes[0])
 
 
