@@ -95,17 +95,24 @@ StepResult Stepper::advance(const FlowState& from, const StepSize& size, const C
                          : from.multipliers;
 
     const Stopwatch assembling;
-    assemble(from, delta);  // A = D + δS, b = -δ S x(t)
+    // A = D + δS, b = -δ S x(t)
+    assemble_elements(elements_, from.displacement,
+                      {1.0F, static_cast<float>(delta), parameters_.flow, parameters_.order > 1},
+                      systems_);
     report.area = systems_.area * elements_.grid.cell_size * elements_.grid.cell_size;
     report.collapsed_samples = systems_.collapsed_samples;
     if (first_area_ == 0) first_area_ = systems_.area;
     if (systems_.area < kVanishedArea * first_area_) return Stop::Vanished;
     predict(care.removes_drift ? std::vector<Scaling>() : from.scalings, from.displacement);
-    add_curve_constraint(from, delta, to.multipliers);  // A += δη C, b += δ (n + λ) - δη C u
-    stabilize(delta);                                   // A += κ (δ + 0.1) N
-    constrain_pinches(to.constrained);
+    // A += δη C, b += δ (n + λ) - δη C u
+    if (constrains_curve()) {
+        curve_constraint_.add(from.displacement, to.multipliers, delta, systems_);
+    }
+    // A += κ (δ + 0.1) N
+    stabilization_.add(stabilization_of(parameters_), delta, systems_.matrices);
     // Constrained unknowns: zero rows and columns of A. When a surface shrinks, its mass shrinks
     // and its stiffness does not.
+    constrain_pinches(to.constrained);
     solver_->take(systems_.matrices, to.constrained,
                   systems_.area > 0 ? delta * first_area_ / systems_.area : delta);
     report.assemble_seconds += assembling.seconds();
@@ -131,12 +138,6 @@ StepResult Stepper::advance(const FlowState& from, const StepSize& size, const C
     return to;
 }
 
-void Stepper::assemble(const FlowState& from, double delta) {
-    assemble_elements(elements_, from.displacement,
-                      {1.0F, static_cast<float>(delta), parameters_.flow, parameters_.order > 1},
-                      systems_);
-}
-
 void Stepper::predict(const std::vector<Scaling>& scalings, const Coefficients& displacement) {
     prediction_.embedding.resize(0, 3);
     if (scalings.empty()) return;
@@ -149,15 +150,6 @@ void Stepper::predict(const std::vector<Scaling>& scalings, const Coefficients& 
         from_centre += displacement.row(unknown);
     });
     multiply(elements_, systems_.matrices, prediction_.embedding, prediction_.products);
-}
-
-void Stepper::add_curve_constraint(const FlowState& from, double delta,
-                                   const std::vector<Eigen::Vector3d>& multipliers) {
-    if (constrains_curve()) curve_constraint_.add(from.displacement, multipliers, delta, systems_);
-}
-
-void Stepper::stabilize(double delta) {
-    stabilization_.add(stabilization_of(parameters_), delta, systems_.matrices);
 }
 
 void Stepper::constrain_pinches(std::vector<std::uint8_t>& constrained) {
@@ -216,22 +208,17 @@ Coefficients Stepper::step_of(int order) const {
 
 void Stepper::remove_drift_from(Coefficients& step, const FlowState& from,
                                 const std::vector<std::uint8_t>& constrained) const {
-    ElementSystems masses;
-    assemble_elements(elements_, from.displacement, {1.0F, 0.0F, parameters_.flow, false}, masses);
-    remove_drift(elements_, component_of_, masses.matrices, constrained_components(constrained),
-                 step);
-}
-
-std::vector<std::uint8_t> Stepper::constrained_components(
-    const std::vector<std::uint8_t>& constrained) const {
-    std::vector<std::uint8_t> components(static_cast<std::size_t>(component_count(elements_)), 0);
+    // Flags of the components that a boundary or a constrained unknown holds.
+    std::vector<std::uint8_t> held(static_cast<std::size_t>(component_count(elements_)), 0);
     for_each_unknown(elements_, component_of_, [&](std::int32_t unknown, std::int32_t component) {
-        if (constrained[unknown] != 0) components[component] = 1;
+        if (constrained[unknown] != 0) held[component] = 1;
     });
     for (const CurveSample& sample : elements_.curve_samples) {
-        if (constrains_curve()) components[component_of_[sample.element]] = 1;
+        if (constrains_curve()) held[component_of_[sample.element]] = 1;
     }
-    return components;
+    ElementSystems masses;
+    assemble_elements(elements_, from.displacement, {1.0F, 0.0F, parameters_.flow, false}, masses);
+    remove_drift(elements_, component_of_, masses.matrices, held, step);
 }
 
 const Coefficients& Stepper::pressure_response(const FlowState& from, const Care& care,

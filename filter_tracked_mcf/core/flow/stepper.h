@@ -66,6 +66,9 @@ public:
     /// d = x(t+δ) - x(t), with the stabilisation and the constraints that the parameters ask for,
     /// and adds d to the embedding. A step of order m solves m times, see FlowParameters::order.
     ///
+    /// In the code, n is the conormal and λ the multiplier of the curve constraint, C its matrix
+    /// and u its displacement; N is the matrix of the stabilisation.
+    ///
     /// Returns Stop::Vanished if `from` has almost no area, Stop::NothingMoves if it has no free
     /// unknown, and Stop::StepFailed if the solver reaches nothing, or if the step takes the
     /// surface where it cannot be (confinement.h). Sets the report's area and collapsed samples to
@@ -104,24 +107,14 @@ private:
         double loss(std::int32_t component, int order, int all_orders) const;
     };
 
-    // The parts of a step, in order. n is the conormal and λ the multiplier of the curve
-    // constraint, C its matrix and u its displacement; N is the matrix of the stabilisation.
-    void assemble(const FlowState& from, double delta);  // A = D + δS, b = -δ S x(t)
     void predict(const std::vector<Scaling>& scalings, const Coefficients& displacement);
-    void add_curve_constraint(const FlowState& from, double delta,
-                              const std::vector<Eigen::Vector3d>& multipliers);
-    void stabilize(double delta);
-    void constrain_pinches(std::vector<std::uint8_t>& constrained);
-    void solve(double tolerance, StepReport& report);
-
     bool predicts() const { return prediction_.embedding.size() > 0; }
     void subtract_prediction(int order);  // b -= A p, with p the prediction for the order
+    void constrain_pinches(std::vector<std::uint8_t>& constrained);
+    void solve(double tolerance, StepReport& report);  // A d = b, and again for a greater order
     Coefficients step_of(int order) const;
     void remove_drift_from(Coefficients& step, const FlowState& from,
                            const std::vector<std::uint8_t>& constrained) const;
-    /// Returns flags, per component, of those that a boundary or a constrained unknown holds.
-    std::vector<std::uint8_t> constrained_components(
-        const std::vector<std::uint8_t>& constrained) const;
     bool constrains_curve() const { return parameters_.boundary != BoundaryCondition::LockedCells; }
     const Supports& supports();
 
