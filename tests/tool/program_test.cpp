@@ -283,7 +283,6 @@ TEST_F(Program, AWarningNamesTheDepthThatResolvesTheDetail) {
                    "([0-9]+).\n")))
         << errors;
     EXPECT_THAT(errors_at(depth[1]), IsEmpty());
-    EXPECT_THAT(errors_at("0"), IsEmpty());
 }
 
 TEST_F(Program, FlowsDiffer) {
