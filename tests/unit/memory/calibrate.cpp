@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <Eigen/Dense>
+#include <cmath>
 #include <cstdio>
 #include <exception>
 #include <fstream>
@@ -31,6 +32,7 @@ using Quantities = Eigen::Matrix<double, kQuantities, 1>;
 
 struct Measurement {
     int depth = 0;
+    double unknowns = 0;
     Quantities quantities;
     double peak = 0, clipping_peak = 0;
     double estimate = 0, clipping_estimate = 0;
@@ -65,6 +67,7 @@ Measurement measure(const Flow& flow) {
     });
     result.peak = peak();
     result.depth = report.depth;
+    result.unknowns = static_cast<double>(report.unknowns);
     const SurfaceSize size = size_of(Domain(initial, flow.parameters.boundary));
     const Grid grid = enclosing_grid(initial, report.depth);
     const ExpectedCounts counts = expected_counts(size, grid, flow.parameters);
@@ -166,7 +169,9 @@ void calibrate(const std::vector<std::pair<std::string, std::function<TriangleMe
         const auto automatic = measure_apart({name, make, "free", with_option("free", 0)});
         if (automatic.empty()) continue;
         const int depth = automatic[0].depth;
-        for (const int offset : {0, -2, 1}) {
+        for (const int offset : {0, -2, 1, 2, 3, 4}) {
+            // Depths finer than the mesh, but not the largest flows.
+            if (offset > 1 && std::ldexp(automatic[0].unknowns, 2 * offset) > 4e5) break;
             double plain_peak = 0;
             for (const char* option : {"free", "area", "volume", "order 2", "w-cycle", "w-cycle 12",
                                        "locked", "1 sample", "12 samples", "joined", "conformal"}) {
@@ -211,6 +216,7 @@ int main(int count, char** arguments) {
     using namespace tracked_mcf;
     std::vector<std::pair<std::string, std::function<TriangleMesh()>>> meshes = {
         {"sphere", [] { return shapes::geodesic_sphere(100); }},
+        {"coarse sphere", [] { return shapes::geodesic_sphere(15); }},
         {"bumpy sphere", [] { return shapes::bumpy_sphere(60); }},
         {"tube", [] { return shapes::tube(450, 150, 2); }},
         {"soup", [] { return shapes::soup(shapes::geodesic_sphere(60)); }},
@@ -219,6 +225,7 @@ int main(int count, char** arguments) {
         {"copies", [] { return shapes::stack(shapes::geodesic_sphere(40), 10, 0); }},
         {"stack", [] { return shapes::stack(shapes::square(9), 500, 1e-6); }},
         {"separate triangles", [] { return shapes::separate_triangles(20000); }},
+        {"one triangle", [] { return shapes::separate_triangles(1); }},
         {"box, long triangles", [] {
              return shapes::box(40, {1, 0.02, 0.02});
          }}};

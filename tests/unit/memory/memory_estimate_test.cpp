@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <functional>
 #include <string>
 
 #ifdef __GLIBC__
@@ -121,10 +122,10 @@ std::int64_t resident_bytes() {
     return 0;
 }
 
-/// Expects that a flow takes the estimated memory within a factor of 0.8 to 1.3.
-void expect_estimate(TriangleMesh mesh, FlowParameters p) {
+/// Expects that a flow takes the estimated memory, with a ratio of the estimate to the memory from
+/// `least` to `most`.
+void expect_estimate(TriangleMesh mesh, FlowParameters p, double least = 0.8, double most = 1.3) {
     if (TRACKED_MCF_SANITIZED) GTEST_SKIP() << "sanitizers take memory of their own";
-    p.iterations = 1;
     p.threads = 2;
     p.boundary = BoundaryCondition::Free;  // else separate triangles would be constrained
     const std::int64_t before = resident_bytes();
@@ -136,8 +137,8 @@ void expect_estimate(TriangleMesh mesh, FlowParameters p) {
     }
     const auto actual = static_cast<double>(report.peak_memory_bytes - before);
     const auto estimate = static_cast<double>(report.estimated_memory_bytes - before);
-    EXPECT_GT(estimate, 0.8 * actual);
-    EXPECT_LT(estimate, 1.3 * actual);
+    EXPECT_GT(estimate, least * actual);
+    EXPECT_LT(estimate, most * actual);
 }
 
 TEST(MemoryOfAFlow, OfAFineMesh) {
@@ -185,6 +186,53 @@ TEST(MemoryOfAFlow, OfAFlatStrip) {
 
 TEST(MemoryOfAFlow, OfAMeshThatIsFinerThanTheGrid) {
     expect_estimate(shapes::geodesic_sphere(160), free_at(4));
+}
+
+/// Expects a close estimate on a grid so fine that most of its cells hold part of one triangle.
+void expect_close_estimate(const TriangleMesh& mesh, int depth,
+                           const std::function<void(FlowParameters&)>& set = {}) {
+    FlowParameters p = free_at(depth);
+    p.step_size = 1e-3;  // uses all levels
+    if (set) set(p);
+    expect_estimate(mesh, p, 0.9, 1.15);
+}
+
+TEST(MemoryOfAFineGrid, OfOneTriangle) {
+    expect_close_estimate(shapes::separate_triangles(1), 8);
+}
+
+TEST(MemoryOfAFineGrid, OfASphere) {
+    expect_close_estimate(shapes::geodesic_sphere(15), 8);
+}
+
+TEST(MemoryOfAFineGrid, OfABox) {
+    expect_close_estimate(shapes::box(1, {1, 0.8, 0.6}), 8);
+}
+
+TEST(MemoryOfAFineGrid, WithJoinedSheets) {
+    expect_close_estimate(shapes::geodesic_sphere(15), 7,
+                          [](FlowParameters& p) { p.separate_sheets = false; });
+}
+
+TEST(MemoryOfAFineGrid, SolvedByWCycles) {
+    expect_close_estimate(shapes::separate_triangles(1), 8,
+                          [](FlowParameters& p) { p.solver = Solver::OneWCycle; });
+}
+
+TEST(MemoryOfAFineGrid, OfOrderFour) {
+    expect_close_estimate(shapes::geodesic_sphere(15), 7, [](FlowParameters& p) { p.order = 4; });
+}
+
+TEST(MemoryOfAFineGrid, PreservingTheArea) {
+    expect_close_estimate(shapes::geodesic_sphere(15), 7, [](FlowParameters& p) {
+        p.preserve = Preserve::Area;
+        p.iterations = 2;  // the first step makes the prediction for the second
+    });
+}
+
+TEST(MemoryOfAFineGrid, PreservingTheVolume) {
+    expect_close_estimate(shapes::geodesic_sphere(15), 7,
+                          [](FlowParameters& p) { p.preserve = Preserve::Volume; });
 }
 
 TEST(MemoryOfAFlow, SolvedByWCycles) {
