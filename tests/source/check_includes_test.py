@@ -50,6 +50,8 @@ VIOLATIONS = [
     ("parameters/planted.cpp", f'"{CORE}/memory/memory_estimate.h"', PUBLIC),
     ("mesh_bridge/planted.h", f'"{CORE}/mesh/measures.h"', PUBLIC),
     ("tool/planted.cpp", '"filter_tracked_mcf/plugin/run_filter.h"', "tool does not include plugin"),
+    ("tool/planted.cpp", '"filter_tracked_mcf/mesh_bridge/mesh_bridge.h"', "tool does not include mesh_bridge"),
+    ("tool/planted.cpp", '"filter_tracked_mcf/mesh_bridge/mesh_bridge.h"', "tool does not include mesh_bridge"),
     ("plugin/planted.cpp", '"filter_tracked_mcf/tool/mesh_file.h"', "plugin does not include tool"),
     ("parameters/planted.h", '"filter_tracked_mcf/tool/mesh_file.h"', "does not include tool"),
     ("mesh_bridge/planted.h", '"filter_tracked_mcf/plugin/run_filter.h"', "does not include plugin"),
