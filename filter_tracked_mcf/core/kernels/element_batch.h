@@ -141,21 +141,6 @@ static HWY_INLINE void write_matrices(const IntegrationInput& input, const Lanes
     }
 }
 
-/// Writes the weighted stiffnesses of the batch, as write_matrices() does.
-static HWY_INLINE void write_stiffnesses(const IntegrationInput& input,
-                                         const Lanes (&moments)[kMomentRows], MatrixBlock& block,
-                                         std::int64_t lane) {
-    const Lanes step_size = splat(input.step_size_in_cells);
-    HWY_UNROLL(8)
-    for (int row = 0; row < 8; ++row) {
-        HWY_UNROLL(8)
-        for (int column = row; column < 8; ++column) {
-            float* const entry = block.entry[kEntryIndices.of[row][column]] + lane;
-            store(step_size * stiffness_entry(moments, row, column), entry);
-        }
-    }
-}
-
 /// Offsets of the other results of an element.
 constexpr int kRightSide = 0;
 constexpr int kArea = 24;
@@ -195,7 +180,7 @@ static HWY_INLINE void write_systems(const IntegrationInput& input, std::int64_t
                            : splat(input.mass) * load(input.densities + begin);
     write_matrices(input, mass, moments, output.matrices[block], lane);
     if (output.stiffnesses != nullptr) {
-        write_stiffnesses(input, moments, output.stiffnesses[block], lane);
+        write_matrices(input, zero(), moments, output.stiffnesses[block], lane);
     }
     Lanes results[kResults];
     find_results(input, moments, results);
