@@ -5,7 +5,7 @@ namespace tracked_mcf {
 
 namespace {
 
-/// A block has 2^3 cells a side: about a hundred elements, few of them at its surface.
+/// A block has 2^4 cells a side: a few hundred elements, few of them at its surface.
 constexpr unsigned kBlockBits = 4 * 3;
 
 }  // namespace

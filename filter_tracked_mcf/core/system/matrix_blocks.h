@@ -44,7 +44,8 @@ private:
     RawVector<MatrixBlock> blocks_;
 };
 
-// Each thread works on whole blocks of elements, so no two threads write to one matrix block.
+// The blocks of a parallel loop (parallel.h) hold whole matrix blocks, so in one loop over elements
+// only one thread writes to a matrix block.
 static_assert(kBlockSize % kBlockElements == 0);
 
 }  // namespace tracked_mcf
