@@ -5,31 +5,20 @@
 #include <ostream>
 #include <set>
 
-#include "filter_tracked_mcf/tool/documents/file_document.h"
 #include "filter_tracked_mcf/tool/documents/text.h"
+#include "filter_tracked_mcf/tool/documents/text_document.h"
 #include "filter_tracked_mcf/tool/file_error.h"
 
 namespace tracked_mcf {
 
 namespace {
 
-/// A coordinate in the text, which is written anew.
-struct Slot {
-    bool is_normal;
-    std::int32_t index;
-    std::int32_t axis;
-    std::string_view text;
-};
-
-class ObjDocument : public FileDocument {
+class ObjDocument : public TextDocument {
 public:
-    explicit ObjDocument(std::string content) : content_(std::move(content)) {
+    explicit ObjDocument(std::string content) : TextDocument(std::move(content)) {
         for (WordReader reader(content_); reader.has_more();) read_line(reader);
         check_totals();
-        if (!colors_.empty()) colors_.resize(positions_.size(), kWhite);
     }
-
-    std::vector<Color> vertex_colors() const override { return colors_; }
 
     std::vector<std::string> extras() const override {
         static const std::map<std::string_view, std::string> names = {
@@ -46,22 +35,6 @@ public:
                 extras.insert(std::string(keyword));
         }
         return {extras.begin(), extras.end()};
-    }
-
-    void write(std::ostream& out, const Points& positions) const override {
-        const Points normals =
-            corner_normals(positions, polygons_, normal_of_corner_, normals_.size());
-        TextPatch patch(out, content_);
-        for (const Slot& slot : slots_) {
-            const auto i = static_cast<std::size_t>(slot.index);
-            // A vertex that has not moved keeps its text.
-            const bool keeps_text =
-                slot.is_normal ? normals[i].isZero(0) : positions[i] == positions_[i];
-            if (keeps_text) continue;
-            const Points& points = slot.is_normal ? normals : positions;
-            patch.replace(slot.text, format_number(points[i][slot.axis]));
-        }
-        patch.finish();
     }
 
 private:
@@ -87,35 +60,22 @@ private:
         }
     }
 
-    /// Reads a point, with a slot for each of its coordinates.
-    void read_point(const Words& words, Points& points) {
-        Eigen::Vector3d point;
-        for (std::int32_t axis = 0; axis < 3; ++axis) {
-            const std::string_view word = words[static_cast<std::size_t>(axis) + 1];
-            point[axis] = parse_number(word);
-            slots_.push_back(
-                {&points == &normals_, static_cast<std::int32_t>(points.size()), axis, word});
-        }
-        points.push_back(point);
-    }
-
     /// "v x y z", and in many files red, green and blue as well, up to 1 or up to 255.
     void read_vertex(Words words) {
         const auto is_remark = [](std::string_view word) { return word.front() == '#'; };
         words.erase(std::find_if(words.begin(), words.end(), is_remark), words.end());
         if (words.size() < 4) throw UnreadableFile("a vertex has fewer than 3 coordinates");
-        read_point(words, positions_);
+        read_point({words[1], words[2], words[3]}, positions_);
         if (words.size() < 7) return;
         std::vector<double> channels;
         for (std::size_t i = 4; i < 7; ++i) channels.push_back(parse_number(words[i]));
         const double largest = *std::max_element(channels.begin(), channels.end());
-        colors_.resize(positions_.size(), kWhite);
-        colors_.back() = make_color(channels, largest > 1 ? 255 : 1);
+        set_color(make_color(channels, largest > 1 ? 255 : 1));
     }
 
     void read_normal(const Words& words) {
         if (words.size() != 4) throw UnreadableFile("a normal has not 3 coordinates");
-        read_point(words, normals_);
+        read_point({words[1], words[2], words[3]}, normals_);
     }
 
     void read_face(const Words& words) {
@@ -174,12 +134,7 @@ private:
         check_last(last_normal_, normals_.size(), "vn");
     }
 
-    std::string content_;
-    std::vector<Slot> slots_;  ///< views into the content
-    Points normals_;
-    std::vector<Color> colors_;                   ///< of every vertex, or empty
-    std::vector<std::int32_t> normal_of_corner_;  ///< or -1
-    std::set<std::string_view> keywords_;         ///< the first words of all lines
+    std::set<std::string_view> keywords_;  ///< the first words of all lines
     std::size_t texture_coordinate_count_ = 0;
     std::int32_t last_texture_coordinate_ = -1, last_normal_ = -1;
 };

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <ostream>
 
-#include "filter_tracked_mcf/tool/documents/file_document.h"
 #include "filter_tracked_mcf/tool/documents/text.h"
+#include "filter_tracked_mcf/tool/documents/text_document.h"
 #include "filter_tracked_mcf/tool/file_error.h"
 
 namespace tracked_mcf {
@@ -37,17 +37,11 @@ VertexLayout parse_keyword(const WordReader& words, std::string_view keyword) {
     return layout;
 }
 
-std::string keyword_of(const VertexLayout& layout) {
-    return std::string(layout.texture ? "ST" : "") + (layout.color ? "C" : "") +
-           (layout.normal ? "N" : "") + "OFF";
-}
-
-class OffDocument : public FileDocument {
+class OffDocument : public TextDocument {
 public:
-    explicit OffDocument(std::string content) : content_(std::move(content)) {
+    explicit OffDocument(std::string content) : TextDocument(std::move(content)) {
         WordReader words(content_);
-        keyword_ = words.word();
-        layout_ = parse_keyword(words, keyword_);
+        layout_ = parse_keyword(words, words.word());
         if (words.words_left() == 0) words.advance();
         const std::size_t vertex_count = read_count(words), face_count = read_count(words);
         read_count(words);  // the number of edges is not used
@@ -56,10 +50,8 @@ public:
         words.advance();
         for (std::size_t i = 0; i < vertex_count; ++i) read_vertex(words);
         for (std::size_t i = 0; i < face_count; ++i) read_face(words);
-        if (!colors_.empty()) colors_.resize(positions_.size(), kWhite);
+        if (layout_.normal) normal_of_corner_ = polygons_.corners;
     }
-
-    std::vector<Color> vertex_colors() const override { return colors_; }
 
     std::vector<Triangle> triangles() const override {
         Polygons polygons = polygons_;
@@ -72,36 +64,11 @@ public:
         if (layout_.normal) extras.emplace_back("normals");
         if (layout_.texture) extras.emplace_back("texture coordinates");
         if (has_face_colors_) extras.emplace_back("colours of faces");
-        if (layout_.color && colors_.empty()) extras.emplace_back("indices of colours");
+        if (layout_.color && !has_colors()) extras.emplace_back("indices of colours");
         return extras;
     }
 
-    void write(std::ostream& out, const Points& positions) const override {
-        Points normals;
-        if (layout_.normal) {
-            normals = corner_normals(positions, polygons_, polygons_.corners, positions.size());
-        }
-        TextPatch patch(out, content_);
-        patch.replace(keyword_, keyword_of(layout_));
-        auto text = numbers_.begin();
-        for (std::size_t i = 0; i < positions.size(); ++i) {
-            // A vertex that has not moved keeps its text.
-            const bool moved = positions[i] != positions_[i];
-            text = write_point(patch, text, positions[i], moved);
-            if (layout_.normal) text = write_point(patch, text, normals[i], !normals[i].isZero(0));
-        }
-        patch.finish();
-    }
-
 private:
-    static Words::const_iterator write_point(TextPatch& patch, Words::const_iterator text,
-                                             const Eigen::Vector3d& point, bool changed) {
-        for (int axis = 0; axis < 3; ++axis, ++text) {
-            if (changed) patch.replace(*text, format_number(point[axis]));
-        }
-        return text;
-    }
-
     static std::size_t read_count(WordReader& words) {
         if (words.words_left() == 0) words.fail("it should have 3 counts");
         const std::int64_t count = parse_integer(words.word());
@@ -109,18 +76,9 @@ private:
         return static_cast<std::size_t>(count);
     }
 
-    Eigen::Vector3d read_point(WordReader& words) {
-        Eigen::Vector3d point;
-        for (int axis = 0; axis < 3; ++axis) {
-            numbers_.push_back(words.word());
-            point[axis] = parse_number(numbers_.back());
-        }
-        return point;
-    }
-
     void read_vertex(WordReader& words) {
-        positions_.push_back(read_point(words));
-        if (layout_.normal) read_point(words);
+        read_point({words.word(), words.word(), words.word()}, positions_);
+        if (layout_.normal) read_point({words.word(), words.word(), words.word()}, normals_);
         if (layout_.color) read_vertex_color(words);
         for (int i = 0; layout_.texture && i < 2; ++i) parse_number(words.word());
     }
@@ -136,8 +94,7 @@ private:
             channels.push_back(parse_number(word));
             has_point = has_point || word.find('.') != std::string_view::npos;
         }
-        colors_.resize(positions_.size(), kWhite);
-        colors_.back() = make_color(channels, has_point ? 1 : 255);
+        set_color(make_color(channels, has_point ? 1 : 255));
     }
 
     void read_face(WordReader& words) {
@@ -164,11 +121,7 @@ private:
         if (index < 0 || index > 147) reader.fail("a colour index is not within 0 to 147");
     }
 
-    std::string content_;
-    std::string_view keyword_;
     VertexLayout layout_;
-    Words numbers_;              ///< of every vertex the coordinates, then those of its normal
-    std::vector<Color> colors_;  ///< of every vertex, or empty
     bool has_face_colors_ = false;
 };
 

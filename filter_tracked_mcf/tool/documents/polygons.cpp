@@ -79,6 +79,7 @@ Eigen::Vector3d area_vector(const Points& positions, const Polygons& polygons, s
 Points corner_normals(const Points& positions, const Polygons& polygons,
                       const std::vector<std::int32_t>& normal_of_corner, std::size_t count) {
     Points normals(count, Eigen::Vector3d::Zero());
+    if (count == 0) return normals;
     for (std::size_t i = 0; i < polygons.size(); ++i) {
         const Eigen::Vector3d area = area_vector(positions, polygons, i);
         for (std::size_t corner = polygons.first[i]; corner < polygons.first[i + 1]; ++corner) {

@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <optional>
-#include <ostream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -59,26 +58,6 @@ private:
     std::string_view rest_;
     Words words_;
     std::size_t next_ = 0, line_number_ = 0;
-};
-
-/// Writes a text with some of its parts replaced, from first to last.
-class TextPatch {
-public:
-    TextPatch(std::ostream& out, std::string_view text) : out_(out), rest_(text) {}
-
-    /// Writes the text up to `part`, which is a view into it, and then `replacement`.
-    void replace(std::string_view part, std::string_view replacement) {
-        const auto before = static_cast<std::size_t>(part.data() - rest_.data());
-        out_ << rest_.substr(0, before) << replacement;
-        rest_.remove_prefix(before + part.size());
-    }
-
-    /// Writes the rest of the text.
-    void finish() { out_ << rest_; }
-
-private:
-    std::ostream& out_;
-    std::string_view rest_;
 };
 
 }  // namespace tracked_mcf
