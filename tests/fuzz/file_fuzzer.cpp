@@ -69,7 +69,7 @@ void fuzz(const std::string& content) {
 
     const auto write_in_same_format = [&] {
         std::ostringstream out;
-        document->write(out, document->positions(), {"/from", "/to"});
+        document->write(out, document->positions());
         check_result(format, out.str(), *document);
     };
     write_in_same_format();
