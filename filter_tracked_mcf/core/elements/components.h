@@ -8,27 +8,21 @@
 
 namespace tracked_mcf {
 
-/// Returns the number of connected components of the surface. Without separate sheets, components
-/// cannot be told apart and count as one.
 inline std::int64_t component_count(const TrackedElements& elements) {
-    return elements.levels.front().element_count();
+    return elements.components.count;
 }
 
-/// Returns the connected component of each finest element.
-std::vector<std::int32_t> components_of(const TrackedElements& elements);
+inline std::vector<std::int32_t> components_of(const TrackedElements& elements) {
+    return elements.components.of_element;
+}
 
-/// Calls visit(unknown, component) for each unknown of the finest level, once. `component_of` is
-/// what components_of() returns.
+/// Calls visit(unknown, component) for each unknown of the finest level.
 template <class Visit>
 void for_each_unknown(const TrackedElements& elements,
-                      const std::vector<std::int32_t>& component_of, const Visit& visit) {
-    std::vector<std::uint8_t> visited(static_cast<std::size_t>(elements.finest().unknown_count()));
-    for (std::size_t element = 0; element < component_of.size(); ++element) {
-        for (const std::int32_t unknown : elements.finest().unknowns[element]) {
-            if (visited[unknown] != 0) continue;
-            visited[unknown] = 1;
-            visit(unknown, component_of[element]);
-        }
+                      const std::vector<std::int32_t>& /*component_of*/, const Visit& visit) {
+    const std::vector<std::int32_t>& of_unknown = elements.components.of_unknown;
+    for (std::size_t unknown = 0; unknown < of_unknown.size(); ++unknown) {
+        visit(static_cast<std::int32_t>(unknown), of_unknown[unknown]);
     }
 }
 

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "filter_tracked_mcf/core/cells/bspline.h"
@@ -159,6 +160,29 @@ void build_octree(TrackedElements& elements, const GridMesh& mesh, const MeshTop
     elements.fragment_begin = std::move(finest.fragment_begin);
 }
 
+/// The coarsest level has one element for each connected component.
+Components components_of(const std::vector<Level>& levels) {
+    Components components;
+    components.count = levels.front().element_count();
+    components.of_element.resize(levels.front().cells.size());
+    std::iota(components.of_element.begin(), components.of_element.end(), 0);
+    for (std::size_t level = 1; level < levels.size(); ++level) {
+        std::vector<std::int32_t> finer(levels[level].parents.size());
+        parallel_for_rows(levels[level].element_count(), [&](std::int32_t element) {
+            finer[element] = components.of_element[levels[level].parents[element]];
+        });
+        components.of_element = std::move(finer);
+    }
+    const Level& finest = levels.back();
+    components.of_unknown.resize(static_cast<std::size_t>(finest.unknown_count()));
+    for (std::int32_t element = 0; element < finest.element_count(); ++element) {
+        for (const std::int32_t unknown : finest.unknowns[element]) {
+            components.of_unknown[unknown] = components.of_element[element];
+        }
+    }
+    return components;
+}
+
 void count_vertices(TrackedElements& elements, const std::vector<std::uint8_t>& referenced) {
     const auto count = static_cast<std::int64_t>(referenced.size());
     elements.referenced_vertex_count =
@@ -187,6 +211,7 @@ TrackedElements build_tracked_elements(const Domain& domain, ClippedSurface surf
     enter_setup_phase(kBuildOctree);
     build_octree(elements, surface.mesh, domain.topology(), surface.fragments,
                  parameters.separate_sheets);
+    elements.components = components_of(elements.levels);
     enter_setup_phase(kSampleSurface);
     ElementBuilder(elements, domain, surface.mesh, surface.fragments,
                    cubature_rule(parameters.cubature))

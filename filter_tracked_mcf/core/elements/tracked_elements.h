@@ -31,6 +31,14 @@ struct VertexLocation {
     Eigen::Vector3d local = Eigen::Vector3d::Zero();
 };
 
+/// The connected components of the surface. Without separate sheets, they cannot be told apart and
+/// count as one.
+struct Components {
+    std::int32_t count = 0;
+    std::vector<std::int32_t> of_element;  ///< per finest element
+    std::vector<std::int32_t> of_unknown;  ///< per unknown of the finest level
+};
+
 /// Coefficients of a map from the surface to space, one row per unknown of the finest level.
 using Coefficients = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
@@ -40,6 +48,7 @@ using Coefficients = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 struct TrackedElements {
     Grid grid;
     std::vector<Level> levels;  ///< coarsest first
+    Components components;
 
     RawVector<Fragment> fragments;             ///< sorted by finest element
     Samples samples;                           ///< sorted by fragment

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "filter_tracked_mcf/core/system/pinches.h"
 
-#include "filter_tracked_mcf/core/elements/components.h"
-
 namespace tracked_mcf {
 
 void constrain_pinched(const TrackedElements& elements, const Supports& supports,
@@ -21,13 +19,12 @@ void constrain_pinched(const TrackedElements& elements, const Supports& supports
 }
 
 VanishedComponents::VanishedComponents(const TrackedElements& elements)
-    : elements_(elements),
-      component_of_(components_of(elements)),
-      initial_areas_(static_cast<std::size_t>(component_count(elements)), 0) {
-    for (std::size_t element = 0; element < component_of_.size(); ++element) {
+    : components_(elements.components),
+      initial_areas_(static_cast<std::size_t>(components_.count), 0) {
+    for (std::size_t element = 0; element < components_.of_element.size(); ++element) {
         for (std::int64_t i = elements.sample_begin[element];
              i < elements.sample_begin[element + 1]; ++i) {
-            initial_areas_[component_of_[element]] += elements.samples.weight(i);
+            initial_areas_[components_.of_element[element]] += elements.samples.weight(i);
         }
     }
 }
@@ -35,16 +32,13 @@ VanishedComponents::VanishedComponents(const TrackedElements& elements)
 void VanishedComponents::constrain(const ElementSystems& systems, double fraction,
                                    std::vector<std::uint8_t>& constrained) const {
     std::vector<double> areas(initial_areas_.size(), 0);
-    for (std::size_t element = 0; element < component_of_.size(); ++element) {
-        areas[component_of_[element]] += systems.areas[element];
+    for (std::size_t element = 0; element < components_.of_element.size(); ++element) {
+        areas[components_.of_element[element]] += systems.areas[element];
     }
-    for (std::size_t element = 0; element < component_of_.size(); ++element) {
-        const std::int32_t component = component_of_[element];
+    for (std::size_t unknown = 0; unknown < constrained.size(); ++unknown) {
+        const std::int32_t component = components_.of_unknown[unknown];
         // Written so that a NaN stays free and propagates.
-        if (!(areas[component] <= fraction * initial_areas_[component])) continue;
-        for (const std::int32_t unknown : elements_.finest().unknowns[element]) {
-            constrained[unknown] = 1;
-        }
+        if (areas[component] <= fraction * initial_areas_[component]) constrained[unknown] = 1;
     }
 }
 

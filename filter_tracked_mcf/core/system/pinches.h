@@ -41,9 +41,8 @@ public:
                    std::vector<std::uint8_t>& constrained) const;
 
 private:
-    const TrackedElements& elements_;
-    std::vector<std::int32_t> component_of_;  ///< one per finest element
-    std::vector<double> initial_areas_;       ///< one per component, grid units²
+    const Components& components_;
+    std::vector<double> initial_areas_;  ///< one per component, grid units²
 };
 
 }  // namespace tracked_mcf

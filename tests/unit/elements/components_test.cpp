@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "filter_tracked_mcf/core/elements/components.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -30,8 +28,8 @@ TrackedElements elements_of(const TriangleMesh& mesh, bool separate_sheets) {
 TEST(Components, AreThoseOfTheMesh) {
     const TriangleMesh mesh = three_shells();
     const TrackedElements elements = elements_of(mesh, true);
-    const std::vector<std::int32_t> component_of = components_of(elements);
-    ASSERT_EQ(component_count(elements), 3);
+    const std::vector<std::int32_t>& component_of = elements.components.of_element;
+    ASSERT_EQ(elements.components.count, 3);
     ASSERT_EQ(static_cast<std::int32_t>(component_of.size()), elements.finest().element_count());
     // The vertices of each shell are in elements of one component, another one for each shell.
     std::set<std::int32_t> components;
@@ -50,25 +48,19 @@ TEST(Components, AreThoseOfTheMesh) {
 
 TEST(Components, AreOneWithoutSeparateSheets) {
     const TrackedElements elements = elements_of(three_shells(), false);
-    EXPECT_EQ(component_count(elements), 1);
-    const std::vector<std::int32_t> component_of = components_of(elements);
+    EXPECT_EQ(elements.components.count, 1);
+    const std::vector<std::int32_t>& component_of = elements.components.of_element;
     EXPECT_EQ(std::count(component_of.begin(), component_of.end(), 0),
               elements.finest().element_count());
 }
 
-TEST(Components, VisitEveryUnknownOnceWithTheComponentOfItsElements) {
+TEST(Components, OfAnUnknownIsThatOfAllItsElements) {
     const TrackedElements elements = elements_of(three_shells(), true);
-    const std::vector<std::int32_t> component_of = components_of(elements);
-    std::vector<std::int32_t> visited(static_cast<std::size_t>(elements.finest().unknown_count()),
-                                      -1);
-    for_each_unknown(elements, component_of, [&](std::int32_t unknown, std::int32_t component) {
-        EXPECT_EQ(visited[unknown], -1);
-        visited[unknown] = component;
-    });
-    EXPECT_EQ(std::count(visited.begin(), visited.end(), -1), 0);
-    for (std::size_t element = 0; element < component_of.size(); ++element) {
+    const auto& [count, of_element, of_unknown] = elements.components;
+    ASSERT_EQ(static_cast<std::int32_t>(of_unknown.size()), elements.finest().unknown_count());
+    for (std::size_t element = 0; element < of_element.size(); ++element) {
         for (const std::int32_t unknown : elements.finest().unknowns[element]) {
-            EXPECT_EQ(visited[unknown], component_of[element]);
+            EXPECT_EQ(of_unknown[unknown], of_element[element]);
         }
     }
 }
