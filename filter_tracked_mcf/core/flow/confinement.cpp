@@ -4,14 +4,12 @@
 #include <algorithm>
 
 #include "filter_tracked_mcf/core/cells/grid.h"
-#include "filter_tracked_mcf/core/elements/components.h"
 #include "filter_tracked_mcf/core/parallel/parallel.h"
 
 namespace tracked_mcf {
 
-Confinement::Confinement(const TrackedElements& elements,
-                         const std::vector<std::int32_t>& component_of, double detail_size)
-    : elements_(elements), component_of_(component_of) {
+Confinement::Confinement(const TrackedElements& elements, double detail_size)
+    : elements_(elements) {
     initial_boxes_ = boxes(Coefficients::Zero(elements.finest().unknown_count(), 3));
     Eigen::AlignedBox3d all;
     for (const Eigen::AlignedBox3d& box : initial_boxes_) all.extend(box);
@@ -28,11 +26,11 @@ void Confinement::add_margin(std::vector<Eigen::AlignedBox3d>& boxes) const {
 }
 
 std::vector<Eigen::AlignedBox3d> Confinement::boxes(const Coefficients& displacement) const {
-    std::vector<Eigen::AlignedBox3d> boxes(static_cast<std::size_t>(component_count(elements_)));
+    std::vector<Eigen::AlignedBox3d> boxes(static_cast<std::size_t>(elements_.components.count));
     for (std::size_t vertex = 0; vertex < elements_.vertices.size(); ++vertex) {
         const std::int32_t element = elements_.vertices[vertex].element;
         if (element == VertexLocation::kNoElement) continue;
-        boxes[component_of_[element]].extend(
+        boxes[elements_.components.of_element[element]].extend(
             position(displacement, static_cast<std::int32_t>(vertex)));
     }
     add_margin(boxes);
@@ -50,7 +48,7 @@ bool Confinement::holds(const Coefficients& displacement,
                const VertexLocation& location = elements_.vertices[vertex];
                if (location.element == VertexLocation::kNoElement) return false;
                if (elements_.vertex_constrained[vertex] != 0) return false;
-               return !allowed[component_of_[location.element]].contains(
+               return !allowed[elements_.components.of_element[location.element]].contains(
                    position(displacement, static_cast<std::int32_t>(vertex)));
            });
 }

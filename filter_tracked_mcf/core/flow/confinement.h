@@ -20,11 +20,9 @@ public:
     /// halves, but not more than this fraction of the diagonal.
     static constexpr double kMarginInDiagonals = 0.01, kMarginInCells = 0.1, kMarginInDetail = 0.1;
 
-    /// Measures the initial boxes. `component_of` is what components_of() returns; it and the
-    /// elements must outlive the confinement. `detail_size` is the length of these waves, in grid
-    /// units, or 0 if the steps have order 1.
-    Confinement(const TrackedElements& elements, const std::vector<std::int32_t>& component_of,
-                double detail_size);
+    /// Measures the initial boxes. `elements` must outlive the confinement. `detail_size` is the
+    /// length of these waves, in grid units, or 0 if the steps have order 1.
+    Confinement(const TrackedElements& elements, double detail_size);
 
     /// Returns the box, with the margin, of each component of the surface with this displacement.
     std::vector<Eigen::AlignedBox3d> boxes(const Coefficients& displacement) const;
@@ -40,7 +38,6 @@ private:
     Eigen::Vector3d position(const Coefficients& displacement, std::int32_t vertex) const;
 
     const TrackedElements& elements_;
-    const std::vector<std::int32_t>& component_of_;
     double margin_ = 0;  ///< grid units
     std::vector<Eigen::AlignedBox3d>
         initial_boxes_;  ///< per component, grid units, with the margin

@@ -14,8 +14,7 @@ namespace tracked_mcf {
 /// stays. Where δ S is so large that single precision loses D beside it, a solution does not know
 /// this. `masses` are the matrices of D, element by element, and `constrained` are flags of the
 /// components that something constrains.
-void remove_drift(const TrackedElements& elements, const std::vector<std::int32_t>& component_of,
-                  const MatrixBlocks& masses, const std::vector<std::uint8_t>& constrained,
-                  Coefficients& step);
+void remove_drift(const TrackedElements& elements, const MatrixBlocks& masses,
+                  const std::vector<std::uint8_t>& constrained, Coefficients& step);
 
 }  // namespace tracked_mcf

@@ -6,11 +6,10 @@
 #include <string>
 #include <utility>
 
-#include "filter_tracked_mcf/core/elements/components.h"
 #include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/mesh/measures.h"
 #include "filter_tracked_mcf/core/mesh/mesh_topology.h"
-#include "filter_tracked_mcf/core/parallel/progress_meter.h"
+#include "filter_tracked_mcf/core/parallel/parallel.h"
 
 namespace tracked_mcf {
 
@@ -93,8 +92,9 @@ Preserver::Preserver(const Domain& domain, const FlowParameters& parameters, Ste
       flow_(parameters.flow) {
     component_of_.reserve(triangles_.size());
     for (const Triangle& triangle : triangles_) {
+        const TrackedElements& elements = stepper.elements();
         component_of_.push_back(
-            stepper.component_of()[stepper.elements().vertices[triangle[0]].element]);
+            elements.components.of_element[elements.vertices[triangle[0]].element]);
     }
     initial_ = measure(mesh_.positions);
     const double growth =
@@ -164,15 +164,13 @@ StepResult Preserver::restore(const FlowState& from, FlowState to, const Care& c
 void Preserver::scale(FlowState& state, std::vector<Scaling> scalings) const {
     const TrackedElements& elements = stepper_.elements();
     const Coefficients identity = identity_coefficients(elements);
-    const auto scale = [&](std::int32_t unknown, std::int32_t component) {
-        const auto& [centre, factor] = scalings[component];
+    parallel_for_rows(elements.finest().unknown_count(), [&](std::int32_t unknown) {
+        const auto& [centre, factor] = scalings[elements.components.of_unknown[unknown]];
         const Eigen::RowVector3d from_centre =
             identity.row(unknown) - elements.grid.to_grid(centre).transpose();
         auto displacement = state.displacement.row(unknown);
         displacement = factor * displacement + (factor - 1) * from_centre;
-    };
-    poll_progress();
-    for_each_unknown(elements, stepper_.component_of(), scale);
+    });
     state.scalings = std::move(scalings);
 }
 
@@ -230,7 +228,7 @@ bool Preserver::restore_volumes(FlowState& state, const Coefficients& response,
         for (std::size_t i = 0; i < positions.size(); ++i) {
             const std::int32_t element = elements.vertices[i].element;
             if (element == VertexLocation::kNoElement) continue;
-            positions[i] += change[stepper_.component_of()[element]] * velocity[i];
+            positions[i] += change[elements.components.of_element[element]] * velocity[i];
         }
     }
     if (!(worst <= kSweptAtMost)) return false;
@@ -240,11 +238,10 @@ bool Preserver::restore_volumes(FlowState& state, const Coefficients& response,
         blown_up += initial_[i].area;
         pressures[i] = 0;
     }
-    poll_progress();
-    for_each_unknown(
-        elements, stepper_.component_of(), [&](std::int32_t unknown, std::int32_t component) {
-            state.displacement.row(unknown) += pressures[component] * response.row(unknown);
-        });
+    parallel_for_rows(elements.finest().unknown_count(), [&](std::int32_t unknown) {
+        state.displacement.row(unknown) +=
+            pressures[elements.components.of_unknown[unknown]] * response.row(unknown);
+    });
     return true;
 }
 

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "filter_tracked_mcf/core/elements/components.h"
 #include "filter_tracked_mcf/core/flow/drift.h"
 #include "filter_tracked_mcf/core/mesh/measures.h"
 #include "filter_tracked_mcf/core/parallel/parallel.h"
@@ -55,15 +54,14 @@ double asked_in_cells(const FlowParameters& parameters, const Domain& domain, co
 Stepper::Stepper(const Domain& domain, ClippedSurface surface, const FlowParameters& parameters)
     : parameters_(parameters),
       elements_(build_tracked_elements(domain, std::move(surface), parameters)),
-      component_of_(components_of(elements_)),
       asked_size_(in_cells(asked_in_cells(parameters, domain, elements_.grid), elements_.grid)),
       size_(in_cells(std::min(asked_size_.in_cells, largest_step_size(elements_.densities)),
                      elements_.grid)),
       stabilization_(elements_),
       curve_constraint_(elements_, parameters.boundary_penalty),
-      confinement_(
-          elements_, component_of_,
-          parameters.order == 1 ? 0 : detail_size_for(size_.in_cells, 1, parameters.order)),
+      confinement_(elements_, parameters.order == 1
+                                  ? 0
+                                  : detail_size_for(size_.in_cells, 1, parameters.order)),
       solutions_(parameters.order) {
     enter_setup_phase(kPrepareSolver);
     auto constrained = constrained_unknowns(elements_, parameters.boundary);
@@ -144,9 +142,10 @@ void Stepper::predict(const std::vector<Scaling>& scalings, const Coefficients& 
     prediction_.losses.clear();
     for (const Scaling& scaling : scalings) prediction_.losses.push_back(1 - 1 / scaling.factor);
     prediction_.embedding = identity_coefficients(elements_);
-    for_each_unknown(elements_, component_of_, [&](std::int32_t unknown, std::int32_t component) {
+    parallel_for_rows(elements_.finest().unknown_count(), [&](std::int32_t unknown) {
+        const Scaling& scaling = scalings[elements_.components.of_unknown[unknown]];
         auto from_centre = prediction_.embedding.row(unknown);
-        from_centre -= elements_.grid.to_grid(scalings[component].centre).transpose();
+        from_centre -= elements_.grid.to_grid(scaling.centre).transpose();
         from_centre += displacement.row(unknown);
     });
     multiply(elements_, systems_.matrices, prediction_.embedding, prediction_.products);
@@ -185,8 +184,8 @@ double Stepper::Prediction::loss(std::int32_t component, int order, int all_orde
 
 void Stepper::subtract_prediction(int order) {
     parallel_for_rows(elements_.finest().element_count(), [&](std::int32_t element) {
-        const auto loss =
-            static_cast<float>(prediction_.loss(component_of_[element], order, parameters_.order));
+        const auto loss = static_cast<float>(
+            prediction_.loss(elements_.components.of_element[element], order, parameters_.order));
         for (int axis = 0; axis < 3; ++axis) {
             for (int row = 0; row < 8; ++row) {
                 systems_.right_sides[element].entry[axis][row] +=
@@ -199,7 +198,8 @@ void Stepper::subtract_prediction(int order) {
 Coefficients Stepper::step_of(int order) const {
     Coefficients step = solutions_[order - 1].x;
     if (!predicts()) return step;
-    for_each_unknown(elements_, component_of_, [&](std::int32_t unknown, std::int32_t component) {
+    parallel_for_rows(elements_.finest().unknown_count(), [&](std::int32_t unknown) {
+        const std::int32_t component = elements_.components.of_unknown[unknown];
         step.row(unknown) -= prediction_.loss(component, order, parameters_.order) *
                              prediction_.embedding.row(unknown);
     });
@@ -209,16 +209,16 @@ Coefficients Stepper::step_of(int order) const {
 void Stepper::remove_drift_from(Coefficients& step, const FlowState& from,
                                 const std::vector<std::uint8_t>& constrained) const {
     // Flags of the components that a boundary or a constrained unknown holds.
-    std::vector<std::uint8_t> held(static_cast<std::size_t>(component_count(elements_)), 0);
-    for_each_unknown(elements_, component_of_, [&](std::int32_t unknown, std::int32_t component) {
-        if (constrained[unknown] != 0) held[component] = 1;
-    });
+    std::vector<std::uint8_t> held(static_cast<std::size_t>(elements_.components.count), 0);
+    for (std::size_t unknown = 0; unknown < constrained.size(); ++unknown) {
+        if (constrained[unknown] != 0) held[elements_.components.of_unknown[unknown]] = 1;
+    }
     for (const CurveSample& sample : elements_.curve_samples) {
-        if (constrains_curve()) held[component_of_[sample.element]] = 1;
+        if (constrains_curve()) held[elements_.components.of_element[sample.element]] = 1;
     }
     ElementSystems masses;
     assemble_elements(elements_, from.displacement, {1.0F, 0.0F, parameters_.flow, false}, masses);
-    remove_drift(elements_, component_of_, masses.matrices, held, step);
+    remove_drift(elements_, masses.matrices, held, step);
 }
 
 const Coefficients& Stepper::pressure_response(const FlowState& from, const Care& care,

@@ -86,8 +86,6 @@ public:
     void forget_solutions() { solutions_.assign(solutions_.size(), {}); }
 
     const TrackedElements& elements() const { return elements_; }
-    /// Returns the connected component of each finest element.
-    const std::vector<std::int32_t>& component_of() const { return component_of_; }
     const Confinement& confinement() const { return confinement_; }
     /// Returns the number of unknowns that a boundary of locked cells constrains.
     std::int64_t locked_unknown_count() const { return locked_unknown_count_; }
@@ -120,7 +118,6 @@ private:
 
     const FlowParameters parameters_;
     const TrackedElements elements_;
-    const std::vector<std::int32_t> component_of_;
     const StepSize asked_size_, size_;
     const Stabilization stabilization_;
     const CurveConstraint curve_constraint_;
