@@ -238,8 +238,8 @@ TEST(Warnings, SayThatTheFlowStopped) {
 
 TEST(Warnings, DoNotBlameTheGridIfNothingMoves) {
     FlowReport report;
-    report.cell_size = 1;
-    report.detail_size = 0.1;
+    report.depth = 5;
+    report.resolving_depth = 7;
     EXPECT_EQ(warnings({}, report).size(), 1U);
     report.stop = Stop::NothingMoves;
     EXPECT_EQ(warnings({}, report).size(), 1U);
