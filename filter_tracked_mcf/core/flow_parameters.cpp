@@ -4,35 +4,36 @@
 #include <cmath>
 #include <sstream>
 #include <string>
+#include <variant>
 
 #include "filter_tracked_mcf/core/errors.h"
+#include "filter_tracked_mcf/core/parameter_table.h"
 
 namespace tracked_mcf {
 
 namespace {
 
-void check_range(const char* name, int value, int smallest, int largest, const char* note) {
-    if (value >= smallest && value <= largest) return;
-    throw InvalidParameter(std::string(name) + " is " + std::to_string(value) + "; give " +
-                           std::to_string(smallest) + " to " + std::to_string(largest) + note +
-                           ".");
-}
-
 std::string shortest(double value) {
     std::ostringstream text;
+    text.precision(10);  // enough for every int
     text << value;
     return text.str();
 }
 
-void check(bool fits, const char* name, double value, const std::string& what_to_give) {
-    if (fits) return;
-    throw InvalidParameter(std::string(name) + " is " + shortest(value) + "; give a number " +
-                           what_to_give + ".");
+/// Returns the numbers of a range, such as "1 to 4".
+std::string text_of(const Range& range) {
+    const std::string smallest = shortest(range.smallest), largest = shortest(range.largest);
+    if (range.open) return "a number greater than " + smallest + " and less than " + largest;
+    return smallest + (range.largest < kFinite ? " to " + largest : " or more");
 }
 
-}  // namespace
-
-namespace {
+void check(const std::string& name, double value, const Range& range) {
+    const bool fits = range.open ? value > range.smallest && value < range.largest
+                                 : value >= range.smallest && value <= range.largest;
+    if (fits) return;  // a NaN does not
+    throw InvalidParameter(name + " is " + shortest(value) + "; give " + text_of(range) +
+                           range.advice + ".");
+}
 
 /// Returns h / (1 - h), the square of k √δ for the waves whose amplitude the steps halve.
 double halved_waves(int iterations, int order) {
@@ -64,41 +65,18 @@ double stabilization_of(const FlowParameters& parameters) {
 }
 
 void validate(const FlowParameters& parameters) {
-    check_range("depth", parameters.depth, 0, kMaximumDepth, ", where 0 chooses automatically");
-    check_range("iterations", parameters.iterations, 1, kMaximumIterations, "");
-    check_range("order", parameters.order, 1, kMaximumOrder, "");
-    check_range("cycles", parameters.cycles, 1, kMaximumCycles, "");
-    check_range("threads", parameters.threads, 0, kMaximumThreads,
-                ", where 0 takes all that OpenMP offers");
-    // Each comparison is written so that a NaN is refused.
-    const double detail_size = parameters.detail_size;
-    check(detail_size >= 0 && std::isfinite(detail_size), "detail_size", detail_size,
-          "greater than 0, a length in units of the mesh, or 0 to take " +
-              shortest(kDefaultDetailInEdges) + " mean edge lengths");
-    const double step_size = parameters.step_size;
-    if (parameters.absolute) {
-        check(step_size >= 0 && std::isfinite(step_size), "step_size", step_size,
-              "greater than 0, in squared units of the mesh, or 0 to take the detail size");
-    } else {
-        check(step_size >= 0 && step_size <= kMaximumStepSize, "step_size", step_size,
-              "greater than 0 and at most " + shortest(kMaximumStepSize) +
-                  ", such as 1e-5, or 0 to take the detail size");
+    for (const Parameter& parameter : parameter_table()) {
+        const auto as_double = [](auto value) { return static_cast<double>(value); };
+        check(parameter.name, std::visit(as_double, parameter.get(parameters)), parameter.range);
     }
+    // No host offers this one.
+    check("boundary_penalty", parameters.boundary_penalty, {0, 1e6, ", such as 10", true});
     if (parameters.quality == Quality::MeanCurvature &&
         parameters.flow != FlowKind::MeanCurvature) {
         throw InvalidParameter(
             "quality asks for the mean curvature, which a conformalized flow does not know; take "
             "the mean-curvature flow, or another quality.");
     }
-    const double penalty = parameters.boundary_penalty;
-    check(penalty > 0 && penalty <= kMaximumPenalty, "boundary_penalty", penalty,
-          "greater than 0 and at most " + shortest(kMaximumPenalty) + ", such as 10");
-    check(parameters.tolerance > 0 && parameters.tolerance < 1, "tolerance", parameters.tolerance,
-          "greater than 0 and less than 1, such as 1e-3");
-    const double weight = stabilization_of(parameters);
-    check(weight >= 0 && weight <= kMaximumStabilization, "stabilization", weight,
-          "from 0, which is none, to " + shortest(kMaximumStabilization) + ", such as " +
-              shortest(kDefaultStabilization));
 }
 
 }  // namespace tracked_mcf

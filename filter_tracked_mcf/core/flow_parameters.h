@@ -54,18 +54,15 @@ enum class Quality {
 };
 
 inline constexpr int kMaximumDepth = 12;
-inline constexpr double kMaximumStepSize = 1e9;
 inline constexpr int kMaximumIterations = 1000000;
 inline constexpr int kMaximumOrder = 4;
 /// The default detail size, in mean edge lengths of the triangles that flow.
 inline constexpr double kDefaultDetailInEdges = 2.5;
-inline constexpr int kMaximumCycles = 1000;
 inline constexpr double kMaximumStabilization = 1e3;
 inline constexpr double kDefaultStabilization = 0.01;
-inline constexpr double kMaximumPenalty = 1e6;
-inline constexpr int kMaximumThreads = 1024;
 
-/// The parameters of a flow, with defaults for a scan.
+/// The parameters of a flow, with defaults for a scan. Their names in hosts, help and ranges are in
+/// parameter_table.h.
 struct FlowParameters {
     /// Octree depth, 1 to kMaximumDepth: the octree's cube has 2^depth cells along each side. 0
     /// chooses the depth whose number of unknowns is nearest to the number of referenced vertices,
@@ -82,14 +79,13 @@ struct FlowParameters {
     /// follows in the same way. Noise of scans does so too.
     bool local_detail_size = false;
 
-    /// Step size δ for the mesh scaled so that the longest side of its bounding box is 1; 0 to
-    /// kMaximumStepSize. δ is a squared length, see step_size_for(). 0 takes the one that belongs
-    /// to the detail size; any other replaces it. Steps above 1e5 squared cells act like one of
-    /// that size.
+    /// Step size δ for the mesh scaled so that the longest side of its bounding box is 1; finite
+    /// and at least 0. δ is a squared length, see step_size_for(). 0 takes the one that belongs to
+    /// the detail size; any other replaces it. Steps above 1e5 squared cells act like one of that
+    /// size.
     double step_size = 0;
 
-    /// Whether step_size is in squared units of the mesh instead; it must then be finite and at
-    /// least 0.
+    /// Whether step_size is in squared units of the mesh instead.
     bool absolute = false;
 
     /// Number of semi-implicit steps, 1 to kMaximumIterations.
@@ -103,8 +99,8 @@ struct FlowParameters {
     FlowKind flow = FlowKind::MeanCurvature;
     BoundaryCondition boundary = BoundaryCondition::Locked;
 
-    /// Locked: the penalty η of the constraint (curve_constraint.h), greater than 0 and at most
-    /// kMaximumPenalty, and whether its multipliers are updated after each step. For comparison
+    /// Locked: the penalty η of the constraint (curve_constraint.h), greater than 0 and less than
+    /// 1e6, and whether its multipliers are updated after each step. For comparison
     /// only.
     double boundary_penalty = 10;
     bool update_boundary_multipliers = true;
@@ -138,7 +134,7 @@ struct FlowParameters {
     /// they have pinched. For comparison only.
     bool constrain_pinches = true;
 
-    /// OneWCycle: number of W-cycles per step, 1 to kMaximumCycles; the paper uses one.
+    /// OneWCycle: number of W-cycles per step, 1 to 1000; the paper uses one.
     int cycles = 1;
 
     /// Number of OpenMP threads; 0 leaves the choice to OpenMP, which respects OMP_NUM_THREADS. The
@@ -160,7 +156,8 @@ double detail_size_of(const FlowParameters& parameters, double mean_edge);
 /// Returns the weight of the stabilisation that the parameters ask for.
 double stabilization_of(const FlowParameters& parameters);
 
-/// Throws InvalidParameter if a parameter is outside its range; the message gives the range.
+/// Throws InvalidParameter if a parameter is outside its range (parameter_table.h) or the quality
+/// does not fit the flow; the message gives the range.
 void validate(const FlowParameters& parameters);
 
 }  // namespace tracked_mcf

@@ -2,22 +2,15 @@
 #include "filter_tracked_mcf/plugin/meshlab_filter.h"
 
 #include <QPointer>
-#include <optional>
+#include <variant>
 
 #include "filter_tracked_mcf/core/errors.h"
-#include "filter_tracked_mcf/parameters/parameter_table.h"
-#include "filter_tracked_mcf/plugin/parameter_values.h"
+#include "filter_tracked_mcf/core/parameter_table.h"
+#include "filter_tracked_mcf/plugin/as_typed.h"
 
 namespace tracked_mcf {
 
 namespace {
-
-using Integer = ParameterDescription::Integer;
-using Real = ParameterDescription::Real;
-using Length = ParameterDescription::Length;
-using Boolean = ParameterDescription::Boolean;
-using SelectionSwitch = ParameterDescription::SelectionSwitch;
-using Choice = ParameterDescription::Choice;
 
 QString text(const std::string& string) {
     return QString::fromStdString(string);
@@ -28,77 +21,59 @@ QString rich(const std::string& string) {
     return "<span>" + text(string).toHtmlEscaped() + "</span>";
 }
 
-QStringList texts(const std::vector<std::string>& strings) {
+QStringList labels(const std::vector<NamedChoice>& choices) {
     QStringList result;
-    for (const std::string& string : strings) result << text(string);
+    for (const NamedChoice& choice : choices) result << text(choice.label);
     return result;
 }
 
-/// Adds one parameter of the table to a dialog.
-struct AddParameter {
-    RichParameterList& list;
-    const MeshModel* layer;
-    const ParameterDescription& description;
+/// Adds a parameter, with its default, to a dialog.
+void add(RichParameterList& list, const Parameter& parameter, const MeshModel* layer) {
+    const QString name = text(parameter.name), label = text(parameter.label);
+    const QString help = rich(parameter.help);
+    const ParameterValue value = parameter.get({});
+    const auto add_rich = [&list](const auto& rich_parameter) { list.addParam(rich_parameter); };
+    switch (parameter.type) {
+        case Parameter::Type::Switch:
+            return add_rich(RichBool(name, std::get<bool>(value), label, help));
+        case Parameter::Type::Selected: {
+            const bool some = layer != nullptr && has_selected_faces(layer->cm);
+            return add_rich(RichBool(name, some, label, help));
+        }
+        case Parameter::Type::Integer:
+            return add_rich(RichInt(name, std::get<int>(value), label, help));
+        case Parameter::Type::Real:
+            return add_rich(
+                RichFloat(name, static_cast<Scalarm>(std::get<double>(value)), label, help));
+        case Parameter::Type::Length: {
+            const double length = layer == nullptr ? 0 : default_detail_size_of(layer->cm);
+            const Scalarm diagonal = layer == nullptr ? 1 : layer->cm.bbox.Diag();
+            return add_rich(
+                RichLength(name, static_cast<Scalarm>(length), 0, diagonal, label, help));
+        }
+        case Parameter::Type::Choice:
+            return add_rich(
+                RichEnum(name, std::get<int>(value), labels(parameter.choices), label, help));
+    }
+}
 
-    void operator()(const Integer& type) const { add<RichInt>(type.default_value); }
-    void operator()(const Real& type) const {
-        add<RichFloat>(static_cast<Scalarm>(type.default_value));
-    }
-    void operator()(const Length&) const {
-        const double length = layer == nullptr ? 0 : default_detail_size_of(layer->cm);
-        const Scalarm diagonal = layer == nullptr ? 1 : layer->cm.bbox.Diag();
-        add<RichLength>(static_cast<Scalarm>(length), Scalarm(0), diagonal);
-    }
-    void operator()(const Boolean& type) const { add<RichBool>(type.default_value); }
-    void operator()(const SelectionSwitch&) const {
-        add<RichBool>(layer != nullptr && has_selected_faces(layer->cm));
-    }
-    void operator()(const Choice& type) const {
-        add<RichEnum>(type.default_value, texts(type.labels));
-    }
-
-    template <class RichType, class... Arguments>
-    void add(const Arguments&... arguments) const {
-        list.addParam(RichType(text(description.name), arguments..., text(description.label),
-                               rich(description.tooltip)));
-    }
-};
-
-/// Reads the value of one parameter of the table; empty if it has another type.
-struct ReadValue {
-    const Value& value;
-
-    using Result = std::optional<ParameterValue>;
-    Result operator()(const Integer&) const {
-        return value.isInt() ? Result(value.getInt()) : std::nullopt;
-    }
-    Result operator()(const Real&) const {
-        return value.isFloat() ? Result(as_typed(value.getFloat())) : std::nullopt;
-    }
-    Result operator()(const Length&) const { return operator()(Real{}); }
-    Result operator()(const Boolean&) const {
-        return value.isBool() ? Result(value.getBool()) : std::nullopt;
-    }
-    Result operator()(const SelectionSwitch&) const { return operator()(Boolean()); }
-    Result operator()(const Choice&) const {
-        return holds_choice(value) ? Result(choice_of(value)) : std::nullopt;
-    }
-};
-
-/// Returns the values that a dialog or script gives for the parameters of the table. It leaves out
-/// missing values and values of another type, so that flow_parameters() can report them: MeshLab's
-/// getters would end the program.
-ParameterValues read_values(const RichParameterList& list) {
-    ParameterValues values;
-    for (const ParameterDescription& description : parameter_table()) {
-        const QString name = text(description.name);
-        if (!list.hasParameter(name)) continue;
-        const ReadValue read{list.getParameterByName(name).value()};
-        if (const auto value = std::visit(read, description.type)) {
-            values[description.name] = *value;
+/// Returns the value that a dialog or script gives. Throws InvalidParameter if it is missing or has
+/// another type: MeshLab's getters would end the program.
+ParameterValue read(const RichParameterList& list, const Parameter& parameter) {
+    if (list.hasParameter(text(parameter.name))) {
+        const Value& value = list.getParameterByName(text(parameter.name)).value();
+        const ParameterValue initial = parameter.get({});
+        const bool is_choice = parameter.type == Parameter::Type::Choice;
+        if (is_choice && holds_choice(value)) return choice_of(value);
+        if (parameter.type == Parameter::Type::Integer && value.isInt()) return value.getInt();
+        if (std::holds_alternative<bool>(initial) && value.isBool()) return value.getBool();
+        if (std::holds_alternative<double>(initial) && value.isFloat()) {
+            return as_typed(value.getFloat());
         }
     }
-    return values;
+    throw InvalidParameter(parameter.name +
+                           " is missing or has the wrong type. Save a filter script in MeshLab to "
+                           "see how it is written.");
 }
 
 /// Marks that this thread runs the filter. Throws Error if it does already: MeshLab's callback
@@ -141,8 +116,8 @@ Progress watched_progress(MeshDocument& document, const MeshModel& layer,
 
 RichParameterList rich_parameters(const MeshModel* layer) {
     RichParameterList list;
-    for (const ParameterDescription& parameter : parameter_table()) {
-        std::visit(AddParameter{list, layer, parameter}, parameter.type);
+    for (const Parameter& parameter : parameter_table()) {
+        if (!parameter.label.empty()) add(list, parameter, layer);
     }
     return list;
 }
@@ -153,11 +128,18 @@ FilterOutcome smooth_current_layer(MeshDocument& document, const RichParameterLi
         const Run run;
         MeshModel* const layer = document.mm();
         if (layer == nullptr) throw InvalidMesh("There is no layer to smooth; open a mesh first.");
-        const ParameterValues values = read_values(parameters);
-        FilterOutcome outcome =
-            run_filter(layer->cm, values, watched_progress(document, *layer, callback));
+        FlowParameters flow;
+        bool selected_only = false;
+        for (const Parameter& parameter : parameter_table()) {
+            if (parameter.label.empty()) continue;
+            const ParameterValue value = read(parameters, parameter);
+            parameter.set(flow, value);
+            if (parameter.type == Parameter::Type::Selected) selected_only = std::get<bool>(value);
+        }
+        FilterOutcome outcome = run_filter(layer->cm, flow, selected_only,
+                                           watched_progress(document, *layer, callback));
         update_box_and_normals(*layer);
-        if (flow_parameters(values).quality != Quality::None) {
+        if (flow.quality != Quality::None) {
             layer->updateDataMask(MeshModel::MM_VERTQUALITY);
         }
         return outcome;

@@ -3,14 +3,15 @@
 
 #include <cstring>
 #include <exception>
+#include <limits>
 #include <new>
 #include <numeric>
 #include <sstream>
 #include <string>
 
 #include "filter_tracked_mcf/core/errors.h"
+#include "filter_tracked_mcf/core/parameter_table.h"
 #include "filter_tracked_mcf/parameters/flow_warnings.h"
-#include "filter_tracked_mcf/parameters/parameter_table.h"
 
 namespace tracked_mcf {
 
@@ -19,8 +20,8 @@ namespace {
 /// Appends the dialog's label of the parameter whose name begins the message.
 std::string with_label(const std::string& message) {
     const std::string name = message.substr(0, message.find(' '));
-    for (const ParameterDescription& parameter : parameter_table()) {
-        if (parameter.name != name) continue;
+    for (const Parameter& parameter : parameter_table()) {
+        if (parameter.name != name || parameter.label.empty()) continue;
         const bool is_zero = message.rfind(name + " is 0;", 0) == 0;
         return message + " In the dialog it is \"" + parameter.label + "\"." +
                (is_zero ? " MeshLab reads a number with a decimal comma as 0: use a point." : "");
@@ -34,13 +35,13 @@ FilterOutcome guard(const std::function<FilterOutcome()>& work) {
     try {
         return work();
     } catch (const std::bad_alloc&) {
-        return {false, "There is not enough memory. Choose a smaller depth.", {}};
+        return {false, "There is not enough memory. Choose a smaller depth."};
     } catch (const InvalidParameter& error) {
-        return {false, with_label(error.what()), {}};
+        return {false, with_label(error.what())};
     } catch (const std::exception& error) {
-        return {false, error.what(), {}};
+        return {false, error.what()};
     } catch (...) {
-        return {false, "An unknown error occurred.", {}};
+        return {false, "An unknown error occurred."};
     }
 }
 
@@ -54,6 +55,8 @@ Progress as_progress(HostCallback* callback) {
 namespace run_filter_detail {
 
 namespace {
+
+const char* const kAdvice = "Look at the result; a smaller detail size or depth may help.";
 
 double seconds_of(const std::vector<StepReport>& steps) {
     return std::accumulate(steps.begin(), steps.end(), 0.0, [](double sum, const StepReport& step) {
@@ -110,31 +113,40 @@ std::string summary(const FlowParameters& parameters, const FlowReport& report) 
     if (report.degenerate_triangles > 0) {
         text << " " << report.degenerate_triangles << " faces have zero area and were ignored.";
     }
-    const char* const advice = "Look at the result; a smaller detail size or depth may help.";
-    for (const std::string& warning : flow_warnings(parameters, report, advice)) {
+    for (const std::string& warning : flow_warnings(parameters, report, kAdvice)) {
         text << " Warning: " << warning;
     }
     return text.str();
 }
 
+std::string warnings_of(const FlowParameters& parameters, const FlowReport& report) {
+    std::string lines;
+    for (const std::string& warning : flow_warnings(parameters, report, kAdvice)) {
+        lines += (lines.empty() ? "" : "\n") + warning;
+    }
+    return lines;
+}
+
 Outputs outputs_of(const FlowParameters& parameters, const FlowReport& report) {
     const double error =
         report.steps.empty() ? 0 : error_estimate(parameters.solver, report.steps.back());
-    Outputs outputs = {{"detail_size", report.detail_size},
-                       {"step_size", report.step_size},
-                       {"depth", report.depth},
-                       {"cell_size", report.cell_size},
-                       {"unknowns", static_cast<int>(report.unknowns)},
-                       {"steps", static_cast<int>(report.steps.size())},
-                       {"stopped_early", report.stop == Stop::None ? 0 : 1},
-                       {"converged", converged(report) ? 1 : 0},
-                       {"error_estimate", error},
-                       {"largest_displacement", report.largest_displacement},
-                       {"rms_displacement", report.rms_displacement},
-                       {"area_before", report.area_before},
-                       {"area_after", report.area_after}};
-    if (report.oriented_consistently) outputs["volume_change"] = report.volume_change;
-    return outputs;
+    const double volume_change = report.oriented_consistently
+                                     ? report.volume_change
+                                     : std::numeric_limits<double>::quiet_NaN();
+    return {{"detail_size", report.detail_size},
+            {"step_size", report.step_size},
+            {"depth", report.depth},
+            {"cell_size", report.cell_size},
+            {"unknowns", static_cast<int>(report.unknowns)},
+            {"steps", static_cast<int>(report.steps.size())},
+            {"stopped_early", report.stop == Stop::None ? 0 : 1},
+            {"converged", converged(report) ? 1 : 0},
+            {"error_estimate", error},
+            {"largest_displacement", report.largest_displacement},
+            {"rms_displacement", report.rms_displacement},
+            {"area_before", report.area_before},
+            {"area_after", report.area_after},
+            {"volume_change", volume_change}};
 }
 
 }  // namespace run_filter_detail

@@ -9,7 +9,6 @@
 
 #include "filter_tracked_mcf/core/evolve.h"
 #include "filter_tracked_mcf/mesh_bridge/mesh_bridge.h"
-#include "filter_tracked_mcf/plugin/parameter_values.h"
 
 namespace tracked_mcf {
 
@@ -22,8 +21,9 @@ using Outputs = std::map<std::string, std::variant<int, double>>;
 /// How a run of the filter ended.
 struct FilterOutcome {
     bool succeeded;
-    std::string message;  ///< for the user: what was done, or what is wrong and what to do
-    Outputs outputs;      ///< empty after a failure; see outputs_of()
+    std::string message;        ///< for the user: what was done, or what is wrong and what to do
+    Outputs outputs = {};       ///< empty after a failure; see outputs_of()
+    std::string warnings = {};  ///< those of the message, one a line
 };
 
 /// Runs `work` and turns any exception into a failed outcome: an exception that a host does not
@@ -41,13 +41,16 @@ std::uint64_t checksum(const TriangleMesh& mesh);
 /// Describes the report in a few sentences.
 std::string summary(const FlowParameters& parameters, const FlowReport& report);
 
+/// Returns the warnings of flow_warnings(), one a line.
+std::string warnings_of(const FlowParameters& parameters, const FlowReport& report);
+
 /// Returns, in units of the mesh and of the surface that flows:
 /// - `detail_size`, `step_size` (δ), `depth`, `cell_size`, `unknowns`,
 /// - `steps` (the number made), `stopped_early` (1 or 0), `converged` (1 if all steps reached the
 ///   tolerance, else 0), `error_estimate` (of the last step: the relative error in the energy norm,
 ///   or with W-cycles the relative 2-norm of the residual),
 /// - `largest_displacement`, `rms_displacement` (of the vertices),
-/// - `area_before`, `area_after`, and, if the faces are oriented consistently, `volume_change`.
+/// - `area_before`, `area_after`, `volume_change` (NaN unless the faces are oriented consistently).
 Outputs outputs_of(const FlowParameters& parameters, const FlowReport& report);
 
 /// Returns default_detail_size(), or 0 if the mesh is not valid.
@@ -63,16 +66,16 @@ double default_detail_size_of(const VcgMesh& mesh) {
     return run_filter_detail::default_detail_size_or_zero(to_triangle_mesh(mesh), selection);
 }
 
-/// Flows a mesh of any vcglib type and returns the message for the user. It throws what the core
-/// and `progress` throw, so call it under guard(). It writes nothing but positions and, if asked
-/// for, the vertices' quality, and writes them last: a failure or a cancelled run leaves the mesh
-/// as it was. Throws InvalidMesh if `progress` has changed a position or a face: a user may apply
-/// other filters meanwhile. The host updates normals and bounding box.
+/// Flows a mesh of any vcglib type, or its selected faces only, and returns the message for the
+/// user. It throws what the core and `progress` throw, so call it under guard(). It writes nothing
+/// but positions and, if asked for, the vertices' quality, and writes them last: a failure or a
+/// cancelled run leaves the mesh as it was. Throws InvalidMesh if `progress` has changed a position
+/// or a face: a user may apply other filters meanwhile. The host updates normals and bounding box.
 template <class VcgMesh>
-FilterOutcome run_filter(VcgMesh& mesh, const ParameterValues& values, const Progress& progress) {
+FilterOutcome run_filter(VcgMesh& mesh, const FlowParameters& parameters, bool selected_only,
+                         const Progress& progress) {
     using namespace run_filter_detail;
-    const FlowParameters parameters = flow_parameters(values);
-    const Selection selection = selected_only(values) ? selected_faces(mesh) : Selection();
+    const Selection selection = selected_only ? selected_faces(mesh) : Selection();
     TriangleMesh moved = to_triangle_mesh(mesh);
     const std::uint64_t before = checksum(moved);
     const FlowReport report = evolve(moved, selection, parameters, progress);
@@ -83,7 +86,8 @@ FilterOutcome run_filter(VcgMesh& mesh, const ParameterValues& values, const Pro
     }
     write_positions(moved, mesh);
     if (!report.quality.empty()) write_quality(report.quality, mesh);
-    return {true, summary(parameters, report), outputs_of(parameters, report)};
+    return {true, summary(parameters, report), outputs_of(parameters, report),
+            warnings_of(parameters, report)};
 }
 
 }  // namespace tracked_mcf

@@ -3,10 +3,11 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <functional>
 #include <sstream>
 
 #include "filter_tracked_mcf/core/errors.h"
-#include "filter_tracked_mcf/parameters/parameter_table.h"
+#include "filter_tracked_mcf/core/parameter_table.h"
 #include "filter_tracked_mcf/tool/documents/file_document.h"
 #include "filter_tracked_mcf/tool/output_file.h"
 
@@ -16,14 +17,20 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const Choices<bool> kSwitches = {{"on", true}, {"off", false}};
-
 constexpr std::size_t kNameColumns = 26, kTextColumns = 70;
 
 const char* const kDescription =
     "Smooths a triangle mesh by mean-curvature flow: every point moves along the normal with the "
     "speed of the mean curvature, so that noise and small detail vanish first and large shapes "
     "last. Closed surfaces shrink, thin parts pinch, and sharp features are smoothed like noise.";
+
+const std::string kLength =
+    "Remove detail smaller than X, in units of the mesh, or X% of its bounding box's diagonal. ";
+
+const std::string kProperty =
+    "Only selected faces move. PROPERTY is the name of a number that the faces of a PLY file have, "
+    "or else its vertices. A face is selected if its number is not 0, or if the numbers of all its "
+    "vertices are not 0. 'flags' is where MeshLab saves a selection: only its bit 32 counts. ";
 
 const char* const kExamples =
     "Examples:\n"
@@ -43,8 +50,9 @@ const char* const kExamples =
     "Files: PLY, OBJ, OFF and STL, by extension; PLY and STL are written as binary. If OUTPUT has\n"
     "the format of INPUT, only positions and normals change. Another format gets the positions,\n"
     "the faces and the colours of the vertices (STL: triangles without colours), and a warning\n"
-    "names everything that is left out. INPUT and OUTPUT may be the same file: it is replaced\n"
-    "only after everything has succeeded.\n"
+    "names everything that is left out. Only a PLY file can hold a quality: the property quality\n"
+    "of its vertices. INPUT and OUTPUT may be the same file: it is replaced only after everything\n"
+    "has succeeded.\n"
     "\n"
     "Exit codes: 0 done; 1 the mesh cannot be read or smoothed; 2 wrong use of options; 3 a\n"
     "result cannot be written. An interrupt ends the program by its signal, which a shell shows\n"
@@ -75,39 +83,6 @@ std::string help_of(const std::string& text) {
     return wrapped(text, kTextColumns);
 }
 
-std::string tooltip_of(const std::string& name) {
-    const auto& table = parameter_table();
-    const auto found = std::find_if(table.begin(), table.end(),
-                                    [&](const auto& entry) { return entry.name == name; });
-    return found == table.end() ? std::string() : found->tooltip;
-}
-
-/// Returns the help of a parameter that the plugin has as well, in the plugin's words.
-std::string shared_help(const std::string& name) {
-    return help_of(tooltip_of(name));
-}
-
-/// Adds an option that takes the name of one of the choices, and returns it.
-template <class Value>
-CLI::Option* add_choice(CLI::App& app, const char* option, Value& value,
-                        const Choices<Value>& choices, const std::string& help) {
-    std::vector<std::string> names;
-    std::string alternatives;
-    for (const auto& [name, meaning] : choices) {
-        names.push_back(name);
-        alternatives += (alternatives.empty() ? "" : "|") + name;
-    }
-    const auto take = [&value, &choices](const std::string& taken) {
-        for (const auto& [name, meaning] : choices) {
-            if (name == taken) value = meaning;
-        }
-    };
-    return app.add_option_function<std::string>(option, take, help)
-        ->type_name(alternatives)
-        ->check(CLI::IsMember(names).description(""))
-        ->default_str(name_of(choices, value));
-}
-
 /// Returns the length that `text` gives, such as 1.5 or 0.5%.
 Length length_of(std::string text) {
     Length length;
@@ -120,93 +95,71 @@ Length length_of(std::string text) {
     return length;
 }
 
-void add_steps(CLI::App& app, CommandLine& line) {
-    FlowParameters& parameters = line.parameters;
-    app.add_option_function<std::string>(
-           "--detail-size",
-           [&line](const std::string& text) { line.detail_size = length_of(text); },
-           help_of("Remove detail smaller than this length, in units of the mesh, or with % of its "
-                   "bounding box's diagonal. " +
-                   tooltip_of("detail_size")))
-        ->type_name("X|X%")
-        ->default_str("0");
-    app.add_flag("--local-detail-size", parameters.local_detail_size,
-                 shared_help("local_detail_size"));
-    app.add_option("--order", parameters.order,
-                   help_of("1 to 4. " + tooltip_of("order") + " 1 is the flow itself."))
-        ->type_name("N")
-        ->capture_default_str();
-    app.add_option("--depth", parameters.depth, shared_help("depth"))
-        ->type_name("N")
-        ->capture_default_str();
-    app.add_option("--step-size", parameters.step_size, shared_help("step_size"))
-        ->type_name("X")
-        ->default_str("0");
-    app.add_flag("--absolute", parameters.absolute, shared_help("absolute"));
-    app.add_option("--iterations", parameters.iterations, shared_help("iterations"))
-        ->type_name("N")
-        ->capture_default_str();
+/// Adds an option that takes one of the names, and calls `set` with its place among them.
+CLI::Option* add_choice(CLI::App& app, const std::string& option,
+                        const std::vector<std::string>& names, int first,
+                        const std::function<void(int)>& set, const std::string& help) {
+    const auto take = [names, set](const std::string& name) {
+        set(static_cast<int>(std::find(names.begin(), names.end(), name) - names.begin()));
+    };
+    return app.add_option_function<std::string>(option, take, help)
+        ->type_name(CLI::detail::join(names, "|"))
+        ->check(CLI::IsMember(names).description(""))
+        ->default_str(names.at(static_cast<std::size_t>(first)));
 }
 
-void add_choices(CLI::App& app, CommandLine& line) {
-    FlowParameters& parameters = line.parameters;
-    add_choice(app, "--flow", parameters.flow, kFlows, shared_help("flow"));
-    add_choice(app, "--boundary", parameters.boundary, kBoundaries, shared_help("boundary"));
-    app.add_option("--selected", line.selected,
-                   help_of("Only selected faces move; vertices of other faces keep their "
-                           "positions. PROPERTY is the name of a number that the faces of a PLY "
-                           "file have, or else its vertices. A face is selected if its number is "
-                           "not 0, or if the numbers of all its vertices are not 0. 'flags' is "
-                           "where MeshLab saves a selection: only its bit 32 counts."))
-        ->type_name("PROPERTY");
-    add_choice(app, "--preserve", parameters.preserve, kPreserves, shared_help("preserve"));
-    add_choice(app, "--quality", parameters.quality, kQualities,
-               help_of(tooltip_of("quality") +
-                       " Written to a PLY file as the property quality of its vertices."));
-    add_choice(app, "--separate-sheets", parameters.separate_sheets, kSwitches,
-               shared_help("separate_sheets"));
-    add_choice(app, "--solver", parameters.solver, kSolvers, shared_help("solver"));
+/// Adds the option of a parameter. `line` and `parameter` must outlive `app`.
+void add_parameter(CLI::App& app, CommandLine& line, const Parameter& parameter) {
+    std::string option = "--" + parameter.name;
+    std::replace(option.begin(), option.end(), '_', '-');
+    const std::string help = help_of(parameter.help);
+    const ParameterValue value = parameter.get({});
+    const std::string first = std::visit([](auto v) { return CLI::detail::to_string(v); }, value);
+    const auto set = [&line, &parameter](const ParameterValue& taken) {
+        parameter.set(line.parameters, taken);
+    };
+    switch (parameter.type) {
+        case Parameter::Type::Switch:
+            if (std::get<bool>(value)) {
+                add_choice(
+                    app, option, {"on", "off"}, 0, [set](int i) { set(i == 0); }, help);
+            } else {
+                app.add_flag_function(
+                    option, [set](auto count) { set(count > 0); }, help);
+            }
+            break;
+        case Parameter::Type::Selected:
+            app.add_option(option, line.selected, help_of(kProperty + parameter.help))
+                ->type_name("PROPERTY");
+            break;
+        case Parameter::Type::Integer:
+            app.add_option_function<int>(option, set, help)->type_name("N")->default_str(first);
+            break;
+        case Parameter::Type::Real:
+            app.add_option_function<double>(option, set, help)->type_name("X")->default_str(first);
+            break;
+        case Parameter::Type::Length:
+            app.add_option_function<std::string>(
+                   option, [&line](const std::string& text) { line.detail_size = length_of(text); },
+                   help_of(kLength + parameter.help))
+                ->type_name("X|X%")
+                ->default_str(first);
+            break;
+        case Parameter::Type::Choice:
+            std::vector<std::string> names;
+            for (const NamedChoice& choice : parameter.choices) names.push_back(choice.name);
+            add_choice(app, option, names, std::get<int>(value), set, help);
+    }
 }
 
-void add_solver_numerics(CLI::App& app, FlowParameters& parameters) {
-    app.add_option("--tolerance", parameters.tolerance,
-                   help_of("With --solver converged: a step is solved when the error estimate, "
-                           "relative to the step in the energy norm, is at most this number; "
-                           "greater than 0, less than 1. A smaller one takes more iterations. "
-                           "With the default, the grid's own error is larger."))
-        ->type_name("X")
-        ->default_str("1e-3");
-    app.add_option("--stabilization", parameters.stabilization,
-                   help_of("Weight of the volume stabilisation, without unit, 0 to 1000. The "
-                           "stabilisation lets the solver converge; a much larger weight slows "
-                           "the surface down. 0 is the paper's system, for which --solver "
-                           "converged takes more iterations and may stop short."))
-        ->type_name("X")
-        ->default_str(CLI::detail::to_string(kDefaultStabilization) + ", with --solver w-cycle 0");
-    app.add_option("--cycles", parameters.cycles,
-                   help_of("With --solver w-cycle: W-cycles of multigrid in each step, 1 to 1000. "
-                           "The paper uses one. More solve the equations more exactly, and the "
-                           "time grows in proportion."))
-        ->type_name("N")
-        ->capture_default_str();
-}
-
-void add_numerics(CLI::App& app, FlowParameters& parameters) {
+void add_parameters(CLI::App& app, CommandLine& line) {
+    for (const Parameter& parameter : parameter_table()) add_parameter(app, line, parameter);
     // Up to version 1.0.0, the rule with 12 samples was called 11, after the paper's 11-point rule.
     const auto rename = [](std::string& name) {
         if (name == "11") name = "12";
         return std::string();
     };
-    add_choice(app, "--cubature", parameters.cubature, kCubatures,
-               help_of("Samples on each split triangle: 3 as in the paper. Take 1, which is "
-                       "inaccurate, or 12, which is slow and exact to degree 6, only to compare."))
-        ->transform(CLI::Validator(rename, ""));
-    app.add_option("--threads", parameters.threads,
-                   help_of("Threads, up to 1024; 0 takes all that OpenMP offers (OMP_NUM_THREADS "
-                           "is respected). The result does not depend on it; only processors "
-                           "with other vector instructions round differently."))
-        ->type_name("N")
-        ->capture_default_str();
+    app.get_option("--cubature")->transform(CLI::Validator(rename, ""));
 }
 
 /// Adds an option for a path, which is given in UTF-8.
@@ -268,10 +221,7 @@ CommandLine parse_command_line(std::vector<std::string> arguments) {
     app.get_formatter()->column_width(kNameColumns);
     app.footer(kExamples);
     app.set_version_flag("--version", "tracked_mcf " TRACKED_MCF_VERSION);
-    add_steps(app, line);
-    add_choices(app, line);
-    add_solver_numerics(app, line.parameters);
-    add_numerics(app, line.parameters);
+    add_parameters(app, line);
     add_files(app, line);
     refuse_empty_values(app);
     try {

@@ -71,16 +71,17 @@ void run(CommandLine line) {
 
     file.set_quality(report.quality);
     output.write([&](std::ostream& out) { file.write(mesh, out, line.output); });
+    std::vector<std::string> all_warnings = warnings(line, report);
+    const std::string conversion = file.conversion_warning(line.output);
+    if (!conversion.empty()) all_warnings.push_back(conversion);
     if (report_file) {
-        report_file->write([&](std::ostream& out) { out << report_json(line, report); });
+        report_file->write(
+            [&](std::ostream& out) { out << report_json(line, report, all_warnings); });
     }
     if (interrupted()) return;  // the end of the last temporary file ends the program
     output.commit();
     if (report_file) report_file->commit();
     if (!line.quiet) std::cout << summary(line, report) << std::flush;
-    std::vector<std::string> all_warnings = warnings(line, report);
-    const std::string conversion = file.conversion_warning(line.output);
-    if (!conversion.empty()) all_warnings.push_back(conversion);
     for (const std::string& warning : all_warnings) complain("warning: " + warning);
 }
 

@@ -5,7 +5,9 @@
 #include <iomanip>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <variant>
 
+#include "filter_tracked_mcf/core/parameter_table.h"
 #include "filter_tracked_mcf/parameters/flow_warnings.h"
 
 namespace tracked_mcf {
@@ -14,27 +16,25 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+/// Returns the value of a parameter: of a choice its name, or its number if that is its name.
+Json value_json(const Parameter& parameter, const CommandLine& line) {
+    const ParameterValue value = parameter.get(line.parameters);
+    if (parameter.type == Parameter::Type::Selected) {
+        return line.selected.empty() ? Json() : Json(line.selected);
+    }
+    if (parameter.type == Parameter::Type::Choice) {
+        const std::string& name = parameter.choices.at(std::get<int>(value)).name;
+        return Json::accept(name) ? Json::parse(name) : Json(name);
+    }
+    return std::visit([](auto number) { return Json(number); }, value);
+}
+
 Json parameters_json(const CommandLine& line) {
-    const FlowParameters& parameters = line.parameters;
-    return {{"detail_size", parameters.detail_size},
-            {"local_detail_size", parameters.local_detail_size},
-            {"order", parameters.order},
-            {"depth", parameters.depth},
-            {"step_size", parameters.step_size},
-            {"absolute", parameters.absolute},
-            {"iterations", parameters.iterations},
-            {"flow", name_of(kFlows, parameters.flow)},
-            {"boundary", name_of(kBoundaries, parameters.boundary)},
-            {"selected", line.selected.empty() ? Json() : Json(line.selected)},
-            {"preserve", name_of(kPreserves, parameters.preserve)},
-            {"quality", name_of(kQualities, parameters.quality)},
-            {"separate_sheets", parameters.separate_sheets},
-            {"cubature", std::stoi(name_of(kCubatures, parameters.cubature))},
-            {"solver", name_of(kSolvers, parameters.solver)},
-            {"tolerance", parameters.tolerance},
-            {"stabilization", stabilization_of(parameters)},
-            {"cycles", parameters.cycles},
-            {"threads", parameters.threads}};
+    Json json;
+    for (const Parameter& parameter : parameter_table()) {
+        json[parameter.name] = value_json(parameter, line);
+    }
+    return json;
 }
 
 const char* stop_name(Stop stop) {
@@ -82,7 +82,8 @@ double total_seconds(const FlowReport& report) {
 
 }  // namespace
 
-std::string report_json(const CommandLine& line, const FlowReport& report) {
+std::string report_json(const CommandLine& line, const FlowReport& report,
+                        const std::vector<std::string>& warnings) {
     Json steps = Json::array();
     for (const StepReport& step : report.steps) {
         steps.push_back(step_json(step, line.parameters.solver));
@@ -118,6 +119,7 @@ std::string report_json(const CommandLine& line, const FlowReport& report) {
         {"steps", steps},
         {"converged", converged(report)},
         {"stop", stop_name(report.stop)},
+        {"warnings", warnings},
         {"estimated_memory_bytes", report.estimated_memory_bytes},
         {"peak_memory_bytes", report.peak_memory_bytes}};
     // JSON must be UTF-8; file names need not be.

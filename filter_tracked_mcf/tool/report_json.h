@@ -9,10 +9,11 @@
 
 namespace tracked_mcf {
 
-/// Returns the version, file names, parameters and every member of the flow's report as indented
-/// JSON, under their names in the code. The stabilisation is the one used. W-cycles have no
-/// tolerance: error_estimate and reached_tolerance of their steps are null.
-std::string report_json(const CommandLine& line, const FlowReport& report);
+/// Returns the version, file names, parameters, every member of the flow's report, and all warnings
+/// as indented JSON, under their names in the code. The stabilisation is the one used. W-cycles
+/// have no tolerance: error_estimate and reached_tolerance of their steps are null.
+std::string report_json(const CommandLine& line, const FlowReport& report,
+                        const std::vector<std::string>& warnings);
 
 /// Returns the main numbers of the report in a few lines for a person.
 std::string summary(const CommandLine& line, const FlowReport& report);

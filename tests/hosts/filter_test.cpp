@@ -5,115 +5,47 @@
 
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "filter_tracked_mcf/core/errors.h"
+#include "filter_tracked_mcf/core/parameter_table.h"
 #include "filter_tracked_mcf/parameters/flow_warnings.h"
-#include "filter_tracked_mcf/parameters/parameter_table.h"
-#include "filter_tracked_mcf/plugin/parameter_values.h"
+#include "filter_tracked_mcf/plugin/as_typed.h"
 #include "filter_tracked_mcf/plugin/run_filter.h"
 
 namespace tracked_mcf {
 
 namespace {
 
-ParameterValues values_other_than_default() {
-    return {{"detail_size", 0.5}, {"order", 2},
-            {"depth", 7},         {"step_size", 2e-4},
-            {"absolute", true},   {"iterations", 5},
-            {"flow", 1},          {"boundary", 2},
-            {"selected", true},   {"preserve", 1},
-            {"solver", 1},        {"separate_sheets", false},
-            {"quality", 1},       {"local_detail_size", true}};
-}
-
-TEST(ParameterValues, EveryParameterOfTheTableIsRead) {
-    for (const ParameterDescription& parameter : parameter_table()) {
-        ParameterValues values = values_other_than_default();
-        values.erase(parameter.name);
-        const auto read = [&] {
-            flow_parameters(values);
-            selected_only(values);
-        };
-        EXPECT_THROW(read(), InvalidParameter) << parameter.name;
-    }
-}
-
-TEST(ParameterValues, ReachTheCoreUnchanged) {
-    const FlowParameters parameters = flow_parameters(values_other_than_default());
-    EXPECT_EQ(parameters.detail_size, 0.5);
-    EXPECT_TRUE(parameters.local_detail_size);
-    EXPECT_EQ(parameters.order, 3) << "the first choice is order 1";
-    EXPECT_EQ(parameters.depth, 7);
-    EXPECT_EQ(parameters.step_size, 2e-4);
-    EXPECT_TRUE(parameters.absolute);
-    EXPECT_EQ(parameters.iterations, 5);
-    EXPECT_EQ(parameters.flow, FlowKind::Conformalized);
-    EXPECT_EQ(parameters.boundary, BoundaryCondition::Free);
-    EXPECT_EQ(parameters.preserve, Preserve::Area);
-    EXPECT_EQ(parameters.quality, Quality::Displacement);
-    EXPECT_FALSE(parameters.separate_sheets);
-    EXPECT_EQ(parameters.solver, Solver::OneWCycle);
-}
-
-TEST(ParameterValues, LabelsAreThoseOfTheCoresValues) {
-    const std::map<std::string, std::pair<int, std::string>> labels = {
+TEST(ParameterTable, NamesTheValuesOfEachChoiceInTheirOrder) {
+    const std::map<std::string, std::pair<ParameterValue, std::string>> labels = {
         {"flow", {static_cast<int>(FlowKind::Conformalized), "Conformalized"}},
         {"boundary", {static_cast<int>(BoundaryCondition::LockedCells), "Locked cells (paper)"}},
-        {"order", {kMaximumOrder - 1, "Kept best (order 4)"}},
         {"preserve", {static_cast<int>(Preserve::Volume), "Volume"}},
         {"quality", {static_cast<int>(Quality::MeanCurvature), "Mean curvature"}},
         {"solver", {static_cast<int>(Solver::OneWCycle), "One W-cycle (paper)"}}};
-    for (const ParameterDescription& parameter : parameter_table()) {
-        const auto* const choice = std::get_if<ParameterDescription::Choice>(&parameter.type);
-        if (choice == nullptr) continue;
-        const auto& [index, label] = labels.at(parameter.name);
-        EXPECT_EQ(choice->labels.at(static_cast<std::size_t>(index)), label);
-        EXPECT_EQ(choice->default_value, 0) << parameter.name;
-        const bool is_order = parameter.name == "order";
-        EXPECT_TRUE(!is_order || choice->labels.size() == std::size_t{kMaximumOrder});
+    for (const Parameter& parameter : parameter_table()) {
+        if (parameter.type != Parameter::Type::Choice || parameter.label.empty()) continue;
+        const auto& [value, label] = labels.at(parameter.name);
+        EXPECT_EQ(parameter.choices.at(static_cast<std::size_t>(std::get<int>(value))).label,
+                  label);
+        FlowParameters parameters;
+        parameter.set(parameters, value);
+        EXPECT_EQ(parameter.get(parameters), value) << parameter.name;
     }
 }
 
-TEST(ParameterValues, TheSelectionParameterIsRead) {
-    ParameterValues values = values_other_than_default();
-    EXPECT_TRUE(selected_only(values));
-    values["selected"] = false;
-    EXPECT_FALSE(selected_only(values));
-    values["selected"] = 1;
-    EXPECT_THROW(selected_only(values), InvalidParameter);
-}
-
-TEST(ParameterValues, OneWCycleIsThePapersSystem) {
-    ParameterValues values = values_other_than_default();
-    EXPECT_EQ(stabilization_of(flow_parameters(values)), 0);
-    EXPECT_EQ(flow_parameters(values).cycles, 1);
-    values["solver"] = 0;
-    EXPECT_EQ(stabilization_of(flow_parameters(values)), kDefaultStabilization);
-}
-
-TEST(ParameterValues, AChoiceWithoutALabelIsRefusedWithTheLabels) {
+TEST(ParameterTable, ANumberThatIsNoChoiceIsRefusedWithTheLabels) {
     for (const int index : {-1, 3, std::numeric_limits<int>::max()}) {
-        ParameterValues values = values_other_than_default();
-        values["boundary"] = index;
+        FlowParameters parameters;
+        parameters.boundary = static_cast<BoundaryCondition>(index);
         try {
-            flow_parameters(values);
+            validate(parameters);
             ADD_FAILURE() << index << " was accepted";
         } catch (const InvalidParameter& error) {
             EXPECT_EQ(error.what(), "boundary is " + std::to_string(index) +
-                                        "; give 0 (Locked), 1 (Locked cells (paper)), 2 (Free).");
+                                        "; give 0 to 2: Locked, Locked cells (paper), Free.");
         }
-    }
-}
-
-TEST(ParameterValues, AValueOfTheWrongTypeIsRefused) {
-    const std::map<std::string, ParameterValue> wrong = {
-        {"detail_size", 1},     {"order", 1.0},   {"step_size", 1},
-        {"absolute", 0},        {"flow", false},  {"preserve", 0.0},
-        {"separate_sheets", 1}, {"solver", true}, {"depth", 3.0}};
-    for (const auto& [name, value] : wrong) {
-        ParameterValues values = values_other_than_default();
-        values[name] = value;
-        EXPECT_THROW(flow_parameters(values), InvalidParameter) << name;
     }
 }
 
@@ -190,7 +122,7 @@ TEST(Outputs, AreTheReportsNumbers) {
                                                        {"area_after", 2.25},
                                                        {"volume_change", -1.5}}));
     report.oriented_consistently = false;
-    EXPECT_EQ(outputs_of(parameters, report).count("volume_change"), 0u);
+    EXPECT_TRUE(std::isnan(std::get<double>(outputs_of(parameters, report).at("volume_change"))));
     report.stop = Stop::Vanished;
     EXPECT_EQ(outputs_of(parameters, report).at("stopped_early"), Outputs::mapped_type(1));
     report.steps[0].reached_tolerance = false;
@@ -214,6 +146,19 @@ TEST(Summary, NamesTheFirstStepAboveTheToleranceAndTheRemedy) {
                         "steps: step 4, at 0.02 after 100 iterations. Look at the result; "),
               std::string::npos)
         << text;
+}
+
+TEST(Warnings, AreOneALine) {
+    using run_filter_detail::warnings_of;
+    FlowReport report;
+    report.steps.resize(2);
+    EXPECT_EQ(warnings_of({}, report), "");
+    report.steps[0].area = 10;
+    report.steps[1].area = report.area_after = 5;
+    const std::string loss = warnings_of({}, report);
+    EXPECT_EQ(loss.rfind("Step 1 removed 50 % of the area.", 0), 0u) << loss;
+    report.steps[1].reached_tolerance = false;
+    EXPECT_EQ(warnings_of({}, report).rfind(loss + "\nThe solver stopped short of", 0), 0u);
 }
 
 TEST(Summary, NamesTheFlowAndTheConstrainedVertices) {

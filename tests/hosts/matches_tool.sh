@@ -56,7 +56,7 @@ detail_size=$(report detail_size | awk '{printf "%.4g", 2 * $1}')
 compare detail_size "detail_size=$detail_size" "--detail-size $detail_size"
 compare local_detail_size local_detail_size=true --local-detail-size
 for order in 2 3 4; do
-    compare order_$order order=$((order - 1)) "--order $order"
+    compare order_$order order=$order "--order $order"
 done
 compare step_size step_size=3e-5 "--step-size 3e-5"
 # A tenth of a squared cell, in units of the mesh.
@@ -74,7 +74,7 @@ if [ "$(report volume_change)" = null ]; then
     both_refuse volume_without_orientation preserve=2 "--preserve volume"
 else
     compare volume preserve=2 "--preserve volume"
-    compare volume_order_2 "order=1 preserve=2" "--order 2 --preserve volume"
+    compare volume_order_2 "order=2 preserve=2" "--order 2 --preserve volume"
     compare volume_free "boundary=2 preserve=2" "--boundary free --preserve volume"
 fi
 if [ "$(report boundary_edges)" != 0 ]; then

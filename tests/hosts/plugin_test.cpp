@@ -4,14 +4,15 @@
 #include <gtest/gtest.h>
 
 #include <QApplication>
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
 #include <utility>
 
-#include "filter_tracked_mcf/core/flow_parameters.h"
-#include "filter_tracked_mcf/parameters/parameter_table.h"
-#include "filter_tracked_mcf/plugin/parameter_values.h"
+#include "filter_tracked_mcf/core/parameter_table.h"
+#include "filter_tracked_mcf/parameters/filter_names.h"
+#include "filter_tracked_mcf/plugin/as_typed.h"
 #include "tests/hosts/plugin_fixture.h"
 
 namespace tracked_mcf {
@@ -42,60 +43,82 @@ TEST_F(Plugin, IsApplicableToFacesOnly) {
     EXPECT_FALSE(filter().is_applicable(host::add_layer(document, "empty")));
 }
 
-/// Compares a parameter with the table.
-struct ExpectParameter {
-    const RichParameter& actual;
-    Scalarm diagonal;  ///< of the layer's box
+/// Returns the rows of the table that dialogs and scripts offer.
+std::vector<Parameter> offered_parameters() {
+    std::vector<Parameter> rows = parameter_table();
+    const auto is_hidden = [](const Parameter& parameter) { return parameter.label.empty(); };
+    rows.erase(std::remove_if(rows.begin(), rows.end(), is_hidden), rows.end());
+    return rows;
+}
 
-    void operator()(const ParameterDescription::Integer& expected) const {
-        EXPECT_EQ(actual.stringType(), "RichInt");
-        EXPECT_EQ(actual.value().getInt(), expected.default_value);
-    }
-    void operator()(const ParameterDescription::Real& expected) const {
-        EXPECT_EQ(actual.stringType(), "RichFloat");
-        EXPECT_EQ(as_typed(actual.value().getFloat()), expected.default_value);
-    }
-    void operator()(const ParameterDescription::Length&) const {
-        ASSERT_EQ(actual.stringType(), "RichAbsPerc");
-        const auto& length = dynamic_cast<const RichLength&>(actual);
-        EXPECT_EQ(length.min, 0);
-        EXPECT_EQ(length.max, diagonal);
-    }
-    void operator()(const ParameterDescription::Boolean& expected) const {
-        EXPECT_EQ(actual.stringType(), "RichBool");
-        EXPECT_EQ(actual.value().getBool(), expected.default_value);
-    }
-    void operator()(const ParameterDescription::SelectionSwitch&) const {
-        EXPECT_EQ(actual.stringType(), "RichBool");
-    }
-    void operator()(const ParameterDescription::Choice& expected) const {
-        ASSERT_EQ(actual.stringType(), "RichEnum");
-        EXPECT_EQ(choice_of(actual.value()), expected.default_value);
-        const QStringList& labels = dynamic_cast<const RichEnum&>(actual).enumvalues;
-        ASSERT_EQ(static_cast<std::size_t>(labels.size()), expected.labels.size());
-        for (int i = 0; i < labels.size(); ++i) {
-            EXPECT_EQ(labels[i].toStdString(), expected.labels[static_cast<std::size_t>(i)]);
+/// Expects a parameter of the plugin to have the default, the range and the labels of its row.
+void expect_row(const RichParameter& actual, const Parameter& row, Scalarm diagonal) {
+    const ParameterValue initial = row.get({});
+    switch (row.type) {
+        case Parameter::Type::Switch:
+            ASSERT_EQ(actual.stringType(), "RichBool");
+            EXPECT_EQ(ParameterValue(actual.value().getBool()), initial);
+            break;
+        case Parameter::Type::Selected:
+            EXPECT_EQ(actual.stringType(), "RichBool");
+            break;
+        case Parameter::Type::Integer:
+            ASSERT_EQ(actual.stringType(), "RichInt");
+            EXPECT_EQ(ParameterValue(actual.value().getInt()), initial);
+            break;
+        case Parameter::Type::Real:
+            ASSERT_EQ(actual.stringType(), "RichFloat");
+            EXPECT_EQ(ParameterValue(as_typed(actual.value().getFloat())), initial);
+            break;
+        case Parameter::Type::Length: {
+            ASSERT_EQ(actual.stringType(), "RichAbsPerc");
+            const auto& length = dynamic_cast<const RichLength&>(actual);
+            EXPECT_EQ(length.min, 0);
+            EXPECT_EQ(length.max, diagonal);
+            break;
+        }
+        case Parameter::Type::Choice: {
+            ASSERT_EQ(actual.stringType(), "RichEnum");
+            EXPECT_EQ(ParameterValue(choice_of(actual.value())), initial);
+            QStringList labels;
+            for (const NamedChoice& choice : row.choices) {
+                labels << QString::fromStdString(choice.label);
+            }
+            EXPECT_EQ(dynamic_cast<const RichEnum&>(actual).enumvalues, labels);
         }
     }
-};
+}
 
 TEST_F(Plugin, ParametersAreThoseOfTheTable) {
     const RichParameterList defaults = filter().parameters(document);
-    ASSERT_EQ(defaults.size(), parameter_table().size());
+    const std::vector<Parameter> rows = offered_parameters();
+    ASSERT_EQ(defaults.size(), rows.size());
     for (unsigned int i = 0; i < defaults.size(); ++i) {
-        const ParameterDescription& expected = parameter_table()[i];
-        EXPECT_EQ(defaults.at(i).name().toStdString(), expected.name);
-        EXPECT_EQ(defaults.at(i).fieldDescription().toStdString(), expected.label);
+        const Parameter& row = rows[i];
+        EXPECT_EQ(defaults.at(i).name().toStdString(), row.name);
+        EXPECT_EQ(defaults.at(i).fieldDescription().toStdString(), row.label);
         // HTML, which MeshLab wraps. No help needs escapes.
-        EXPECT_EQ(defaults.at(i).toolTip().toStdString(), "<span>" + expected.tooltip + "</span>");
-        std::visit(ExpectParameter{defaults.at(i), layer.cm.bbox.Diag()}, expected.type);
+        EXPECT_EQ(defaults.at(i).toolTip().toStdString(), "<span>" + row.help + "</span>");
+        expect_row(defaults.at(i), row, layer.cm.bbox.Diag());
+    }
+}
+
+TEST_F(Plugin, EveryParameterOfTheTableIsRead) {
+    for (const Parameter& row : offered_parameters()) {
+        RichParameterList others;
+        for (const RichParameter& parameter : parameters) {
+            if (parameter.name().toStdString() != row.name) others.addParam(parameter);
+        }
+        outcome = filter().apply(document, others);
+        EXPECT_FALSE(outcome.succeeded) << row.name;
+        EXPECT_TRUE(contains(outcome.message, row.name + " is missing")) << outcome.message;
     }
 }
 
 TEST_F(Plugin, ParametersNeedNoLayer) {
     MeshDocument empty;
     const RichParameterList defaults = filter().parameters(empty);
-    EXPECT_EQ(defaults.size(), parameter_table().size());
+    EXPECT_EQ(defaults.size(), offered_parameters().size());
     EXPECT_EQ(defaults.getParameterByName("detail_size").value().getFloat(), 0);
 }
 
@@ -184,9 +207,10 @@ TEST_F(Plugin, EveryParameterHasAnEffect) {
     };
     EXPECT_NE(with_detail_size_1(), by_default);
     EXPECT_NE(with("local_detail_size", BoolValue(true)), by_default);
-    EXPECT_NE(with("order", *host::choice(1)), by_default);
-    EXPECT_NE(with("order", *host::choice(2)), with("order", *host::choice(1)));
-    EXPECT_NE(with("order", *host::choice(3)), with("order", *host::choice(2)));
+    EXPECT_EQ(with("order", IntValue(1)), by_default);
+    EXPECT_NE(with("order", IntValue(2)), by_default);
+    EXPECT_NE(with("order", IntValue(3)), with("order", IntValue(2)));
+    EXPECT_NE(with("order", IntValue(4)), with("order", IntValue(3)));
     EXPECT_NE(with("depth", IntValue(3)), by_default);
     EXPECT_NE(with("iterations", IntValue(1)), by_default);
     EXPECT_NE(with("flow", *host::choice(1)), by_default);

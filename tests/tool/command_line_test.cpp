@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "filter_tracked_mcf/core/errors.h"
-#include "filter_tracked_mcf/parameters/parameter_table.h"
+#include "filter_tracked_mcf/core/parameter_table.h"
 
 namespace tracked_mcf {
 namespace {
@@ -127,19 +127,16 @@ TEST(CommandLine, EveryOptionIsTaken) {
     EXPECT_TRUE(line.quiet);
 }
 
-TEST(CommandLine, EveryValueHasTheNameThatSelectsIt) {
-    const auto parameters = [](const char* option, const char* value) {
-        return parse({"a.ply", "b.ply", option, value}).parameters;
+TEST(CommandLine, EveryValueOfAChoiceHasTheNameThatSelectsIt) {
+    const auto value = [](const Parameter& parameter, const std::string& name) {
+        const std::string option = "--" + parameter.name;
+        return parameter.get(parse({"a.ply", "b.ply", option.c_str(), name.c_str()}).parameters);
     };
-    for (const auto boundary :
-         {BoundaryCondition::Locked, BoundaryCondition::LockedCells, BoundaryCondition::Free}) {
-        EXPECT_EQ(parameters("--boundary", name_of(kBoundaries, boundary)).boundary, boundary);
-    }
-    for (const auto flow : {FlowKind::MeanCurvature, FlowKind::Conformalized}) {
-        EXPECT_EQ(parameters("--flow", name_of(kFlows, flow)).flow, flow);
-    }
-    for (const auto preserve : {Preserve::None, Preserve::Area, Preserve::Volume}) {
-        EXPECT_EQ(parameters("--preserve", name_of(kPreserves, preserve)).preserve, preserve);
+    for (const Parameter& parameter : parameter_table()) {
+        for (std::size_t i = 0; i < parameter.choices.size(); ++i) {
+            const std::string& name = parameter.choices[i].name;
+            EXPECT_EQ(value(parameter, name), ParameterValue(static_cast<int>(i))) << name;
+        }
     }
 }
 
@@ -280,9 +277,8 @@ TEST(CommandLine, HelpNamesEveryOptionAndExplainsTheSharedParameters) {
                                "PLY, OBJ, OFF and STL"}) {
         EXPECT_THAT(help, HasSubstr(option));
     }
-    for (const ParameterDescription& parameter : parameter_table()) {
-        if (parameter.name == "selected") continue;  // by a property, which dialogs know nothing of
-        EXPECT_THAT(unwrapped(help), HasSubstr(parameter.tooltip)) << parameter.name;
+    for (const Parameter& parameter : parameter_table()) {
+        EXPECT_THAT(unwrapped(help), HasSubstr(parameter.help)) << parameter.name;
     }
 }
 

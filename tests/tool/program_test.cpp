@@ -380,9 +380,10 @@ TEST_F(Program, WrongUseExitsWith2) {
     }
     EXPECT_THAT(run("a.off b.ply --depth 99").errors, HasSubstr("depth is 99; give 0 to 12"));
     EXPECT_THAT(run("a.off b.ply --order 5").errors, HasSubstr("order is 5; give 1 to 4."));
-    EXPECT_THAT(run("a.off b.ply --detail-size -1").errors,
-                HasSubstr("detail_size is -1; give a number greater than 0, a length in units of "
-                          "the mesh, or 0 to take 2.5 mean edge lengths."));
+    EXPECT_THAT(
+        run("a.off b.ply --detail-size -1").errors,
+        HasSubstr("detail_size is -1; give 0 or more, in units of the mesh, where 0 takes 2.5 "
+                  "mean edge lengths."));
 }
 
 TEST_F(Program, UnwritableResultsExitWith3BeforeTheWork) {

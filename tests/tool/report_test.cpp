@@ -77,6 +77,7 @@ TEST(Report, HoldsEveryMemberUnderItsName) {
         "constrained_vertices": 15, "detail_size": 0.4375, "step_size": 0.0625,
         "area_before": 20.5, "area_after": 19.5, "volume_change": -2.5,
         "largest_displacement": 0.75, "rms_displacement": 0.25, "converged": false, "stop": "vanished",
+        "warnings": ["first", "second"],
         "depth": 5, "cell_size": 6.5, "cells": 7, "elements": 14, "unknowns": 8, "constrained_unknowns": 9,
         "fragments": 10, "split_triangles": 11, "samples": 12, "setup_seconds": 13.5,
         "steps": [{"assemble_seconds": 0.5, "solve_seconds": 0.25, "residual_before": 1e-3,
@@ -86,13 +87,13 @@ TEST(Report, HoldsEveryMemberUnderItsName) {
                    "residual_after": 1e-7, "solver_iterations": 100, "error_estimate": 0.75,
                    "reached_tolerance": false, "area": 11.5, "collapsed_samples": 2}],
         "estimated_memory_bytes": 549755813888, "peak_memory_bytes": 1099511627776})");
-    EXPECT_EQ(Json::parse(report_json(line, report)), expected);
+    EXPECT_EQ(Json::parse(report_json(line, report, {"first", "second"})), expected);
 }
 
 TEST(Report, HoldsTheStabilizationThatIsUsed) {
     CommandLine line;
     const auto stabilization = [&] {
-        return Json::parse(report_json(line, {}))["parameters"]["stabilization"];
+        return Json::parse(report_json(line, {}, {}))["parameters"]["stabilization"];
     };
     EXPECT_EQ(stabilization(), kDefaultStabilization);
     line.parameters.solver = Solver::OneWCycle;
@@ -105,7 +106,7 @@ TEST(Report, WCyclesKnowNoTolerance) {
     FlowReport report;
     report.steps.resize(1);
     report.steps[0].solver_iterations = 2;
-    const Json json = Json::parse(report_json(line, report));
+    const Json json = Json::parse(report_json(line, report, {}));
     EXPECT_EQ(json["parameters"]["solver"], "w-cycle");
     const Json step = json["steps"][0];
     EXPECT_EQ(step["solver_iterations"], 2);
@@ -116,14 +117,14 @@ TEST(Report, WCyclesKnowNoTolerance) {
 TEST(Report, HasAVolumeOnlyOfConsistentlyOrientedFaces) {
     FlowReport report;
     report.volume_change = 0.5;
-    EXPECT_EQ(Json::parse(report_json({}, report))["volume_change"], 0.5);
+    EXPECT_EQ(Json::parse(report_json({}, report, {}))["volume_change"], 0.5);
     report.oriented_consistently = false;
-    EXPECT_TRUE(Json::parse(report_json({}, report))["volume_change"].is_null());
+    EXPECT_TRUE(Json::parse(report_json({}, report, {}))["volume_change"].is_null());
 }
 
 TEST(Report, SaysWhetherAllStepsConverged) {
     FlowReport report;
-    const auto converged = [&] { return Json::parse(report_json({}, report))["converged"]; };
+    const auto converged = [&] { return Json::parse(report_json({}, report, {}))["converged"]; };
     EXPECT_EQ(converged(), true);
     report.steps.resize(2);
     EXPECT_EQ(converged(), true);
@@ -164,7 +165,7 @@ TEST(Summary, TellsConstrainedVertices) {
 
 TEST(Report, NamesEveryWayToStop) {
     FlowReport report;
-    const auto stop = [&] { return Json::parse(report_json({}, report))["stop"]; };
+    const auto stop = [&] { return Json::parse(report_json({}, report, {}))["stop"]; };
     EXPECT_EQ(stop(), "none");
     report.stop = Stop::Vanished;
     EXPECT_EQ(stop(), "vanished");
@@ -179,7 +180,7 @@ TEST(Report, NamesEveryWayToStop) {
 }
 
 TEST(Report, SelectedIsNullUnlessGiven) {
-    EXPECT_TRUE(Json::parse(report_json({}, {}))["parameters"]["selected"].is_null());
+    EXPECT_TRUE(Json::parse(report_json({}, {}, {}))["parameters"]["selected"].is_null());
 }
 
 TEST(Warnings, NameTheWorstStepThatStoppedShort) {
@@ -246,10 +247,26 @@ TEST(Warnings, DoNotBlameTheGridIfNothingMoves) {
     EXPECT_EQ(warnings({}, report).at(0).substr(0, 18), "Nothing has moved:");
 }
 
+TEST(Report, HoldsEveryWarningThatIsPrinted) {
+    const TemporaryFolder folder;
+    write_file(folder / "a.obj",
+               "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvt 0 0\n"
+               "f 1/1 3/1 2/1\nf 1/1 2/1 4/1\nf 1/1 4/1 3/1\nf 2/1 3/1 4/1\n");
+    const ProgramRun run = run_program(folder, "a.obj b.ply --detail-size 100% --report r.json");
+    ASSERT_EQ(run.exit_code, 0) << run.errors;
+    const Json warnings = Json::parse(read_file(folder / "r.json"))["warnings"];
+    ASSERT_EQ(warnings.size(), 2u) << run.errors;
+    std::string lines;
+    for (const Json& warning : warnings) {
+        lines += "tracked_mcf: warning: " + warning.get<std::string>() + "\n";
+    }
+    EXPECT_EQ(run.errors, lines);
+}
+
 TEST(Report, IsJsonWhateverTheFileNames) {
     CommandLine line;
     line.input = "\xff\"\n.ply";
-    EXPECT_TRUE(Json::accept(report_json(line, {})));
+    EXPECT_TRUE(Json::accept(report_json(line, {}, {})));
 }
 
 TEST(Report, OfARunIsConsistent) {

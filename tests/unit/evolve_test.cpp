@@ -142,7 +142,7 @@ TEST(Evolve, RejectsParametersOutOfRangeAndNamesThem) {
     for (const int iterations : {-5, 0, 1000001}) {
         expect_rejected<InvalidParameter>(mesh, parameters(3, 1e-3, iterations), "iterations");
     }
-    for (const double step : {-1e-5, 1e36, kNaN, kInfinity, -kInfinity}) {
+    for (const double step : {-1e-5, kNaN, kInfinity, -kInfinity}) {
         expect_rejected<InvalidParameter>(mesh, parameters(3, step, 1), "step_size");
     }
     FlowParameters p = parameters(3, 1e-3, 1);
@@ -198,21 +198,15 @@ TEST(Evolve, SaysWhichNumbersAParameterMayBe) {
     };
     FlowParameters p;
     p.step_size = kInfinity;
-    EXPECT_EQ(
-        complaint(p),
-        "step_size is inf; give a number greater than 0 and at most 1e+09, such as 1e-5, or 0 "
-        "to take the detail size.");
-    p.absolute = true;
     EXPECT_EQ(complaint(p),
-              "step_size is inf; give a number greater than 0, in squared units of the mesh, or 0 "
-              "to take the detail size.");
-    p.absolute = false;
+              "step_size is inf; give 0 or more, such as 1e-5, where 0 takes that of the detail "
+              "size.");
     p.step_size = 0;
     p.detail_size = -1;
     EXPECT_EQ(
         complaint(p),
-        "detail_size is -1; give a number greater than 0, a length in units of the mesh, or 0 "
-        "to take 2.5 mean edge lengths.");
+        "detail_size is -1; give 0 or more, in units of the mesh, where 0 takes 2.5 mean edge "
+        "lengths.");
     p.detail_size = 0;
     p.order = 5;
     EXPECT_EQ(complaint(p), "order is 5; give 1 to 4.");
@@ -223,8 +217,7 @@ TEST(Evolve, SaysWhichNumbersAParameterMayBe) {
               "tolerance is 1; give a number greater than 0 and less than 1, such as 1e-3.");
     p.tolerance = 1e-10;
     p.stabilization = -1;
-    EXPECT_EQ(complaint(p),
-              "stabilization is -1; give a number from 0, which is none, to 1000, such as 0.01.");
+    EXPECT_EQ(complaint(p), "stabilization is -1; give 0 to 1000, where 0 is none.");
     for (const double weight : {0.0, kMaximumStabilization}) {
         p.stabilization = weight;
         EXPECT_EQ(complaint(p), "none");
@@ -330,7 +323,7 @@ TEST(Evolve, RejectsMeshesThatCannotFlow) {
 
 TEST(Evolve, HugeStepsAndTinyMeshesStayFinite) {
     const TriangleMesh mesh = shapes::bumpy_sphere(8);
-    for (const double step : {1e-12, 1.0, kMaximumStepSize}) {
+    for (const double step : {1e-12, 1.0, 1e9, 1e300}) {
         const TriangleMesh after = evolved(mesh, parameters(4, step, 3));
         for (const auto& position : after.positions) EXPECT_TRUE(position.allFinite());
         EXPECT_LE(surface_area(after), surface_area(mesh));
@@ -347,7 +340,7 @@ TEST(Evolve, ClosedMeshesStayInTheirBoxAtAnyStepSize) {
     const TriangleMesh mesh = shapes::bumpy_sphere(16);
     const Grid box = enclosing_grid(mesh, 0);
     for (const Solver solver : {Solver::Converged, Solver::OneWCycle}) {
-        for (const double step : {1.0, 1e2, 1e4, 1e6, kMaximumStepSize}) {
+        for (const double step : {1.0, 1e2, 1e4, 1e6, 1e9}) {
             FlowParameters p = parameters(6, step, 2);
             p.solver = solver;
             for (const auto& position : evolved(mesh, p).positions) {

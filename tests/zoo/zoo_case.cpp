@@ -11,7 +11,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "filter_tracked_mcf/tool/command_line.h"
+#include "filter_tracked_mcf/core/parameter_table.h"
 #include "tests/zoo/bad_meshes.h"
 
 namespace tracked_mcf::zoo {
@@ -153,23 +153,26 @@ Case case_of(std::uint64_t seed, std::int64_t number) {
 }
 
 std::string options_of(const Case& described) {
-    const FlowParameters& p = described.parameters;
     std::ostringstream text;
-    text << "--depth " << p.depth << " --iterations " << p.iterations;
-    if (p.detail_size > 0) text << " --detail-size " << exact(p.detail_size);
-    if (p.step_size > 0) text << " --step-size " << exact(p.step_size);
-    if (p.absolute) text << " --absolute";
-    if (p.order != 1) text << " --order " << p.order;
-    text << " --flow " << name_of(kFlows, p.flow);
-    text << " --boundary " << name_of(kBoundaries, p.boundary);
-    if (p.preserve != Preserve::None) text << " --preserve " << name_of(kPreserves, p.preserve);
-    if (p.quality != Quality::None) text << " --quality " << name_of(kQualities, p.quality);
-    if (!p.separate_sheets) text << " --separate-sheets off";
-    if (p.solver == Solver::OneWCycle) text << " --solver w-cycle --cycles " << p.cycles;
-    if (p.solver == Solver::Converged) text << " --tolerance " << exact(p.tolerance);
-    if (p.stabilization) text << " --stabilization " << exact(*p.stabilization);
-    if (p.cubature != Cubature::ThreePoints)
-        text << " --cubature " << name_of(kCubatures, p.cubature);
+    for (const Parameter& parameter : parameter_table()) {
+        if (parameter.type == Parameter::Type::Selected) continue;
+        const ParameterValue value = parameter.get(described.parameters);
+        // The default of the stabilisation depends on the solver.
+        if (value == parameter.get({}) && parameter.name != "stabilization") continue;
+        std::string option = parameter.name;
+        std::replace(option.begin(), option.end(), '_', '-');
+        text << (text.tellp() > 0 ? " --" : "--") << option;
+        if (const double* const number = std::get_if<double>(&value)) text << ' ' << exact(*number);
+        if (const int* const number = std::get_if<int>(&value)) {
+            text << ' ';
+            if (parameter.type == Parameter::Type::Choice) {
+                text << parameter.choices[*number].name;
+            } else {
+                text << *number;
+            }
+        }
+        if (value == ParameterValue(false)) text << " off";
+    }
     if (!described.selection.empty()) text << " --selected selected";
     return text.str();
 }

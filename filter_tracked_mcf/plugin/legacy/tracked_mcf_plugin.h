@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "filter_tracked_mcf/parameters/parameter_table.h"
+#include "filter_tracked_mcf/parameters/filter_names.h"
 #include "filter_tracked_mcf/plugin/meshlab_filter.h"
 
 namespace tracked_mcf {

@@ -22,6 +22,11 @@ std::map<std::string, QVariant> TrackedMcfPlugin::applyFilter(const QAction*,
     for (const auto& [name, output] : outcome.outputs) {
         outputs[name] = std::visit([](auto number) { return QVariant(number); }, output);
     }
+    // PyMeshLab passes numbers on, but no text: these are the codes of its UTF-8.
+    const std::string& codes = outcome.warnings;
+    outputs["warnings"] = QVariant::fromValue<Eigen::VectorXd>(
+        Eigen::Map<const Eigen::Matrix<char, Eigen::Dynamic, 1>>(codes.data(), codes.size())
+            .cast<double>());
     return outputs;
 }
 

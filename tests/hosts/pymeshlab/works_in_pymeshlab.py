@@ -34,9 +34,8 @@ RUNS = [
     ({**COARSE, "detail_size": pymeshlab.PureValue(0.125)},
      [*COARSE_OPTIONS, "--detail-size", "0.125"]),
     ({**COARSE, "local_detail_size": True}, [*COARSE_OPTIONS, "--local-detail-size"]),
-    ({**COARSE, "order": "Kept (order 2)"}, [*COARSE_OPTIONS, "--order", "2"]),
-    ({**COARSE, "order": 2}, [*COARSE_OPTIONS, "--order", "3"]),
-    ({**COARSE, "order": "Kept best (order 4)", "preserve": 2},
+    ({**COARSE, "order": 2}, [*COARSE_OPTIONS, "--order", "2"]),
+    ({**COARSE, "order": 4, "preserve": 2},
      [*COARSE_OPTIONS, "--order", "4", "--preserve", "volume"]),
     ({**COARSE, "step_size": 3e-5}, [*COARSE_OPTIONS, "--step-size", "3e-5"]),
     ({**COARSE, "step_size": 0.001, "absolute": True},
@@ -59,9 +58,9 @@ WRONG = [
     ({"iterations": 0}, "iterations is 0"),
     ({"detail_size": pymeshlab.PureValue(-1)}, "detail_size is -"),
     ({"detail_size": pymeshlab.PercentageValue(math.nan)}, "detail_size is nan"),
-    ({"order": 4}, "not valid"),
-    ({"order": -1}, "not valid"),
-    ({"order": "Best"}, "Possible values"),
+    ({"order": 0}, "order is 0; give 1 to 4"),
+    ({"order": 5}, "order is 5; give 1 to 4"),
+    ({"order": "Best"}, "cast"),
     ({"step_size": -1e-5}, "step_size is -"),
     ({"step_size": math.nan}, "step_size is nan"),
     ({"step_size": math.inf}, "step_size is inf"),
@@ -134,15 +133,43 @@ def compare(apply, tool, mesh, work):
     return largest
 
 
+def warnings_of(outputs):
+    """Returns the warnings as a list. Without the wheel, they are the codes of a text."""
+    warnings = outputs["warnings"]
+    if isinstance(warnings, numpy.ndarray):
+        return bytes(warnings.astype("uint8")).decode().splitlines()
+    return warnings
+
+
 def check_outputs(outputs, parameters):
     types = {**dict.fromkeys(("depth", "steps", "unknowns", "stopped_early", "converged"), int),
              **dict.fromkeys(("detail_size", "step_size", "cell_size", "error_estimate",
                               "largest_displacement", "rms_displacement", "area_before",
-                              "area_after", "volume_change"), float)}
+                              "area_after", "volume_change"), float),
+             "warnings": list}
+    outputs = {**outputs, "warnings": warnings_of(outputs)}
     if {name: type(value) for name, value in outputs.items()} != types:
         sys.exit(f"unexpected outputs: {outputs}")
     if outputs["steps"] != parameters.get("iterations", 3) or outputs["unknowns"] < 100:
         sys.exit(f"wrong outputs: {outputs}")
+
+
+def check_warnings(apply, mesh):
+    """A run without trouble returns no warning; a detail size below a cell returns one."""
+    quiet = warnings_of(apply(load(mesh), detail_size=pymeshlab.PercentageValue(10), iterations=20))
+    coarse = warnings_of(apply(load(mesh), depth=2, detail_size=pymeshlab.PercentageValue(1)))
+    if quiet or len(coarse) != 1 or not coarse[0].startswith("The detail size "):
+        sys.exit(f"wrong warnings: {quiet} and {coarse}")
+
+
+def check_turned_face(apply, work):
+    """A mesh that is not oriented consistently has no change of volume, but the key is there."""
+    (work / "turned.off").write_text(
+        "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 2\n3 0 1 3\n3 0 3 2\n3 1 2 3\n",
+        encoding="ascii")
+    volume_change = apply(load(work / "turned.off"), depth=4)["volume_change"]
+    if not math.isnan(volume_change):
+        sys.exit(f"the volume changed by {volume_change}")
 
 
 def must_refuse(plugin, mesh, case):
@@ -258,6 +285,8 @@ def main(plugin, tool, page, work, *meshes):
     check_quality(apply, tool, meshes[0], work)
     check_selection(apply, meshes[0])
     check_fork(meshes[0])
+    check_warnings(apply, meshes[0])
+    check_turned_face(apply, work)
     refuse_all(plugin, meshes[0])
 
 

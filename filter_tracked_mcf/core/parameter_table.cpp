@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "filter_tracked_mcf/core/parameter_table.h"
+
+#include <type_traits>
+#include <utility>
+
+namespace tracked_mcf {
+
+namespace {
+
+using Type = Parameter::Type;
+using P = FlowParameters;
+
+template <auto member>
+ParameterMember access(Type type, Range range) {
+    using Value = std::decay_t<decltype(std::declval<P>().*member)>;
+    using Held = std::conditional_t<std::is_enum_v<Value>, int, Value>;
+    return {type,
+            [](const P& p) -> ParameterValue { return static_cast<Held>(p.*member); },
+            [](P& p, const ParameterValue& value) {
+                p.*member = static_cast<Value>(std::get<Held>(value));
+            },
+            std::move(range),
+            {}};
+}
+
+template <auto member>
+ParameterMember toggle() {
+    return access<member>(Type::Switch, {0, 1, ""});
+}
+
+template <auto member>
+ParameterMember integer(int smallest, int largest, const char* advice = "") {
+    return access<member>(Type::Integer, {double(smallest), double(largest), advice});
+}
+
+/// Returns an enumeration, whose enumerators count from 0.
+template <auto member>
+ParameterMember choice(std::vector<NamedChoice> choices) {
+    Range range = {0, static_cast<double>(choices.size() - 1), ":"};
+    for (const NamedChoice& choice : choices) range.advice += ' ' + choice.label + ',';
+    range.advice.pop_back();
+    ParameterMember result = access<member>(Type::Choice, range);
+    result.choices = std::move(choices);
+    return result;
+}
+
+ParameterMember selected() {
+    return {Type::Selected,
+            [](const P&) -> ParameterValue { return false; },
+            [](P&, const ParameterValue&) {},
+            {0, 1, ""},
+            {}};
+}
+
+/// Its value is the weight that is used, also where none was given.
+ParameterMember stabilization() {
+    return {Type::Real,
+            [](const P& p) -> ParameterValue { return stabilization_of(p); },
+            [](P& p, const ParameterValue& value) { p.stabilization = std::get<double>(value); },
+            {0, kMaximumStabilization, ", where 0 is none"},
+            {}};
+}
+
+}  // namespace
+
+const std::vector<Parameter>& parameter_table() {
+    static const std::vector<Parameter> table = {
+        {access<&P::detail_size>(
+             Type::Length,
+             {0, kFinite, ", in units of the mesh, where 0 takes 2.5 mean edge lengths"}),
+         "detail_size", "Remove detail smaller than",
+         "Waves of this length keep half their height after all steps, shorter ones less. 0 takes "
+         "2.5 mean edge lengths."},
+        {toggle<&P::local_detail_size>(), "local_detail_size", "Larger where faces are larger",
+         "The length follows the local edge length, as noise of scans does."},
+        {integer<&P::iterations>(1, kMaximumIterations), "iterations", "Smoothing steps",
+         "Steps in which the detail is removed, 1 to 1000000. More are more accurate."},
+        {integer<&P::order>(1, kMaximumOrder), "order", "Order (1 to 4)",
+         "How well larger detail is kept: 1 is the flow itself, 4 keeps best. "
+         "Each order more takes another solve in each step."},
+        {choice<&P::preserve>({{"None", "none"}, {"Area", "area"}, {"Volume", "volume"}}),
+         "preserve", "Preserve",
+         "Of each connected part. Volume also works with boundaries and selections. Area scales, "
+         "so nothing may be locked."},
+        {choice<&P::boundary>(
+             {{"Locked", "locked"}, {"Locked cells (paper)", "locked-cells"}, {"Free", "free"}}),
+         "boundary", "Boundary",
+         "Of an open mesh. Locked: its vertices stay. Locked cells: all in its grid cells stays. "
+         "Free: openings shrink."},
+        {selected(), "selected", "Affect only selected faces",
+         "Vertices of other faces stay. Select a little more than needed, because the seam cannot "
+         "move."},
+        {choice<&P::quality>({{"Kept", "none"},
+                              {"Displacement", "displacement"},
+                              {"Mean curvature", "mean-curvature"}}),
+         "quality", "Vertex quality",
+         "For colours: how far the vertex moved along its normal, or the mean curvature after "
+         "smoothing."},
+        {access<&P::step_size>(
+             Type::Real, {0, kFinite, ", such as 1e-5, where 0 takes that of the detail size"}),
+         "step_size", "Step size (expert)",
+         "Time step, a squared length, for longest side 1. 0 takes that of the detail size."},
+        {toggle<&P::absolute>(), "absolute", "Absolute step size (expert)",
+         "The step size is in squared units of the mesh."},
+        {integer<&P::depth>(0, kMaximumDepth, ", where 0 chooses automatically"), "depth",
+         "Octree depth (expert)",
+         "2^depth grid cells a side, 1 to 12; one more takes four times as long. 0 takes about as "
+         "many functions as vertices."},
+        {choice<&P::flow>(
+             {{"Mean curvature", "mean-curvature"}, {"Conformalized", "conformalized"}}),
+         "flow", "Flow (expert)",
+         "Mean curvature: thin parts pinch. Conformalized: becomes a sphere."},
+        {toggle<&P::separate_sheets>(), "separate_sheets", "Separate sheets (expert)",
+         "Parts that only share grid cells move independently. Off is as in the paper."},
+        {choice<&P::solver>({{"Converged", "converged"}, {"One W-cycle (paper)", "w-cycle"}}),
+         "solver", "Solver (expert)",
+         "Converged: solves each step. One W-cycle: one multigrid cycle, only to compare with the "
+         "paper."},
+        {access<&P::tolerance>(Type::Real, {0, 1, ", such as 1e-3", true}), "tolerance", "",
+         "With --solver converged: a step is solved when the error estimate, relative to the step "
+         "in the energy norm, is at most this number; greater than 0, less than 1. A smaller one "
+         "takes more iterations. With the default, the grid's own error is larger."},
+        {stabilization(), "stabilization", "",
+         "Weight of the volume stabilisation, without unit, 0 to 1000. The stabilisation lets the "
+         "solver converge; a much larger weight slows the surface down. 0 is the paper's system, "
+         "for which --solver converged takes more iterations and may stop short. With --solver "
+         "w-cycle it is 0 unless given."},
+        {integer<&P::cycles>(1, 1000), "cycles", "",
+         "With --solver w-cycle: W-cycles of multigrid in each step, 1 to 1000. The paper uses "
+         "one. More solve the equations more exactly, and the time grows in proportion."},
+        {choice<&P::cubature>({{"", "1"}, {"", "3"}, {"", "12"}}), "cubature", "",
+         "Samples on each split triangle: 3 as in the paper. Take 1, which is inaccurate, or 12, "
+         "which is slow and exact to degree 6, only to compare."},
+        {integer<&P::threads>(0, 1024, ", where 0 takes all that OpenMP offers"), "threads", "",
+         "Threads, up to 1024; 0 takes all that OpenMP offers (OMP_NUM_THREADS is respected). The "
+         "result does not depend on it; only processors with other vector instructions round "
+         "differently."},
+    };
+    return table;
+}
+
+}  // namespace tracked_mcf

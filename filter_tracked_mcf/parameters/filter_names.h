@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+namespace tracked_mcf {
+
+/// The filter's name in menus and scripts.
+inline constexpr const char* kFilterName = "Mean Curvature Flow";
+
+/// The filter's name in PyMeshLab, where names of filters that move vertices begin with
+/// apply_coord.
+inline constexpr const char* kPythonFilterName = "apply_coord_mean_curvature_flow";
+
+/// The filter's help in the HTML that MeshLab shows.
+inline constexpr const char* kFilterHelp =
+    "Smooths the surface by <b>mean-curvature flow</b>, which removes noise and detail below a "
+    "chosen size. Sharp features are smoothed like noise. Only positions and, if asked for, vertex "
+    "qualities change.<br>See Ming Chuang and Michael Kazhdan: <b>Fast Mean-Curvature Flow via "
+    "Finite-Elements Tracking</b>, 2011, <a "
+    "href=\"https://doi.org/10.1111/j.1467-8659.2011.01899.x\">"
+    "doi:10.1111/j.1467-8659.2011.01899.x</a>.";
+
+}  // namespace tracked_mcf
