@@ -31,6 +31,8 @@ constexpr BytesPer kOneWCycle = {1.8e6, 75, 36, 10.5, 150, 770};
 constexpr BytesPer kArea = {0, 90, 0, 0, 0, 140};
 /// Added if the volume is preserved: positions, velocities and triangles, and the response.
 constexpr BytesPer kVolume = {0, 130, 0, 0, 30, 0};
+/// Added for the mean curvature: the velocities of three states.
+constexpr BytesPer kVelocity = {0, 0, 0, 0, 75, 0};
 /// Added for orders above 1: the stiffness.
 constexpr BytesPer kStiffness = {0, 0, 0, 0, 0, 108};
 /// Added for each order above 1: a solution and its guess.
@@ -194,6 +196,7 @@ double estimate_flow_bytes(const SurfaceSize& size, const Grid& grid,
     double bytes = bytes_of(solver, size, counts);
     if (parameters.preserve == Preserve::Area) bytes += bytes_of(kArea, size, counts);
     if (parameters.preserve == Preserve::Volume) bytes += bytes_of(kVolume, size, counts);
+    if (parameters.quality == Quality::MeanCurvature) bytes += bytes_of(kVelocity, size, counts);
     if (parameters.order > 1) bytes += bytes_of(kStiffness, size, counts);
     return bytes + (parameters.order - 1) * bytes_of(kSolution, size, counts);
 }

@@ -146,13 +146,14 @@ struct Fit {
 FlowParameters with_option(const std::string& option, int depth) {
     FlowParameters p;
     p.depth = depth;
-    p.iterations = 2;
+    p.iterations = 3;
     p.threads = 2;
     p.step_size = 1e-4;  // long enough for the solver to use all levels
     p.boundary = option == "locked" ? BoundaryCondition::Locked : BoundaryCondition::Free;
     if (option.find("w-cycle") == 0) p.solver = Solver::OneWCycle;
     if (option == "area") p.preserve = Preserve::Area;
     if (option == "volume") p.preserve = Preserve::Volume;
+    if (option == "curvature") p.quality = Quality::MeanCurvature;
     if (option == "order 2") p.order = 2;
     if (option == "1 sample") p.cubature = Cubature::OnePoint;
     if (option.find("12") != std::string::npos) p.cubature = Cubature::Degree6;
@@ -162,7 +163,7 @@ FlowParameters with_option(const std::string& option, int depth) {
 }
 
 void calibrate(const std::vector<std::pair<std::string, std::function<TriangleMesh()>>>& meshes) {
-    Fit clipping, converged, w_cycle, area, volume, order;
+    Fit clipping, converged, w_cycle, area, volume, curvature, order;
     std::printf("%-24s %-10s depth  peak MB  estimate/peak  clipping MB  estimate/peak\n", "mesh",
                 "option");
     for (const auto& [name, make] : meshes) {
@@ -173,8 +174,9 @@ void calibrate(const std::vector<std::pair<std::string, std::function<TriangleMe
             // Depths finer than the mesh, but not the largest flows.
             if (offset > 1 && std::ldexp(automatic[0].unknowns, 2 * offset) > 4e5) break;
             double plain_peak = 0;
-            for (const char* option : {"free", "area", "volume", "order 2", "w-cycle", "w-cycle 12",
-                                       "locked", "1 sample", "12 samples", "joined", "conformal"}) {
+            for (const char* option :
+                 {"free", "area", "volume", "curvature", "order 2", "w-cycle", "w-cycle 12",
+                  "locked", "1 sample", "12 samples", "joined", "conformal"}) {
                 const Flow flow = {name, make, option,
                                    with_option(option, std::max(1, depth + offset))};
                 for (const Measurement& m : measure_apart(flow)) {
@@ -191,6 +193,8 @@ void calibrate(const std::vector<std::pair<std::string, std::function<TriangleMe
                         area.add(m.quantities, m.peak - plain_peak);
                     } else if (flow.option == "volume") {
                         volume.add(m.quantities, m.peak - plain_peak);
+                    } else if (flow.option == "curvature") {
+                        curvature.add(m.quantities, m.peak - plain_peak);
                     } else if (flow.option == "order 2") {
                         order.add(m.quantities, m.peak - plain_peak);
                     } else {
@@ -206,6 +210,7 @@ void calibrate(const std::vector<std::pair<std::string, std::function<TriangleMe
     print_fit("w-cycle", w_cycle.rows, w_cycle.bytes);
     print_fit("area", area.rows, area.bytes);
     print_fit("volume", volume.rows, volume.bytes);
+    print_fit("curvature", curvature.rows, curvature.bytes);
     print_fit("order 2", order.rows, order.bytes);
 }
 

@@ -230,6 +230,13 @@ TEST(MemoryOfAFineGrid, PreservingTheArea) {
     });
 }
 
+TEST(MemoryOfAFineGrid, WithTheMeanCurvature) {
+    expect_close_estimate(shapes::separate_triangles(1), 8, [](FlowParameters& p) {
+        p.quality = Quality::MeanCurvature;
+        p.iterations = 3;  // the velocities of one state more in each step
+    });
+}
+
 TEST(MemoryOfAFineGrid, PreservingTheVolume) {
     expect_close_estimate(shapes::geodesic_sphere(15), 7,
                           [](FlowParameters& p) { p.preserve = Preserve::Volume; });
