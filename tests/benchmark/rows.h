@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "tests/benchmark/process_time.h"
 #include "tests/experiments/csv.h"
+#include "tests/support/process_time.h"
 
 namespace tracked_mcf::benchmark {
 

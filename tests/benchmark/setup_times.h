@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "filter_tracked_mcf/core/progress.h"
-#include "tests/benchmark/process_time.h"
+#include "tests/support/process_time.h"
 
 namespace tracked_mcf::benchmark {
 

@@ -11,13 +11,13 @@
 #include "filter_tracked_mcf/core/flow/flow.h"
 #include "filter_tracked_mcf/core/flow/preserving.h"
 #include "filter_tracked_mcf/core/mesh/domain.h"
-#include "filter_tracked_mcf/core/parallel/stopwatch.h"
 #include "filter_tracked_mcf/core/solver/step_solver.h"
 #include "filter_tracked_mcf/core/system/constrained_cells.h"
 #include "filter_tracked_mcf/core/system/element_matrices.h"
 #include "filter_tracked_mcf/core/system/stabilization.h"
 #include "tests/support/cotangent_flow.h"
 #include "tests/support/elements.h"
+#include "tests/support/process_time.h"
 #include "tests/support/shapes.h"
 
 namespace tracked_mcf::experiments {
@@ -30,16 +30,19 @@ double relative_step_size(const TriangleMesh& mesh, const FlowParameters& parame
     return parameters.step_size / (side * side);
 }
 
-/// Takes the sizes and the last step of a flow.
-void add_step(const FlowReport& from, MethodReport& to) {
+/// Takes the sizes and the last step of a flow, which took `seconds` of processor time. The parts
+/// of a step share it as they share the wall time.
+void add_step(const FlowReport& from, double seconds, MethodReport& to) {
     to.depth = from.depth;
     to.cell_size = from.cell_size;
     to.unknowns = from.unknowns;
     to.split_triangles = from.split_triangles;
     if (from.steps.empty()) return;
     const StepReport& last = from.steps.back();
-    to.assemble_seconds += last.assemble_seconds;
-    to.solve_seconds += last.solve_seconds;
+    const double assembling =
+        seconds * last.assemble_seconds / (last.assemble_seconds + last.solve_seconds);
+    to.assemble_seconds += assembling;
+    to.solve_seconds += seconds - assembling;
     to.iterations += last.solver_iterations;
     to.collapsed = static_cast<double>(last.collapsed_samples) / static_cast<double>(from.samples);
     to.reached_tolerance = last.reached_tolerance;
@@ -51,14 +54,15 @@ public:
     Tracked(const TriangleMesh& mesh, const FlowParameters& parameters)
         : domain_(mesh, parameters.boundary) {
         check_preservable(domain_, parameters);
-        const Stopwatch stopwatch;
+        const double start = cpu_seconds();
         flow_.emplace(domain_, parameters);
-        report_.setup_seconds = stopwatch.seconds();
+        report_.setup_seconds = cpu_seconds() - start;
     }
 
     bool step() override {
+        const double start = cpu_seconds();
         if (!flow_->step()) return false;
-        add_step(flow_->report(), report_);
+        add_step(flow_->report(), cpu_seconds() - start, report_);
         return true;
     }
 
@@ -83,12 +87,13 @@ public:
     }
 
     bool step() override {
-        const Stopwatch stopwatch;
+        const double start = cpu_seconds();
         Flow flow(mesh_, parameters_, with_depth(cube_, parameters_.depth));
-        report_.setup_seconds += stopwatch.seconds();
+        const double stepping = cpu_seconds();
+        report_.setup_seconds += stepping - start;
         if (!flow.step()) return false;
+        add_step(flow.report(), cpu_seconds() - stepping, report_);
         flow.move_vertices(mesh_.positions);
-        add_step(flow.report(), report_);
         return true;
     }
 
@@ -187,9 +192,9 @@ public:
     }
 
     bool step() override {
-        const Stopwatch stopwatch;
+        const double start = cpu_seconds();
         flow_.step();
-        report_.solve_seconds += stopwatch.seconds();
+        report_.solve_seconds += cpu_seconds() - start;
         report_.residual = flow_.relative_residual();
         return true;
     }

@@ -10,7 +10,7 @@
 
 namespace tracked_mcf::experiments {
 
-/// What a flow has cost so far.
+/// What a flow has cost so far. Seconds are processor time, which a busy machine hardly changes.
 struct MethodReport {
     int depth = 0;              ///< 0 without an octree
     std::int64_t unknowns = 0;  ///< of the finest level, in the last step

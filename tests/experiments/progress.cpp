@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
-#include <ctime>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,6 +10,7 @@
 #include "tests/experiments/experiments.h"
 #include "tests/experiments/meshes.h"
 #include "tests/experiments/options.h"
+#include "tests/support/process_time.h"
 
 namespace tracked_mcf::experiments {
 
@@ -46,9 +46,9 @@ Gaps gaps_of(TriangleMesh mesh, const FlowParameters& parameters) {
 
 /// Returns the processor time of a flow, over all threads, in seconds.
 double cost_of(TriangleMesh mesh, const FlowParameters& parameters, const Progress& progress) {
-    const std::clock_t start = std::clock();
+    const double start = cpu_seconds();
     evolve(mesh, parameters, progress);
-    return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+    return cpu_seconds() - start;
 }
 
 double median(std::vector<double> values) {

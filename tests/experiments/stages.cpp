@@ -193,8 +193,8 @@ void add_stages(CLI::App& app) {
         "bounding box, 'beyond_boundary' that from the bounding box of the boundary, 0 for a "
         "closed mesh; both in diagonals of the initial box. 'collapsed' is a fraction of the "
         "samples, the residual is that of the last step, relative to its start; iterations and "
-        "seconds are those of all steps; the memory is the process's peak, less what it had "
-        "before the set-up. "
+        "seconds, which are the processor's, are those of all steps; the memory is the process's "
+        "peak, less what it had before the set-up. "
         "'steps_made' is smaller than 'steps' if the flow stopped.",
         run, with_defaults<StageOptions>({1}, 1e-2));
     command->add_option("--method", options->method, "see method.h");

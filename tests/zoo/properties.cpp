@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <ctime>
 #include <exception>
 #include <numeric>
 #include <sstream>
@@ -17,6 +16,7 @@
 #include "filter_tracked_mcf/core/evolve.h"
 #include "filter_tracked_mcf/core/flow/confinement.h"
 #include "filter_tracked_mcf/core/flow/preserving.h"
+#include "tests/support/process_time.h"
 #include "tests/support/shapes.h"
 
 namespace tracked_mcf::zoo {
@@ -31,12 +31,6 @@ struct Run {
     double cpu_seconds = 0;
     bool made() const { return refusal.empty() && foreign.empty(); }
 };
-
-double cpu_seconds() {
-    std::timespec time{};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
 
 Run run(const Case& run_case, int threads = 1) {
     Run made;
