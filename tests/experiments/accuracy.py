@@ -58,8 +58,8 @@ def print_tables(experiment, cases, configurations):
     rows.append(["  of worst vertices", "", "",
                  *(geometric_mean(ratios(cases, c, "worst")) for c in others)])
     experiment.table(["mesh", "depth", "steps", *others], rows)
-    experiment.say("Iterations of the solver over all steps, and seconds, summed over meshes and "
-                   "depths\n")
+    experiment.say("Iterations of the solver over all steps, and processor seconds, summed over meshes "
+                   "and depths\n")
     last = [case for key, case in cases.items() if key[2] == max(experiment.options.steps)]
     experiment.table(["", *configurations], [
         [figure, *(sum(case[c][figure] for case in last) for c in configurations)]

@@ -14,15 +14,10 @@ Needs PyMeshLab: external/pymeshlab.sh build/pymeshlab, then build/pymeshlab/bin
 import pathlib
 import subprocess
 import tempfile
-import time
 
 import numpy
-from experiment import TOP, Experiment, label, skip
-
-try:
-    import pymeshlab
-except ImportError:
-    skip("curvature: this Python has no PyMeshLab; external/pymeshlab.sh installs it")
+from experiment import TOP, Experiment, processor_seconds
+from scan import Scan, loaded, pymeshlab
 
 NOISE = 0.1  # in mean edge lengths
 SIZES = [3, 6, 12]  # detail sizes, in mean edge lengths
@@ -30,41 +25,21 @@ OURS = "this filter, ℓ = {} edges"
 SCALED = "Scale Dependent Quadric Fitting, {} edges"
 
 
-def noisy(vertices, faces, edge):
-    corners = vertices[faces]
-    areas = numpy.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    normals = numpy.zeros_like(vertices)
-    for corner in range(3):
-        numpy.add.at(normals, faces[:, corner], areas)
-    normals /= numpy.maximum(numpy.linalg.norm(normals, axis=1), 1e-300)[:, None]
-    heights = numpy.random.default_rng(1).normal(0, NOISE * edge, len(vertices))
-    return vertices + heights[:, None] * normals
-
-
-def mesh_set(vertices, faces):
-    meshes = pymeshlab.MeshSet()
-    meshes.add_mesh(pymeshlab.Mesh(vertices, faces))
-    return meshes
-
-
-def ours(tool, detail_size):
-    """Returns a function from vertices and faces to a MeshSet whose quality is the curvature."""
-    def compute(vertices, faces):
+def ours(experiment, scan, detail_size):
+    """Returns a function from vertices to a MeshSet whose quality is the curvature."""
+    def compute(vertices):
         with tempfile.TemporaryDirectory() as folder:
             source, target = pathlib.Path(folder) / "in.ply", pathlib.Path(folder) / "out.ply"
-            mesh_set(vertices, faces).save_current_mesh(str(source), save_vertex_quality=False)
-            subprocess.run([tool, source, target, "--quiet", "--iterations", "1",
-                            "--quality", "mean-curvature", "--detail-size", repr(detail_size)],
-                           check=True)
-            meshes = pymeshlab.MeshSet()
-            meshes.load_new_mesh(str(target))
-            return meshes
+            scan.mesh_set(vertices).save_current_mesh(str(source), save_vertex_quality=False)
+            experiment.smooth(source, target, "--iterations", 1, "--quality", "mean-curvature",
+                              "--detail-size", repr(detail_size))
+            return loaded(target)
     return compute
 
 
-def stock(name, **parameters):
-    def compute(vertices, faces):
-        meshes = mesh_set(vertices, faces)
+def stock(scan, name, **parameters):
+    def compute(vertices):
+        meshes = scan.mesh_set(vertices)
         meshes.apply_filter(name, **parameters)
         return meshes
     return compute
@@ -96,33 +71,26 @@ def draw(experiment, results):
 
 def main():
     experiment = Experiment("curvature", __doc__)
-    tool = experiment.options.build / "filter_tracked_mcf" / "tool" / "tracked_mcf"
     rows, drawn = [], []
     for path in experiment.scans(["nefertiti_50k.ply"], ["nefertiti.off"]):
-        scan = pymeshlab.MeshSet()
-        scan.load_new_mesh(str(path))
-        vertices = scan.current_mesh().vertex_matrix()
-        faces = scan.current_mesh().face_matrix()
-        corners = vertices[faces]
-        edge = float(numpy.linalg.norm(corners - numpy.roll(corners, 1, axis=1), axis=2).mean())
-        disturbed = noisy(vertices, faces, edge)
+        scan = Scan(path)
+        disturbed = scan.noisy(NOISE)
         directions = "compute_curvature_principal_directions_per_vertex"
-        methods = {OURS.format(size): ours(tool, size * edge) for size in SIZES}
-        methods["discrete"] = stock("compute_scalar_by_discrete_curvature_per_vertex")
-        methods["Taubin approximation"] = stock(directions, method="Taubin approximation")
-        methods["Quadric Fitting"] = stock(directions, method="Quadric Fitting")
-        methods["Normal Cycles"] = stock(directions, method="Normal Cycles")
+        methods = {OURS.format(size): ours(experiment, scan, size * scan.edge) for size in SIZES}
+        methods["discrete"] = stock(scan, "compute_scalar_by_discrete_curvature_per_vertex")
+        for method in ("Taubin approximation", "Quadric Fitting", "Normal Cycles"):
+            methods[method] = stock(scan, directions, method=method)
         for size in SIZES:
             methods[SCALED.format(size)] = stock(
-                directions, method="Scale Dependent Quadric Fitting",
-                scale=pymeshlab.PureValue(size * edge))
+                scan, directions, method="Scale Dependent Quadric Fitting",
+                scale=pymeshlab.PureValue(size * scan.edge))
         for name, compute in methods.items():
-            begin = time.perf_counter()
-            results = [compute(vertices, faces), compute(disturbed, faces)]
-            seconds = (time.perf_counter() - begin) / 2
+            begin = processor_seconds()
+            results = [compute(scan.vertices), compute(disturbed)]
+            seconds = (processor_seconds() - begin) / 2
             clean, found = (meshes.current_mesh().vertex_scalar_array() for meshes in results)
             correlation, difference = disturbance(clean, found)
-            rows.append({"scan": label(path), "method": name, "correlation": correlation,
+            rows.append({"scan": scan.name, "method": name, "correlation": correlation,
                          "difference": difference, "seconds": seconds, "results": results,
                          "largest": float(numpy.percentile(abs(clean), 95))})
     by_stock = max((row for row in rows if "edges" not in row["method"]),
@@ -134,7 +102,7 @@ def main():
     draw(experiment, drawn)
     rows = [{key: value for key, value in row.items() if key != "results"} for row in rows]
     experiment.record(rows)
-    experiment.table(["scan", "method", "correlation", "relative difference", "seconds"],
+    experiment.table(["scan", "method", "correlation", "relative difference", "processor seconds"],
                      [list(row.values())[:5] for row in rows])
     experiment.check("correlation of ours at 6 edges less that of the best of MeshLab's without a scale",
                      by_us["correlation"] - by_stock["correlation"], at_least=0)

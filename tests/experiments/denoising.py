@@ -5,31 +5,24 @@
 Normally distributed noise moves the vertices of a clean scan along its normals. The table shows the RMS
 distance of the smoothed vertices to the clean surface, in mean edge lengths of the scan: for the default
 parameters, the same with order 2, the best settings of this filter (order 2 or 3, ten steps, one more
-than the automatic depth, with and without a local detail size), and the best settings of each of MeshLab's smoothers. "uneven" scans had one
-half subdivided before.
+than the automatic depth, with and without a local detail size), and the best settings of each of
+MeshLab's smoothers. "uneven" scans had one half subdivided before. Our seconds include reading and
+writing files, MeshLab's do not.
 
 Needs PyMeshLab: external/pymeshlab.sh build/pymeshlab, then build/pymeshlab/bin/python denoising.py.
 """
 
 import itertools
-import json
 import pathlib
-import subprocess
 import tempfile
-import time
 
 import numpy
-from experiment import Experiment, geometric_mean, label, skip
-
-try:
-    import pymeshlab
-except ImportError:
-    skip("denoising: this Python has no PyMeshLab; external/pymeshlab.sh installs it")
+from experiment import Experiment, geometric_mean, processor_seconds
+from scan import Scan, loaded, pymeshlab
 
 SCANS = ["hand_8k.ply", "nefertiti_50k.ply", "skull_50k.ply", "armadillo_50k.ply"]
 CGAL = ["hand.off", "nefertiti.off", "elephant.off", "armadillo.off"]
 NOISES = [0, 0.05, 0.1, 0.2, 0.3]  # standard deviations, in mean edge lengths
-SEED = 1
 # Largest RMS distances of the default parameters where noise is small, and the largest ratio of our
 # best settings to the best of MeshLab's smoothers: as good as them within a fifth.
 DEFAULT_ON_SMALL_NOISE = {0: 0.06, 0.05: 0.065}
@@ -40,88 +33,54 @@ DETAIL_SIZES = [2, 2.5, 3, 3.5, 4, 4.5, 5, 6, 7]  # in mean edge lengths
 STEPS = [1, 2, 3, 4, 6, 8, 10, 14, 20, 30, 50]
 
 
-class Scan:
-    """A clean surface, and noise on it."""
+def error(scan, vertices):
+    """Returns the RMS distance from `vertices` to the clean surface, in mean edge lengths."""
+    meshes = scan.mesh_set(vertices)
+    meshes.add_mesh(pymeshlab.Mesh(scan.vertices, scan.faces))
+    found = meshes.get_hausdorff_distance(sampledmesh=0, targetmesh=1, samplenum=len(vertices))
+    return found["RMS"] / scan.edge
 
-    def __init__(self, path, uneven):
-        meshes = pymeshlab.MeshSet()
-        meshes.load_new_mesh(str(path))
-        if uneven:
-            middle = numpy.median(meshes.current_mesh().vertex_matrix()[:, 0])
-            meshes.compute_selection_by_condition_per_face(condselect=f"x0 > {middle:.17g}")
-            meshes.meshing_surface_subdivision_midpoint(
-                iterations=1, threshold=pymeshlab.PureValue(0), selected=True)
-        self.name = label(path) + (", uneven" if uneven else "")
-        self.vertices = meshes.current_mesh().vertex_matrix()
-        self.faces = meshes.current_mesh().face_matrix()
-        corners = self.vertices[self.faces]
-        edges = corners - numpy.roll(corners, 1, axis=1)
-        self.edge = float(numpy.linalg.norm(edges, axis=2).mean())
-        normals = numpy.zeros_like(self.vertices)
-        areas = numpy.cross(edges[:, 1], edges[:, 2])
-        for corner in range(3):
-            numpy.add.at(normals, self.faces[:, corner], areas)
-        self.normals = normals / numpy.maximum(numpy.linalg.norm(normals, axis=1), 1e-300)[:, None]
 
-    def noisy(self, noise):
-        heights = numpy.random.default_rng(SEED).normal(0, noise * self.edge, len(self.vertices))
-        return self.vertices + heights[:, None] * self.normals
-
-    def error(self, vertices):
-        """Returns the RMS distance from `vertices` to the clean surface, in mean edge lengths."""
-        meshes = pymeshlab.MeshSet()
-        meshes.add_mesh(pymeshlab.Mesh(vertices, self.faces))
-        meshes.add_mesh(pymeshlab.Mesh(self.vertices, self.faces))
-        found = meshes.get_hausdorff_distance(sampledmesh=0, targetmesh=1, samplenum=len(vertices))
-        return found["RMS"] / self.edge
-
-    def rough_error(self, vertices):
-        """Returns nearly the same, much faster: the RMS displacement along the clean normals."""
-        along = ((vertices - self.vertices) * self.normals).sum(axis=1)
-        return float(numpy.sqrt((along ** 2).mean())) / self.edge
+def rough_error(scan, vertices):
+    """Returns nearly the same, much faster: the RMS displacement along the clean normals."""
+    along = ((vertices - scan.vertices) * scan.normals).sum(axis=1)
+    return float(numpy.sqrt((along ** 2).mean())) / scan.edge
 
 
 class Tool:
     """The program tracked_mcf, applied to the noisy vertices of a scan."""
 
-    def __init__(self, program, scan, vertices, folder):
-        self._program, self._folder = program, pathlib.Path(folder)
+    def __init__(self, experiment, scan, vertices, folder):
+        self._experiment, self._folder = experiment, pathlib.Path(folder)
         self._edge = scan.edge
-        meshes = pymeshlab.MeshSet()
-        meshes.add_mesh(pymeshlab.Mesh(vertices, scan.faces))
-        meshes.save_current_mesh(str(self._folder / "in.ply"), save_vertex_quality=False)
+        scan.mesh_set(vertices).save_current_mesh(str(self._folder / "in.ply"),
+                                                  save_vertex_quality=False)
 
     def smooth(self, detail_size=None, order=1, steps=3, depth=0, local=False):
-        """Returns the vertices after the filter, and its seconds without reading and writing.
-        `detail_size` is in mean edge lengths; None is the default."""
+        """Returns the vertices after the filter, and its processor seconds. `detail_size` is in mean edge
+        lengths; None is the default."""
         words = ["--order", order, "--iterations", steps, "--depth", depth]
         if local:
             words.append("--local-detail-size")
         if detail_size is not None:
             words += ["--detail-size", repr(detail_size * self._edge)]
-        subprocess.run([self._program, self._folder / "in.ply", self._folder / "out.ply", "--quiet",
-                        "--report", self._folder / "report.json", *map(str, words)], check=True, stderr=subprocess.DEVNULL)
-        report = json.loads((self._folder / "report.json").read_text())
+        target = self._folder / "out.ply"
+        report, seconds = self._experiment.smooth(self._folder / "in.ply", target, *words)
         self.depth = report["depth"]
-        seconds = report["setup_seconds"] + sum(
-            step["assemble_seconds"] + step["solve_seconds"] for step in report["steps"])
-        return read_vertices(self._folder / "out.ply"), seconds
-
-
-def read_vertices(path):
-    meshes = pymeshlab.MeshSet()
-    meshes.load_new_mesh(str(path))
-    return meshes.current_mesh().vertex_matrix()
+        result = loaded(target)
+        return result.current_mesh().vertex_matrix(), seconds
 
 
 def applied(scan, vertices, name, repeat=1, **parameters):
-    """Returns the vertices after MeshLab's filter `name`, and its seconds."""
-    meshes = pymeshlab.MeshSet()
-    meshes.add_mesh(pymeshlab.Mesh(vertices, scan.faces))
-    begin = time.perf_counter()
+    """Returns the vertices after MeshLab's filter `name`, and its processor seconds. A parameter `delta` is
+    in mean edge lengths."""
+    meshes = scan.mesh_set(vertices)
+    if "delta" in parameters:
+        parameters["delta"] = pymeshlab.PureValue(parameters["delta"] * scan.edge)
+    begin = processor_seconds()
     for _ in range(repeat):
         meshes.apply_filter(name, **parameters)
-    return meshes.current_mesh().vertex_matrix(), time.perf_counter() - begin
+    return meshes.current_mesh().vertex_matrix(), processor_seconds() - begin
 
 
 def best(scan, families):
@@ -135,17 +94,17 @@ def best(scan, families):
         least, worse = None, 0
         for settings, smooth in family:
             vertices, seconds = smooth()
-            error = scan.rough_error(vertices)
-            if least is None or error < least:
-                least, worse = error, 0
+            rough = rough_error(scan, vertices)
+            if least is None or rough < least:
+                least, worse = rough, 0
             else:
                 worse += 1
-            if found is None or error < found[0]:
-                found = (error, settings, seconds, vertices)
+            if found is None or rough < found[0]:
+                found = (rough, settings, seconds, vertices)
             if worse == 2:
                 break
     _, settings, seconds, vertices = found
-    return scan.error(vertices), settings, seconds
+    return error(scan, vertices), settings, seconds
 
 
 def our_families(tool, depth):
@@ -172,18 +131,17 @@ def stock_families(scan, vertices):
         "two-step": [family("apply_coord_two_steps_smoothing", steps[:5], normalthr=float(angle))
                      for angle in (60, 30)],
         "scale-dependent": [family("apply_coord_laplacian_smoothing_scale_dependent", steps,
-                                   delta=pymeshlab.PureValue(part * scan.edge))
-                            for part in (0.01, 0.1)]}
+                                   delta=delta) for delta in (0.01, 0.1)]}
 
 
-def measure(program, scan, noise):
+def measure(experiment, scan, noise):
     """Returns the row of one scan with one noise."""
     vertices = scan.noisy(noise)
-    row = {"scan": scan.name, "noise": noise, "before": scan.error(vertices) if noise else 0.0}
+    row = {"scan": scan.name, "noise": noise, "before": error(scan, vertices) if noise else 0.0}
     with tempfile.TemporaryDirectory() as folder:
-        tool = Tool(program, scan, vertices, folder)
-        row["default"] = scan.error(tool.smooth()[0])
-        row["order 2"] = scan.error(tool.smooth(order=2)[0])
+        tool = Tool(experiment, scan, vertices, folder)
+        row["default"] = error(scan, tool.smooth()[0])
+        row["order 2"] = error(scan, tool.smooth(order=2)[0])
         if noise == 0:
             return row
         row["best"], row["best settings"], row["best seconds"] = best(
@@ -196,14 +154,13 @@ def measure(program, scan, noise):
 def main():
     experiment = Experiment("denoising", __doc__, lambda parser: parser.add_argument(
         "--noises", nargs="+", type=float, default=NOISES, help="in mean edge lengths"))
-    program = experiment.options.build / "filter_tracked_mcf" / "tool" / "tracked_mcf"
     quick = experiment.options.quick
     stock = ["Taubin", "Laplacian", "HC", "two-step", "scale-dependent"]
     rows = []
     for path in experiment.scans(SCANS, CGAL):
         for scan in (Scan(path, uneven) for uneven in (False, True)):
             for noise in [0, 0.2] if quick else experiment.options.noises:
-                rows.append(measure(program, scan, noise))
+                rows.append(measure(experiment, scan, noise))
     experiment.record(rows)
     experiment.table(
         ["scan", "noise", "default", "order 2", "best", "its settings", *stock],
@@ -211,7 +168,7 @@ def main():
           row.get("best settings", ""), *(row.get(name, "") for name in stock)] for row in rows])
     noisy = [row for row in rows if row["noise"] > 0]
     experiment.table(
-        ["scan", "noise", "seconds of our best", *(f"of {name}" for name in stock)],
+        ["scan", "noise", "processor seconds of our best", *(f"of {name}" for name in stock)],
         [[row["scan"], row["noise"], row["best seconds"], *(row[f"{name} seconds"] for name in stock)]
          for row in noisy])
     check(experiment, rows, noisy, stock)

@@ -11,7 +11,6 @@ within 0.02 at all other wavelengths; at three scales, and on a plate that is tu
 
 import math
 import pathlib
-import subprocess
 import tempfile
 
 import numpy
@@ -70,7 +69,6 @@ def predictions(steps, order):
 
 def main():
     experiment = Experiment("detail_size", __doc__)
-    tool = experiment.options.build / "filter_tracked_mcf" / "tool" / "tracked_mcf"
     initial, triangles = plate()
     turn = rotation()
     cases = [(scale, False) for scale in SCALES] + [(1, True)]
@@ -84,9 +82,9 @@ def main():
             placed = scale * (initial @ turn.T if turned else initial)
             write_ply(folder / "in.ply", placed, triangles)
             for steps, order in steps_and_orders:
-                subprocess.run([tool, folder / "in.ply", folder / "out.ply", "--quiet",
-                                "--detail-size", repr(float(scale)), "--iterations", str(steps),
-                                "--order", str(order), "--depth", str(DEPTH)], check=True)
+                experiment.smooth(folder / "in.ply", folder / "out.ply", "--detail-size",
+                                  repr(float(scale)), "--iterations", steps, "--order", order,
+                                  "--depth", DEPTH)
                 after = read_vertices(folder / "out.ply", len(initial)) / scale
                 measured = amplitudes(after @ turn if turned else after, initial)
                 predicted = predictions(steps, order)

@@ -1,20 +1,34 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Common code of the experiments: meshes, running the driver, tables, plots and targets.
 
-A script creates an Experiment, runs the driver, prints tables, saves plots and checks targets.
-finish() writes NAME.csv (all measurements) and NAME.md (the printed text) to the output folder, beside
-the plot NAME.png, and exits with 1 if a target was missed.
+A script creates an Experiment, runs the driver or the program, prints tables, saves plots and checks
+targets. finish() writes NAME.csv (all measurements) and NAME.md (the printed text) to the output folder,
+beside the plot NAME.png, and exits with 1 if a target was missed. All seconds are processor time, which
+a busy machine hardly changes.
 """
 
 import argparse
 import csv
+import datetime
 import io
+import json
+import lzma
 import math
+import os
 import pathlib
+import resource
+import shutil
 import subprocess
 import sys
+import time
 
 TOP = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(TOP / "tests" / "benchmark"))
+
+from machine import processor  # noqa: E402
+
+# A thread that waits for others must not count as processor time.
+os.environ.setdefault("OMP_WAIT_POLICY", "passive")
 
 # Meshes of Debian's libcgal-demo, and of a folder of further scans for comparison.
 CGAL_SCANS = ["armadillo.off", "nefertiti.off", "elephant.off", "hand.off", "camel.off"]
@@ -24,6 +38,7 @@ SHARED_SCANS = ["armadillo_50k.ply", "nefertiti_50k.ply", "skull_50k.ply", "hand
 SHARED_THIN_SCANS = ["armadillo_50k.ply", "hand_8k.ply", "elephant_5cc.ply"]
 
 SKIPPED = 77
+CLAIM = ("- **holds**: ", "- **does not hold**: ")
 
 SPHERE = "sphere:128"
 PAPER = "paper"
@@ -54,7 +69,7 @@ class Experiment:
         self._rows = []
         self._text = io.StringIO()
         self._missed = 0
-        self.say(f"# {description.strip().splitlines()[0]}\n")
+        self.say(f"# {description.strip().splitlines()[0]}\n\n{origin()}\n")
 
     def meshes(self, shared, cgal):
         """Returns the paths of the meshes named `shared` if the folder has them, else of `cgal`."""
@@ -67,11 +82,29 @@ class Experiment:
         return [folder / name for name in names]
 
     def scans(self, shared=SHARED_SCANS, cgal=CGAL_SCANS):
-        """Returns the paths of the scans to measure: those of --scans if given; only the smallest with
-        --quick."""
+        """Returns the paths of the scans to measure, unpacked: those of --scans if given; only the
+        smallest with --quick."""
         named = self.options.scans
-        paths = self.meshes(named or shared, named or cgal)
+        paths = [self._unpacked(path) for path in self.meshes(named or shared, named or cgal)]
         return [min(paths, key=lambda path: path.stat().st_size)] if self.options.quick else paths
+
+    def _unpacked(self, path):
+        if path.suffix != ".xz":
+            return path
+        target = self.options.build / "experiments" / path.stem
+        target.parent.mkdir(parents=True, exist_ok=True)
+        with lzma.open(path) as packed, open(target, "wb") as file:
+            shutil.copyfileobj(packed, file)
+        return target
+
+    def smooth(self, source, target, *words):
+        """Runs the program tracked_mcf with options, which are `words`. Returns its report as a
+        dictionary, and its processor seconds, files included."""
+        report = target.with_suffix(".json")
+        begin = processor_seconds()
+        subprocess.run([self.options.build / "filter_tracked_mcf" / "tool" / "tracked_mcf", source,
+                        target, "--quiet", "--report", report, *map(str, words)], check=True)
+        return json.loads(report.read_text(encoding="utf-8")), processor_seconds() - begin
 
     def run(self, command, *words, **more):
         """Runs the driver. Returns its rows as dictionaries, each with the entries of `more`."""
@@ -128,13 +161,16 @@ class Experiment:
         self.say(f"\n![plot]({path.name})")
 
     def finish(self):
-        """Writes the files. Exits with 1 if a target was missed."""
+        """Writes the files, and README.md, which lists all pages of the folder. Exits with 1 if a target
+        was missed."""
         (self.output / f"{self.name}.md").write_text(self._text.getvalue())
         with open(self.output / f"{self.name}.csv", "w", newline="", encoding="utf-8") as file:
             keys = list(dict.fromkeys(key for row in self._rows for key in row))
             writer = csv.DictWriter(file, keys)
             writer.writeheader()
             writer.writerows(self._rows)
+        if not self.options.quick:  # quick runs are tests, which run side by side
+            write_list_of_pages(self.output)
         print(f"... in {self.output}: {self.name}.md, .csv, .png", file=sys.stderr)
         sys.exit(1 if self._missed else 0)
 
@@ -143,6 +179,35 @@ def skip(reason):
     """Ends the script with the exit code that CTest counts as a skipped test."""
     print(reason, file=sys.stderr)
     sys.exit(SKIPPED)
+
+
+def processor_seconds():
+    """Returns the processor time of this process and of the programs that it has run."""
+    programs = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return time.process_time() + programs.ru_utime + programs.ru_stime
+
+
+def origin():
+    """Returns a sentence that says which sources are measured, when and on which machine. Their commit is
+    the last one that changed the product."""
+    commit = "unknown"
+    if shutil.which("git"):
+        log = ["git", "log", "-1", "--format=%h", "--abbrev=12", "--", "filter_tracked_mcf"]
+        commit = subprocess.run(log, cwd=TOP, check=False, stdout=subprocess.PIPE,
+                                text=True).stdout.strip() or commit
+    return f"Commit {commit}, {datetime.date.today()}, {os.cpu_count()} cores, {processor()}."
+
+
+def write_list_of_pages(folder):
+    """Writes the folder's README.md: what the pages say of the paper's claims, and links to them."""
+    pages = {path.name: path.read_text(encoding="utf-8").splitlines()
+             for path in sorted(folder.glob("*.md")) if path.name != "README.md"}
+    claims = [line for lines in pages.values() for line in lines if line.startswith(CLAIM)]
+    links = [f"- [{lines[0][2:].rstrip('.')}]({name})" for name, lines in pages.items()]
+    (folder / "README.md").write_text("\n".join(
+        ["# Results of the experiments", "",
+         "Each page says which commit it measured, and on which machine.", "", *links, "",
+         "The paper's claims:", "", *claims, ""]), encoding="utf-8")
 
 
 def pyplot():

@@ -8,7 +8,6 @@ size, each of which must keep its volume and its centre; an open scan with a loc
 """
 
 import pathlib
-import subprocess
 import tempfile
 
 import numpy
@@ -56,14 +55,13 @@ def centre_of(vertices, triangles):
 class Flow:
     """Runs the program on meshes in a temporary folder."""
 
-    def __init__(self, tool, folder):
-        self._tool, self._folder = tool, pathlib.Path(folder)
+    def __init__(self, experiment, folder):
+        self._experiment, self._folder = experiment, pathlib.Path(folder)
 
     def __call__(self, path, *options):
         output = self._folder / "out.ply"
-        subprocess.run([self._tool, path, output, "--quiet", "--preserve", "volume",
-                        "--iterations", str(STEPS), "--step-size", str(STEP_SIZE), *options],
-                       check=True)
+        self._experiment.smooth(path, output, "--preserve", "volume", "--iterations", STEPS,
+                                "--step-size", STEP_SIZE, *options)
         return output
 
     def vertices(self, vertices, triangles, *options, selected=None):
@@ -118,9 +116,8 @@ def read_off(path):
 
 def main():
     experiment = Experiment("volume", __doc__)
-    tool = experiment.options.build / "filter_tracked_mcf" / "tool" / "tracked_mcf"
     with tempfile.TemporaryDirectory() as folder:
-        flow = Flow(tool, folder)
+        flow = Flow(experiment, folder)
         two_ellipsoids(experiment, flow)
         for path in experiment.scans(["mannequin-devil.off"], ["mannequin-devil.off"]):
             vertices, triangles = read_off(path)

@@ -52,7 +52,7 @@ class Stability:
     def _tell(self, scan, rows):
         ends = {solver: rows[solver][-1] for solver in SOLVERS}
         self.figure.table(
-            ["solver", "steps", "area", "volume", "outside", "collapsed", "s per step"],
+            ["solver", "steps", "area", "volume", "outside", "collapsed", "processor s per step"],
             [[SOLVERS[solver], row["steps"], row["area"], row["volume"], row["outside"],
               row["collapsed"],
               (row["assemble_seconds"] + row["solve_seconds"]) / max(1, row["steps_made"])]

@@ -12,8 +12,8 @@ import tempfile
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
 
-from experiment import (CONVERGED, PAPER, Experiment, geometric_mean, kappa, label,  # noqa: E402
-                        skip)
+from experiment import (CLAIM, CONVERGED, PAPER, Experiment, geometric_mean, kappa,  # noqa: E402
+                        label, skip)
 
 METHODS = ["tracked", "rebuilt", "rebuilt-split", "cotangent"]
 
@@ -40,8 +40,8 @@ class Reproduction(Experiment):
         return [{**row, "surface": folder / f"0_{row['steps']}.ply"} for row in rows]
 
     def claim(self, words, holds):
-        """Says whether a claim of the paper holds. reproduce_paper.sh gathers these lines."""
-        self.say(f"- **{'holds' if holds else 'does not hold'}**: {words} ({self.name})")
+        """Says whether a claim of the paper holds."""
+        self.say(f"{CLAIM[not holds]}{words} ({self.name})")
 
     def distance(self, surface, reference, samples=200000):
         """Returns the distances between two surfaces as MeshLab's filter "Hausdorff Distance" measures
