@@ -70,6 +70,14 @@ FlowReport flow(TriangleMesh& mesh, Solver solver, double step_size, int iterati
     return report;
 }
 
+// The elephant's flows take as long as all others.
+#if TRACKED_MCF_LONG_TESTS
+constexpr const char* kScans[] = {"armadillo.off", "camel.off", "mannequin-devil.off",
+                                  "refined_elephant.off"};
+#else
+constexpr const char* kScans[] = {"armadillo.off", "camel.off", "mannequin-devil.off"};
+#endif
+
 class LongFlow : public testing::TestWithParam<std::tuple<const char*, Solver>> {
 protected:
     static const char* scan() { return std::get<0>(GetParam()); }
@@ -107,16 +115,16 @@ TEST_P(LongFlow, LongStepsStayStable) {
     EXPECT_LT(report.area_after, 0.25 * report.area_before);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Scans, LongFlow,
-    testing::Combine(testing::Values("armadillo.off", "camel.off", "refined_elephant.off",
-                                     "mannequin-devil.off"),
-                     testing::Values(Solver::Converged, Solver::OneWCycle)),
-    [](const auto& test) {
-        std::string name = std::get<0>(test.param);
-        for (char& c : name) c = std::isalnum(c) != 0 ? c : '_';
-        return name + (std::get<1>(test.param) == Solver::Converged ? "_Converged" : "_OneWCycle");
-    });
+INSTANTIATE_TEST_SUITE_P(Scans, LongFlow,
+                         testing::Combine(testing::ValuesIn(kScans),
+                                          testing::Values(Solver::Converged, Solver::OneWCycle)),
+                         [](const auto& test) {
+                             std::string name = std::get<0>(test.param);
+                             for (char& c : name) c = std::isalnum(c) != 0 ? c : '_';
+                             return name + (std::get<1>(test.param) == Solver::Converged
+                                                ? "_Converged"
+                                                : "_OneWCycle");
+                         });
 
 }  // namespace
 }  // namespace tracked_mcf

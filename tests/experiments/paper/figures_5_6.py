@@ -52,13 +52,14 @@ def measure_sphere(figure, frequency, depth, steps):
 
 def measure_cycles(figure, frequency, depth):
     """Returns the RMS error of the sphere's radius after ten steps by method and number of cycles."""
+    cycles = [CYCLES[0], CYCLES[-1]] if figure.options.quick else CYCLES
     errors = {}
     for method in OCTREES[:2]:
         rows = figure.run("sphere", "--frequency", frequency, "--steps", 10, "--step-size",
                           SPHERE_STEP_SIZE, "--depth", depth, "--configurations",
-                          *(f"{PAPER},cycles={n}" for n in CYCLES), "--method", method,
+                          *(f"{PAPER},cycles={n}" for n in cycles), "--method", method,
                           mesh="sphere", figure="cycles")
-        errors[method] = dict(zip(CYCLES, (row["rms"] for row in rows)))
+        errors[method] = dict(zip(cycles, (row["rms"] for row in rows)))
     return errors
 
 
@@ -145,7 +146,7 @@ def check_richness(figure, rows):
 def check_cycles(figure, errors):
     tracked, rebuilt = (errors[method] for method in OCTREES[:2])
     figure.say("\nThe unit sphere: error of the radius after ten steps, over the W-cycles of a step\n")
-    figure.table(["method", *CYCLES], [[method, *of.values()] for method, of in errors.items()])
+    figure.table(["method", *tracked], [[method, *of.values()] for method, of in errors.items()])
     most = CYCLES[-1]
     figure.check(f"sphere, {most} W-cycles: RMS, tracked over rebuilt", tracked[most] / rebuilt[most],
                  at_most=0.8)
