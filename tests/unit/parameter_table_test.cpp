@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "filter_tracked_mcf/core/parameter_table.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+namespace tracked_mcf {
+namespace {
+
+/// Returns a value in the parameter's range that is not its default.
+ParameterValue other_value(const Parameter& parameter) {
+    const ParameterValue value = parameter.get({});
+    if (const bool* const flag = std::get_if<bool>(&value)) return !*flag;
+    if (const int* const number = std::get_if<int>(&value)) {
+        return *number < parameter.range.largest ? *number + 1 : *number - 1;
+    }
+    return 0.5;
+}
+
+TEST(ParameterTable, ARowSetsItsMemberAndNoOther) {
+    for (const Parameter& set : parameter_table()) {
+        if (set.type == Parameter::Type::Selected) continue;
+        const ParameterValue value = other_value(set);
+        FlowParameters parameters;
+        set.set(parameters, value);
+        EXPECT_NO_THROW(validate(parameters)) << set.name;
+        for (const Parameter& other : parameter_table()) {
+            // The default of the stabilisation depends on the solver.
+            if (set.name == "solver" && other.name == "stabilization") continue;
+            EXPECT_EQ(other.get(parameters), &other == &set ? value : other.get({}))
+                << set.name << ' ' << other.name;
+        }
+    }
+}
+
+TEST(ParameterTable, ASelectionIsNoMember) {
+    for (const Parameter& parameter : parameter_table()) {
+        if (parameter.type != Parameter::Type::Selected) continue;
+        FlowParameters parameters;
+        parameter.set(parameters, true);
+        EXPECT_EQ(parameter.get(parameters), ParameterValue(false));
+    }
+}
+
+TEST(ParameterTable, NamesDiffer) {
+    std::set<std::string> names;
+    for (const Parameter& parameter : parameter_table()) {
+        EXPECT_TRUE(names.insert(parameter.name).second) << parameter.name;
+    }
+}
+
+}  // namespace
+}  // namespace tracked_mcf
