@@ -77,8 +77,7 @@ const std::vector<Parameter>& parameter_table() {
         {integer<&P::iterations>(1, kMaximumIterations), "iterations", "Smoothing steps",
          "Steps in which the detail is removed, 1 to 1000000. More are more accurate."},
         {integer<&P::order>(1, kMaximumOrder), "order", "Order (1 to 4)",
-         "How well larger detail is kept: 1 is the flow itself, 4 keeps best. "
-         "Each order more takes another solve in each step."},
+         "1 is the flow itself, 4 keeps larger detail best; each more takes another solve."},
         {choice<&P::preserve>({{"None", "none"}, {"Area", "area"}, {"Volume", "volume"}}),
          "preserve", "Preserve",
          "Of each connected part. Volume also works with boundaries and selections. Area scales, "
