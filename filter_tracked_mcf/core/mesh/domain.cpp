@@ -5,7 +5,6 @@
 #include <bitset>
 #include <numeric>
 #include <string>
-#include <utility>
 
 #include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/mesh/measures.h"
@@ -48,11 +47,10 @@ Items selected_of(const Items& items, const Selection& selection) {
 }
 
 /// Returns, per edge of the mesh, whether an unselected triangle has it.
-std::vector<std::uint8_t> edges_of_unselected(const MeshTopology& topology,
-                                              const Selection& selection) {
-    std::vector<std::uint8_t> marked(static_cast<std::size_t>(topology.edge_count), 0);
-    for_each_edge(topology, [&](std::size_t triangle, int /*side*/, std::int32_t edge) {
-        if (selection[triangle] == 0) marked[edge] = 1;
+Marks edges_of_unselected(const MeshTopology& topology, const Selection& selection) {
+    Marks marked(topology.edge_count);
+    for_each_edge(topology, [&](std::int32_t triangle, int /*side*/, std::int32_t edge) {
+        if (selection[triangle] == 0) marked.set(edge);
     });
     return marked;
 }
@@ -63,12 +61,11 @@ std::int64_t count_flags(const std::vector<std::uint8_t>& sides) {
     });
 }
 
-std::vector<std::uint8_t> find_slivers(const TriangleMesh& mesh) {
-    std::vector<std::uint8_t> slivers(mesh.triangles.size());
+std::vector<std::uint8_t> find_slivers(const TriangleMesh& surface) {
+    std::vector<std::uint8_t> slivers(surface.triangles.size());
     parallel_for_rows(static_cast<std::int64_t>(slivers.size()), [&](std::int32_t triangle) {
-        const auto& [a, b, c] = mesh.triangles[triangle];
-        slivers[triangle] =
-            is_thin({mesh.positions[a], mesh.positions[b], mesh.positions[c]}, kSliver) ? 1 : 0;
+        const auto corners = corners_of(surface.positions, surface.triangles[triangle]);
+        slivers[triangle] = is_thin(corners, kSliver) ? 1 : 0;
     });
     return slivers;
 }
@@ -78,7 +75,7 @@ std::vector<std::uint8_t> find_slivers(const TriangleMesh& mesh) {
 /// Constrains every side of the surface's triangles for which is_constrained(edge).
 template <class IsConstrained>
 void Domain::constrain_edges(const IsConstrained& is_constrained) {
-    for_each_edge(topology_, [&](std::size_t triangle, int side, std::int32_t edge) {
+    for_each_edge(topology_, [&](std::int32_t triangle, int side, std::int32_t edge) {
         if (is_constrained(edge))
             constrained_edges_[triangle] |= static_cast<std::uint8_t>(1 << side);
     });
@@ -89,17 +86,16 @@ Domain::Domain(const TriangleMesh& mesh, const Selection& selection, BoundaryCon
     check_selection(mesh, selection);
     topology_ = topology_of(mesh);
     constrained_edges_ = boundary_edges(topology_);
-    std::vector<std::uint8_t> has_unselected_triangle;  // per edge
+    Marks seam(0);
     if (!selection.empty()) {
-        has_unselected_triangle = edges_of_unselected(topology_, selection);
+        seam = edges_of_unselected(topology_, selection);
         restrict_to(selection);
     }
     boundary_edge_count_ = count_flags(constrained_edges_);
     if (boundary == BoundaryCondition::Free)
         constrained_edges_.assign(constrained_edges_.size(), 0);
 
-    if (!selection.empty())
-        constrain_edges([&](std::int32_t edge) { return has_unselected_triangle[edge] != 0; });
+    if (!selection.empty()) constrain_edges([&](std::int32_t edge) { return seam[edge]; });
     const std::vector<std::uint8_t> slivers = find_slivers(surface());
     const bool any_slivers = any_set(slivers);
     if (any_slivers) constrain_across_slivers(slivers);
@@ -117,7 +113,7 @@ void Domain::restrict_to(const Selection& selection) {
 /// A sliver's edges lie on each other: if one of them is constrained, all of them are. Chains of
 /// slivers pass constraints on.
 void Domain::constrain_across_slivers(const std::vector<std::uint8_t>& slivers) {
-    DisjointSets joined(topology_.edge_count);
+    ConcurrentSets joined(topology_.edge_count);
     for (std::size_t triangle = 0; triangle < slivers.size(); ++triangle) {
         if (slivers[triangle] == 0) continue;
         std::int32_t previous = MeshTopology::kNoEdge;
@@ -127,12 +123,11 @@ void Domain::constrain_across_slivers(const std::vector<std::uint8_t>& slivers) 
             previous = edge;
         }
     }
-    const std::vector<std::int32_t> set_of = std::move(joined).representatives();
-    std::vector<std::uint8_t> constrained(set_of.size(), 0);
-    for_each_edge(topology_, [&](std::size_t triangle, int side, std::int32_t edge) {
-        if (has_bit(constrained_edges_[triangle], side)) constrained[set_of[edge]] = 1;
+    Marks constrained(topology_.edge_count);
+    for_each_edge(topology_, [&](std::int32_t triangle, int side, std::int32_t edge) {
+        if (has_bit(constrained_edges_[triangle], side)) constrained.set(joined.find(edge));
     });
-    constrain_edges([&](std::int32_t edge) { return constrained[set_of[edge]] != 0; });
+    constrain_edges([&](std::int32_t edge) { return constrained[joined.find(edge)]; });
 }
 
 void Domain::constrain_vertices(const Selection& selection) {
@@ -160,13 +155,13 @@ void Domain::constrain_vertices(const Selection& selection) {
 /// A sliver has no reliable conormal, so its neighbours with area take over: where they constrain
 /// one of its edges, the sliver constrains none.
 void Domain::leave_slivers_out(const std::vector<std::uint8_t>& slivers) {
-    std::vector<std::uint8_t> by_neighbours(static_cast<std::size_t>(topology_.edge_count), 0);
-    for_each_edge(topology_, [&](std::size_t triangle, int side, std::int32_t edge) {
+    Marks by_neighbours(topology_.edge_count);
+    for_each_edge(topology_, [&](std::int32_t triangle, int side, std::int32_t edge) {
         if (has_bit(constrained_edges_[triangle], side) && slivers[triangle] == 0)
-            by_neighbours[edge] = 1;
+            by_neighbours.set(edge);
     });
-    for_each_edge(topology_, [&](std::size_t triangle, int /*side*/, std::int32_t edge) {
-        if (slivers[triangle] != 0 && by_neighbours[edge] != 0) constrained_edges_[triangle] = 0;
+    for_each_edge(topology_, [&](std::int32_t triangle, int /*side*/, std::int32_t edge) {
+        if (slivers[triangle] != 0 && by_neighbours[edge]) constrained_edges_[triangle] = 0;
     });
 }
 

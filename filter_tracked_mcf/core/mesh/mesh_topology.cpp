@@ -161,16 +161,11 @@ namespace {
 /// direction than in the other.
 bool are_balanced(const MeshTopology& topology, int most) {
     std::vector<std::atomic<std::int32_t>> balance(static_cast<std::size_t>(topology.edge_count));
-    parallel_for_rows(static_cast<std::int64_t>(topology.triangles.size()),
-                      [&](std::int32_t triangle) {
-                          const Triangle& t = topology.triangles[triangle];
-                          for (int side = 0; side < 3; ++side) {
-                              const std::int32_t edge = topology.edges[triangle][side];
-                              if (edge == MeshTopology::kNoEdge) continue;
-                              const int direction = t[side] < t[(side + 1) % 3] ? 1 : -1;
-                              balance[edge].fetch_add(direction, std::memory_order_relaxed);
-                          }
-                      });
+    for_each_edge(topology, [&](std::int32_t triangle, int side, std::int32_t edge) {
+        const Triangle& t = topology.triangles[triangle];
+        const int direction = t[side] < t[(side + 1) % 3] ? 1 : -1;
+        balance[edge].fetch_add(direction, std::memory_order_relaxed);
+    });
     return std::all_of(balance.begin(), balance.end(),
                        [&](const auto& sum) { return std::abs(sum.load()) <= most; });
 }

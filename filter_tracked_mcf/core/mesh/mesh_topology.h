@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "filter_tracked_mcf/core/parallel/parallel.h"
 #include "filter_tracked_mcf/core/parallel/raw_vector.h"
 #include "filter_tracked_mcf/core/triangle_mesh.h"
 
@@ -27,15 +28,16 @@ struct MeshTopology {
     std::int32_t edge_count = 0;
 };
 
-/// Calls visit(triangle, side, edge) for all sides that are edges, triangle by triangle.
+/// Calls visit(triangle, side, edge) for all sides that are edges, in parallel for the triangles.
 template <class Visit>
 void for_each_edge(const MeshTopology& topology, const Visit& visit) {
-    for (std::size_t triangle = 0; triangle < topology.edges.size(); ++triangle) {
+    const auto count = static_cast<std::int64_t>(topology.edges.size());
+    parallel_for_rows(count, [&](std::int32_t triangle) {
         for (int side = 0; side < 3; ++side) {
             const std::int32_t edge = topology.edges[triangle][side];
             if (edge != MeshTopology::kNoEdge) visit(triangle, side, edge);
         }
-    }
+    });
 }
 
 /// Returns whether bit `i` of a triangle's flags is set.

@@ -45,13 +45,6 @@ public:
         return a != b;
     }
 
-    /// Returns find(member) of every member.
-    std::vector<std::int32_t> representatives() && {
-        // A parent is not larger than its child, so this loop has settled it already.
-        for (std::int32_t& parent : parents_) parent = parents_[parent];
-        return std::move(parents_);
-    }
-
 private:
     std::vector<std::int32_t> parents_;  ///< invariant: parents_[i] <= i
 };

@@ -111,8 +111,11 @@ private:
                 }
             }
         }
-        const std::vector<std::int32_t> representatives = std::move(parts).representatives();
-        return static_cast<int>(std::set(representatives.begin(), representatives.end()).size());
+        std::set<std::int32_t> representatives;
+        for (std::int32_t i = 0; i < static_cast<std::int32_t>(triangles.size()); ++i) {
+            representatives.insert(parts.find(i));
+        }
+        return static_cast<int>(representatives.size());
     }
 
     /// Returns whether a segment and a box share more than a point.
@@ -181,17 +184,6 @@ int elements_in_middle_cell(const TriangleMesh& mesh) {
 TriangleMesh triangles(const std::vector<Eigen::Vector3d>& positions,
                        const std::vector<Triangle>& faces) {
     return {positions, faces};
-}
-
-TEST(DisjointSets, AreRepresentedByTheirSmallestMembers) {
-    DisjointSets sets(8);
-    sets.unite(7, 3);
-    sets.unite(5, 6);
-    sets.unite(3, 6);
-    sets.unite(1, 2);
-    EXPECT_EQ(sets.find(7), 3);
-    EXPECT_EQ(std::move(sets).representatives(),
-              (std::vector<std::int32_t>{0, 1, 1, 3, 4, 3, 3, 3}));
 }
 
 // The cases below count the sheets in the cell [1, 2]³.

@@ -19,13 +19,6 @@ TEST(DisjointSets, TheSmallestMemberRepresentsASetForEveryOrderOfUnions) {
     }
 }
 
-TEST(DisjointSets, RepresentativesAreWhatFindReturns) {
-    // The parents form a chain, the worst case for one pass over them.
-    DisjointSets sets(6);
-    for (std::int32_t i = 4; i >= 0; --i) sets.unite(i, i + 1);
-    EXPECT_EQ(std::move(sets).representatives(), std::vector<std::int32_t>(6, 0));
-}
-
 TEST(DisjointSets, ResetStartsAgain) {
     DisjointSets sets(3);
     sets.unite(0, 2);
