@@ -8,7 +8,6 @@
 #include "filter_tracked_mcf/core/cells/clip.h"
 #include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/mesh/measures.h"
-#include "filter_tracked_mcf/core/mesh/weld.h"
 #include "filter_tracked_mcf/core/parallel/parallel.h"
 #include "filter_tracked_mcf/core/parallel/sorting.h"
 
@@ -61,13 +60,12 @@ void add_fragments(const std::array<Eigen::Vector3d, 3>& corners, std::int32_t t
     });
 }
 
-void check_inside(const GridMesh& mesh, const Grid& grid) {
-    const double side = grid.cells_per_side();
-    parallel_for_items(mesh.positions, [&](const Eigen::Vector3d& position) {
-        if (!(position.minCoeff() >= 0 && position.maxCoeff() <= side)) {
+void check_inside(const std::array<Eigen::Vector3d, 3>& corners, std::int32_t cells_per_side) {
+    for (const Eigen::Vector3d& corner : corners) {
+        if (!(corner.minCoeff() >= 0 && corner.maxCoeff() <= cells_per_side)) {
             throw InvalidMesh("The mesh does not lie inside the cube of the grid.");
         }
-    });
+    }
 }
 
 /// Returns the fragments, triangle by triangle, and counts the degenerate triangles.
@@ -81,6 +79,7 @@ RawVector<FragmentEntry> list_fragments(ClippedSurface& surface) {
             std::int64_t degenerate_here = 0;
             for (auto triangle = static_cast<std::int32_t>(begin); triangle < end; ++triangle) {
                 const auto corners = surface.mesh.corners(triangle);
+                check_inside(corners, cells_per_side);
                 const bool degenerate = is_thin(corners, kDegenerate);
                 degenerate_here += degenerate ? 1 : 0;
                 add_fragments(corners, triangle, degenerate, cells_per_side, out, pacer);
@@ -101,18 +100,15 @@ void number_by_triangle(RawVector<FragmentEntry>& fragments) {
 
 }  // namespace
 
-GridMesh to_grid(const TriangleMesh& mesh, const Grid& grid) {
-    const std::vector<std::uint8_t> referenced = referenced_vertices(mesh);
+GridMesh to_grid(const SurfaceView& mesh, const Grid& grid) {
     GridMesh result{mesh, RawVector<Eigen::Vector3d>(mesh.positions.size())};
     parallel_for_rows(static_cast<std::int64_t>(mesh.positions.size()), [&](std::int32_t vertex) {
-        result.positions[vertex] = referenced[vertex] != 0
-                                       ? rounded(grid.to_grid(mesh.positions[vertex]))
-                                       : Eigen::Vector3d::Zero();
+        result.positions[vertex] = rounded(grid.to_grid(mesh.positions[vertex]));
     });
     return result;
 }
 
-bool has_area(const TriangleMesh& mesh, const Grid& grid) {
+bool has_area(const SurfaceView& mesh, const Grid& grid) {
     const auto corner = [&](std::int32_t vertex) {
         return rounded(grid.to_grid(mesh.positions[vertex]));
     };
@@ -121,9 +117,8 @@ bool has_area(const TriangleMesh& mesh, const Grid& grid) {
     });
 }
 
-ClippedSurface clip_to_grid(const TriangleMesh& mesh, const Grid& grid) {
+ClippedSurface clip_to_grid(const SurfaceView& mesh, const Grid& grid) {
     ClippedSurface surface{grid, to_grid(mesh, grid), {}, 0};
-    check_inside(surface.mesh, grid);
     surface.fragments = list_fragments(surface);
     number_by_triangle(surface.fragments);
     sort_by(surface.fragments, [](const FragmentEntry& fragment) { return fragment.cell; });

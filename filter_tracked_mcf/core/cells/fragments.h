@@ -17,8 +17,8 @@ namespace tracked_mcf {
 /// that misses a grid plane by rounding errors lies in the plane. Otherwise the plane would cut the
 /// face along a line of rounding errors, into parts that overlap.
 struct GridMesh {
-    const TriangleMesh& original;
-    RawVector<Eigen::Vector3d> positions;  ///< 0 if unreferenced
+    SurfaceView original;
+    RawVector<Eigen::Vector3d> positions;
 
     std::array<Eigen::Vector3d, 3> corners(std::int32_t triangle) const {
         const Triangle& vertices = original.triangles[triangle];
@@ -27,14 +27,14 @@ struct GridMesh {
 };
 
 /// Returns the mesh in the coordinates of a grid.
-GridMesh to_grid(const TriangleMesh& mesh, const Grid& grid);
+GridMesh to_grid(const SurfaceView& mesh, const Grid& grid);
 
 /// A triangle is degenerate if its area is at most this times its longest edge squared, in grid
 /// coordinates. In double precision it has no plane then.
 inline constexpr double kDegenerate = 1e-12;
 
 /// Returns whether any triangle is not degenerate in the coordinates of this grid.
-bool has_area(const TriangleMesh& mesh, const Grid& grid);
+bool has_area(const SurfaceView& mesh, const Grid& grid);
 
 /// A fragment: a (triangle, cell) pair, with flags of the triangle's corners and sides inside the
 /// closed cell. Degenerate triangles have fragments too. They carry no area, but they connect the
@@ -67,7 +67,7 @@ struct ClippedSurface {
 
 /// Clips a mesh to the cells of a grid. Throws InvalidMesh if a referenced vertex lies outside the
 /// grid's cube, InvalidParameter if there are more fragments than can be numbered.
-ClippedSurface clip_to_grid(const TriangleMesh& mesh, const Grid& grid);
+ClippedSurface clip_to_grid(const SurfaceView& mesh, const Grid& grid);
 
 /// Returns the cells of the fragments, increasing, each once.
 std::vector<MortonCode> occupied_cells(const RawVector<FragmentEntry>& fragments);

@@ -61,8 +61,8 @@ double longest_side(const SurfaceView& surface) {
     return checked_longest_side(bounding_box(surface));
 }
 
-Grid enclosing_grid(const TriangleMesh& mesh, int depth) {
-    const Eigen::AlignedBox3d box = bounding_box(mesh);
+Grid enclosing_grid(const SurfaceView& surface, int depth) {
+    const Eigen::AlignedBox3d box = bounding_box(surface);
     const double cube_side = kCubeToModel * checked_longest_side(box);
     const Eigen::Vector3d origin = box.center() - Eigen::Vector3d::Constant(0.5 * cube_side);
     return with_depth({origin, cube_side, 0}, depth);

@@ -33,7 +33,7 @@ double longest_side(const SurfaceView& surface);
 
 /// Returns the grid whose cube has 1.1 times the longest side of the bounding box of the referenced
 /// vertices, and the same centre.
-Grid enclosing_grid(const TriangleMesh& mesh, int depth);
+Grid enclosing_grid(const SurfaceView& surface, int depth);
 
 /// Returns a grid of the same cube with 2^depth cells a side.
 Grid with_depth(const Grid& grid, int depth);

@@ -13,7 +13,7 @@ namespace {
 /// Returns, for each vertex, the mean edge length of its triangles. Coincident vertices are one;
 /// those that no triangle uses have 0.
 std::vector<double> local_edge_lengths(const Domain& domain) {
-    const std::vector<Eigen::Vector3d>& positions = domain.surface().positions;
+    const std::vector<Eigen::Vector3d>& positions = domain.mesh().positions;
     std::vector<double> lengths(positions.size());
     std::vector<std::int32_t> triangle_counts(positions.size());
     for (const Triangle& triangle : domain.topology().triangles) {

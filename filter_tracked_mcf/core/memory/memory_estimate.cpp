@@ -138,7 +138,7 @@ LevelCounts level_counts(const SurfaceSize& size, double cell, int depth, double
 }  // namespace
 
 SurfaceSize size_of(const Domain& domain) {
-    const TriangleMesh& surface = domain.surface();
+    const SurfaceView surface = domain.surface();
     const auto triangles = static_cast<std::int64_t>(surface.triangles.size());
     const Eigen::Vector2d extents_and_shadows =
         parallel_sum(triangles, Eigen::Vector2d(0, 0), [&](std::int64_t begin, std::int64_t end) {

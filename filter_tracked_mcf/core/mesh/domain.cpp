@@ -61,7 +61,7 @@ std::int64_t count_flags(const std::vector<std::uint8_t>& sides) {
     });
 }
 
-std::vector<std::uint8_t> find_slivers(const TriangleMesh& surface) {
+std::vector<std::uint8_t> find_slivers(const SurfaceView& surface) {
     std::vector<std::uint8_t> slivers(surface.triangles.size());
     parallel_for_rows(static_cast<std::int64_t>(slivers.size()), [&](std::int32_t triangle) {
         const auto corners = corners_of(surface.positions, surface.triangles[triangle]);
@@ -104,7 +104,7 @@ Domain::Domain(const TriangleMesh& mesh, const Selection& selection, BoundaryCon
 }
 
 void Domain::restrict_to(const Selection& selection) {
-    selected_ = TriangleMesh{mesh_.positions, selected_of(mesh_.triangles, selection)};
+    selected_triangles_ = selected_of(mesh_.triangles, selection);
     topology_.triangles = selected_of(topology_.triangles, selection);
     topology_.edges = selected_of(topology_.edges, selection);
     constrained_edges_ = selected_of(constrained_edges_, selection);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "filter_tracked_mcf/core/flow_parameters.h"
+#include "filter_tracked_mcf/core/mesh/measures.h"
 #include "filter_tracked_mcf/core/mesh/mesh_topology.h"
 #include "filter_tracked_mcf/core/triangle_mesh.h"
 
@@ -28,7 +29,9 @@ public:
     /// Returns the whole mesh.
     const TriangleMesh& mesh() const { return mesh_; }
     /// Returns all vertices of the mesh with the triangles that flow.
-    const TriangleMesh& surface() const { return selected_ ? *selected_ : mesh_; }
+    SurfaceView surface() const {
+        return {mesh_.positions, selected_triangles_ ? *selected_triangles_ : mesh_.triangles};
+    }
     /// Returns the connectivity of the surface. Vertices and edges have the numbers of the whole
     /// mesh.
     const MeshTopology& topology() const { return topology_; }
@@ -58,7 +61,7 @@ private:
     void constrain_edges(const IsConstrained& is_constrained);
 
     const TriangleMesh& mesh_;
-    std::optional<TriangleMesh> selected_;
+    std::optional<std::vector<Triangle>> selected_triangles_;
     MeshTopology topology_;
     std::vector<std::uint8_t> constrained_edges_;
     std::vector<std::uint8_t> constrained_vertices_;

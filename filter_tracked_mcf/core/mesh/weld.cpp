@@ -69,8 +69,8 @@ void weld(const TriangleMesh& mesh, const HashedVertex* first, const HashedVerte
 
 }  // namespace
 
-std::vector<std::uint8_t> referenced_vertices(const TriangleMesh& mesh) {
-    return vertices_of(mesh.triangles, mesh.positions.size()).flags();
+std::vector<std::uint8_t> referenced_vertices(const SurfaceView& surface) {
+    return vertices_of(surface.triangles, surface.positions.size()).flags();
 }
 
 std::vector<std::int32_t> weld_coincident_vertices(const TriangleMesh& mesh) {

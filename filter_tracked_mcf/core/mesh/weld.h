@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "filter_tracked_mcf/core/mesh/measures.h"
 #include "filter_tracked_mcf/core/parallel/marks.h"
 #include "filter_tracked_mcf/core/triangle_mesh.h"
 
@@ -20,7 +21,7 @@ Marks vertices_of(const Triangles& triangles, std::size_t vertex_count) {
 }
 
 /// Returns, per vertex, 1 if a triangle uses it, else 0.
-std::vector<std::uint8_t> referenced_vertices(const TriangleMesh& mesh);
+std::vector<std::uint8_t> referenced_vertices(const SurfaceView& surface);
 
 /// Returns, per referenced vertex, the smallest index of a referenced vertex at exactly the same
 /// position, and per unreferenced vertex its own index. 0 and -0 are the same coordinate.

@@ -40,7 +40,7 @@ constexpr int kMostDeeper = 2;
 /// Returns the depth at which a surface of this area is expected to have as many unknowns as
 /// vertices. The area says little about a surface much thinner than its box, so at least the area
 /// of a flat square is assumed.
-int expected_depth(const TriangleMesh& mesh, const Grid& cube, std::int64_t vertices) {
+int expected_depth(const SurfaceView& mesh, const Grid& cube, std::int64_t vertices) {
     const double area = std::max(1.0, surface_area(mesh) / (cube.cell_size * cube.cell_size));
     const double depth = 0.5 * std::log2(static_cast<double>(vertices) / (kUnknownsPerArea * area));
     return static_cast<int>(std::lround(depth));
@@ -71,7 +71,7 @@ std::int64_t count_corners(const std::vector<MortonCode>& cells) {
 /// Clips a mesh and counts its unknowns at several depths.
 class UnknownCounter {
 public:
-    UnknownCounter(const TriangleMesh& mesh, const Grid& cube, const MemoryCheck& memory, int depth)
+    UnknownCounter(const SurfaceView& mesh, const Grid& cube, const MemoryCheck& memory, int depth)
         : mesh_(mesh), cube_(cube), memory_(memory) {
         clip(depth);
     }
@@ -100,7 +100,7 @@ private:
         cells_ = occupied_cells(clipped_->fragments);
     }
 
-    const TriangleMesh& mesh_;
+    const SurfaceView& mesh_;
     const Grid& cube_;
     const MemoryCheck& memory_;
     std::optional<ClippedSurface> clipped_;
@@ -136,7 +136,7 @@ int choose_depth(UnknownCounter& counter, int first_depth, std::int64_t vertices
 
 }  // namespace
 
-int resolving_depth(const TriangleMesh& mesh, const Grid& grid, const FlowParameters& parameters) {
+int resolving_depth(const SurfaceView& mesh, const Grid& grid, const FlowParameters& parameters) {
     if (parameters.step_size > 0) return 0;
     const double mean_edge = mean_edge_length(mesh);
     const double detail_size = detail_size_of(parameters, mean_edge);
@@ -146,7 +146,7 @@ int resolving_depth(const TriangleMesh& mesh, const Grid& grid, const FlowParame
     return static_cast<int>(std::clamp(std::ceil(std::log2(cells)), 1.0, double{kMaximumDepth}));
 }
 
-ClippedSurface clip_at_automatic_depth(const TriangleMesh& mesh, const Grid& cube,
+ClippedSurface clip_at_automatic_depth(const SurfaceView& mesh, const Grid& cube,
                                        std::int64_t vertices, int least_depth,
                                        const MemoryCheck& memory) {
     if (!has_area(mesh, cube)) return clip_to_grid(mesh, with_depth(cube, 1));

@@ -14,7 +14,7 @@ namespace tracked_mcf {
 /// Returns the least depth, 1 to kMaximumDepth, at which the cells of the grid's cube resolve the
 /// detail size: a cell is at most about as wide as it if it is at least the default, else at most
 /// half as wide. Returns 0 if the parameters give a step size: its caller knows the grid.
-int resolving_depth(const TriangleMesh& mesh, const Grid& grid, const FlowParameters& parameters);
+int resolving_depth(const SurfaceView& mesh, const Grid& grid, const FlowParameters& parameters);
 
 /// Clips the mesh to `cube` (a grid of depth 0) at the depth, 1 to kMaximumDepth, whose number of
 /// unknowns is nearest to `vertices`. If that depth is less than `least_depth`, the depth is up to
@@ -24,7 +24,7 @@ int resolving_depth(const TriangleMesh& mesh, const Grid& grid, const FlowParame
 /// each depth has at least twice as many as the one before. MemoryCheck::separate_unknowns()
 /// replaces the count where it is much larger. Throws what clip_to_grid throws, and NotEnoughMemory
 /// if clipping does not fit.
-ClippedSurface clip_at_automatic_depth(const TriangleMesh& mesh, const Grid& cube,
+ClippedSurface clip_at_automatic_depth(const SurfaceView& mesh, const Grid& cube,
                                        std::int64_t vertices, int least_depth,
                                        const MemoryCheck& memory);
 
