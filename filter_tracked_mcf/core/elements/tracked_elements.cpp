@@ -13,7 +13,6 @@
 #include "filter_tracked_mcf/core/elements/densities.h"
 #include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/mesh/measures.h"
-#include "filter_tracked_mcf/core/mesh/weld.h"
 #include "filter_tracked_mcf/core/octree/sheet_links.h"
 #include "filter_tracked_mcf/core/octree/sheets.h"
 #include "filter_tracked_mcf/core/parallel/parallel.h"
@@ -206,7 +205,7 @@ TrackedElements build_tracked_elements(const Domain& domain, ClippedSurface surf
     elements.grid = surface.grid;
     elements.degenerate_triangle_count = surface.degenerate_count;
     elements.vertex_constrained = domain.constrained_vertices();
-    count_vertices(elements, referenced_vertices(domain.surface()));
+    count_vertices(elements, domain.topology().referenced);
 
     enter_setup_phase(kBuildOctree);
     build_octree(elements, surface.mesh, domain.topology(), surface.fragments,

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "filter_tracked_mcf/core/errors.h"
-#include "filter_tracked_mcf/core/mesh/measures.h"
+#include "filter_tracked_mcf/core/mesh/weld.h"
 #include "filter_tracked_mcf/core/parallel/disjoint_sets.h"
 #include "filter_tracked_mcf/core/parallel/marks.h"
 #include "filter_tracked_mcf/core/parallel/parallel.h"
@@ -105,6 +105,7 @@ Domain::Domain(const TriangleMesh& mesh, const Selection& selection, BoundaryCon
 
 void Domain::restrict_to(const Selection& selection) {
     selected_triangles_ = selected_of(mesh_.triangles, selection);
+    topology_.referenced = referenced_vertices(surface());
     topology_.triangles = selected_of(topology_.triangles, selection);
     topology_.edges = selected_of(topology_.edges, selection);
     constrained_edges_ = selected_of(constrained_edges_, selection);

@@ -112,7 +112,8 @@ bool has_equal_vertices(const Triangle& t) {
 
 MeshTopology topology_of(const TriangleMesh& mesh) {
     MeshTopology topology;
-    topology.welded = weld_coincident_vertices(mesh);
+    topology.referenced = referenced_vertices(mesh);
+    topology.welded = weld_coincident_vertices(mesh, topology.referenced);
     topology.triangles.resize(mesh.triangles.size());
     parallel_for_rows(static_cast<std::int64_t>(mesh.triangles.size()), [&](std::int32_t triangle) {
         for (int i = 0; i < 3; ++i) {
@@ -124,7 +125,12 @@ MeshTopology topology_of(const TriangleMesh& mesh) {
 }
 
 std::int64_t count_vertices(const MeshTopology& topology) {
-    return vertices_of(topology.triangles, topology.welded.size()).count();
+    const auto count = static_cast<std::int64_t>(topology.welded.size());
+    Marks welded(count);
+    parallel_for_rows(count, [&](std::int32_t vertex) {
+        if (topology.referenced[vertex] != 0) welded.set(topology.welded[vertex]);
+    });
+    return welded.count();
 }
 
 std::vector<std::uint8_t> boundary_edges(const MeshTopology& topology) {

@@ -19,8 +19,9 @@ namespace tracked_mcf {
 struct MeshTopology {
     static constexpr std::int32_t kNoEdge = -1;
 
-    std::vector<std::int32_t> welded;  ///< per vertex, see weld_coincident_vertices
-    RawVector<Triangle> triangles;     ///< per triangle: its welded vertices
+    std::vector<std::uint8_t> referenced;  ///< per vertex: 1 if a triangle has it, else 0
+    std::vector<std::int32_t> welded;      ///< per vertex, see weld_coincident_vertices
+    RawVector<Triangle> triangles;         ///< per triangle: its welded vertices
     /// Per triangle: the edge along each side, or kNoEdge if the side joins a vertex to itself. Any
     /// number of triangles may share an edge.
     RawVector<std::array<std::int32_t, 3>> edges;
@@ -49,7 +50,7 @@ constexpr bool has_bit(std::uint64_t flags, int i) {
 /// more than 2147483647 edges.
 MeshTopology topology_of(const TriangleMesh& mesh);
 
-/// Returns the number of different vertices that the triangles use.
+/// Returns the number of different referenced vertices.
 std::int64_t count_vertices(const MeshTopology& topology);
 
 /// Returns, per triangle, flags of the sides on the boundary. A side is on the boundary if no other

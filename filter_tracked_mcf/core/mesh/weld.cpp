@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "filter_tracked_mcf/core/parallel/marks.h"
 #include "filter_tracked_mcf/core/parallel/parallel.h"
 #include "filter_tracked_mcf/core/parallel/sorting.h"
 
@@ -33,8 +34,8 @@ struct HashedVertex {
 
 /// Returns the referenced vertices sorted by hash, then by index. The hashes are short, to be
 /// sorted quickly, but long enough that few positions share one.
-RawVector<HashedVertex> vertices_by_hash(const TriangleMesh& mesh) {
-    const std::vector<std::uint8_t> referenced = referenced_vertices(mesh);
+RawVector<HashedVertex> vertices_by_hash(const TriangleMesh& mesh,
+                                         const std::vector<std::uint8_t>& referenced) {
     unsigned bits = 8;
     while (bits < 30 && (std::size_t{1} << (bits - 2)) < mesh.positions.size()) ++bits;
     auto vertices = parallel_collect_if<HashedVertex, RawVector<HashedVertex>>(
@@ -70,14 +71,23 @@ void weld(const TriangleMesh& mesh, const HashedVertex* first, const HashedVerte
 }  // namespace
 
 std::vector<std::uint8_t> referenced_vertices(const SurfaceView& surface) {
-    return vertices_of(surface.triangles, surface.positions.size()).flags();
+    Marks referenced(static_cast<std::int64_t>(surface.positions.size()));
+    parallel_for_items(surface.triangles, [&](const Triangle& triangle) {
+        for (const std::int32_t vertex : triangle) referenced.set(vertex);
+    });
+    return referenced.flags();
 }
 
 std::vector<std::int32_t> weld_coincident_vertices(const TriangleMesh& mesh) {
+    return weld_coincident_vertices(mesh, referenced_vertices(mesh));
+}
+
+std::vector<std::int32_t> weld_coincident_vertices(const TriangleMesh& mesh,
+                                                   const std::vector<std::uint8_t>& referenced) {
     std::vector<std::int32_t> welded(mesh.positions.size());
     parallel_for_rows(static_cast<std::int64_t>(welded.size()),
                       [&](std::int32_t vertex) { welded[vertex] = vertex; });
-    const RawVector<HashedVertex> vertices = vertices_by_hash(mesh);
+    const RawVector<HashedVertex> vertices = vertices_by_hash(mesh, referenced);
     const auto begins = runs_by(vertices, [](const HashedVertex& entry) { return entry.hash; });
     parallel_for_runs(
         static_cast<std::int64_t>(vertices.size()), begins,
