@@ -205,9 +205,8 @@ def write_list_of_pages(folder):
     claims = [line for lines in pages.values() for line in lines if line.startswith(CLAIM)]
     links = [f"- [{lines[0][2:].rstrip('.')}]({name})" for name, lines in pages.items()]
     (folder / "README.md").write_text("\n".join(
-        ["# Results of the experiments", "",
-         "Each page says which commit it measured, and on which machine.", "", *links, "",
-         "The paper's claims:", "", *claims, ""]), encoding="utf-8")
+        ["# Results of the experiments", "", *links, "", "The paper's claims:", "", *claims, ""]),
+        encoding="utf-8")
 
 
 def pyplot():
