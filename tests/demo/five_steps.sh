@@ -21,7 +21,7 @@ make_home
 cd "$(dirname "$mesh")" # MeshLab's log on the picture shows no folder
 start_meshlab "$prefix/bin/meshlab" "$(basename "$mesh")"
 start_filter
-xdotool windowmove --sync "$dialog" 752 80 windowsize --sync "$dialog" 500 640 sleep 0.5
+xdotool windowmove --sync "$dialog" 752 80 windowsize --sync "$dialog" 500 690 sleep 0.5
 eval "$(xdotool getwindowgeometry --shell "$dialog")"
 surface before
 xdotool key Tab Tab space # from Apply over Default to Preview
