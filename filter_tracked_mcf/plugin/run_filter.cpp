@@ -35,13 +35,13 @@ FilterOutcome guard(const std::function<FilterOutcome()>& work) {
     try {
         return work();
     } catch (const std::bad_alloc&) {
-        return {false, "There is not enough memory. Choose a smaller depth."};
+        return {false, "There is not enough memory. Choose a smaller depth.", {}, {}};
     } catch (const InvalidParameter& error) {
-        return {false, with_label(error.what())};
+        return {false, with_label(error.what()), {}, {}};
     } catch (const std::exception& error) {
-        return {false, error.what()};
+        return {false, error.what(), {}, {}};
     } catch (...) {
-        return {false, "An unknown error occurred."};
+        return {false, "An unknown error occurred.", {}, {}};
     }
 }
 

@@ -21,9 +21,9 @@ using Outputs = std::map<std::string, std::variant<int, double>>;
 /// How a run of the filter ended.
 struct FilterOutcome {
     bool succeeded;
-    std::string message;        ///< for the user: what was done, or what is wrong and what to do
-    Outputs outputs = {};       ///< empty after a failure; see outputs_of()
-    std::string warnings = {};  ///< those of the message, one a line
+    std::string message;   ///< for the user: what was done, or what is wrong and what to do
+    Outputs outputs;       ///< empty after a failure; see outputs_of()
+    std::string warnings;  ///< those of the message, one a line
 };
 
 /// Runs `work` and turns any exception into a failed outcome: an exception that a host does not

@@ -95,14 +95,11 @@ Length length_of(std::string text) {
     return length;
 }
 
-/// Adds an option that takes one of the names, and calls `set` with its place among them.
-CLI::Option* add_choice(CLI::App& app, const std::string& option,
-                        const std::vector<std::string>& names, int first,
-                        const std::function<void(int)>& set, const std::string& help) {
-    const auto take = [names, set](const std::string& name) {
-        set(static_cast<int>(std::find(names.begin(), names.end(), name) - names.begin()));
-    };
-    return app.add_option_function<std::string>(option, take, help)
+/// Adds an option that takes one of the names, and calls `take` with it.
+template <class Take>
+void add_choice(CLI::App& app, const std::string& option, const std::vector<std::string>& names,
+                int first, const Take& take, const std::string& help) {
+    app.add_option_function<std::string>(option, take, help)
         ->type_name(CLI::detail::join(names, "|"))
         ->check(CLI::IsMember(names).description(""))
         ->default_str(names.at(static_cast<std::size_t>(first)));
@@ -122,7 +119,8 @@ void add_parameter(CLI::App& app, CommandLine& line, const Parameter& parameter)
         case Parameter::Type::Switch:
             if (std::get<bool>(value)) {
                 add_choice(
-                    app, option, {"on", "off"}, 0, [set](int i) { set(i == 0); }, help);
+                    app, option, {"on", "off"}, 0,
+                    [set](const std::string& name) { set(name == "on"); }, help);
             } else {
                 app.add_flag_function(
                     option, [set](auto count) { set(count > 0); }, help);
@@ -148,7 +146,13 @@ void add_parameter(CLI::App& app, CommandLine& line, const Parameter& parameter)
         case Parameter::Type::Choice:
             std::vector<std::string> names;
             for (const NamedChoice& choice : parameter.choices) names.push_back(choice.name);
-            add_choice(app, option, names, std::get<int>(value), set, help);
+            const auto take = [&line, &parameter](const std::string& taken) {
+                for (std::size_t i = 0; i < parameter.choices.size(); ++i) {
+                    if (parameter.choices[i].name != taken) continue;
+                    parameter.set(line.parameters, static_cast<int>(i));
+                }
+            };
+            add_choice(app, option, names, std::get<int>(value), take, help);
     }
 }
 

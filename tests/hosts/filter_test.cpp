@@ -302,7 +302,9 @@ TEST(Warnings, TellOfALimitedStepADetailBelowACellAndASuddenLoss) {
 }
 
 TEST(Guard, TurnsEveryExceptionIntoAMessage) {
-    const FilterOutcome done = guard([] { return FilterOutcome{true, "done", {{"depth", 5}}}; });
+    const FilterOutcome done = guard([] {
+        return FilterOutcome{true, "done", {{"depth", 5}}, {}};
+    });
     EXPECT_TRUE(done.succeeded);
     EXPECT_EQ(done.message, "done");
     EXPECT_EQ(done.outputs.size(), 1u);
