@@ -128,13 +128,13 @@ StepResult Flow::advance_in_parts(int parts, const Care& care, StepReport& repor
     stepper_.forget_solutions();
     const StepSize size = 1.0 / parts * stepper_.size();
     StepReport again;
-    StepResult result = stepper_.advance(state_, size, care, again);
-    for (int part = 1; part < parts; ++part) {
-        const FlowState* const state = std::get_if<FlowState>(&result);
-        if (state == nullptr) break;
-        StepResult next = stepper_.advance(*state, size, care, again);
-        if (is(next, Stop::NothingMoves)) break;
+    StepResult result = Stop::NothingMoves;
+    const FlowState* from = &state_;
+    for (int part = 0; part < parts && from != nullptr; ++part) {
+        StepResult next = stepper_.advance(*from, size, care, again);
+        if (part > 0 && is(next, Stop::NothingMoves)) break;
         result = std::move(next);
+        from = std::get_if<FlowState>(&result);
     }
     replace_attempt(report, again);
     return result;
