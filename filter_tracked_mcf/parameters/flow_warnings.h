@@ -17,8 +17,8 @@ bool converged(const FlowReport& report);
 std::string changes(const FlowReport& report);
 
 /// Returns up to five warnings for a user. If the flow stopped before its last step: where, why,
-/// and what to do. If the step size was limited, the detail is smaller than a cell, or a step
-/// removed more than a tenth of the area: how far, and what to do. If steps did not reach the
+/// and what to do. If the step size was limited, the cells are too wide for the detail size, or a
+/// step removed more than a tenth of the area: how far, and what to do. If steps did not reach the
 /// tolerance: how many, which is the worst, its error estimate, and then `advice`, in which the
 /// host says what to do.
 std::vector<std::string> flow_warnings(const FlowParameters& parameters, const FlowReport& report,

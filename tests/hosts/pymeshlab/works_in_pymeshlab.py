@@ -155,10 +155,10 @@ def check_outputs(outputs, parameters):
 
 
 def check_warnings(apply, mesh):
-    """A run without trouble returns no warning; a detail size below a cell returns one."""
+    """A run without trouble returns no warning; cells too wide for the detail size return one."""
     quiet = warnings_of(apply(load(mesh), detail_size=pymeshlab.PercentageValue(10), iterations=20))
     coarse = warnings_of(apply(load(mesh), depth=2, detail_size=pymeshlab.PercentageValue(1)))
-    if quiet or len(coarse) != 1 or not coarse[0].startswith("The detail size "):
+    if quiet or len(coarse) != 1 or not coarse[0].startswith("The cells of depth 2 "):
         sys.exit(f"wrong warnings: {quiet} and {coarse}")
 
 
