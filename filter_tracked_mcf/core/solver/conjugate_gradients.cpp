@@ -24,8 +24,8 @@ constexpr double kWorthRefining = 0.5;
 constexpr double kUsualDecreaseRatio = 0.1;
 
 /// A step length is about 1 or greater, because the V-cycle is nearly the inverse of A. If it is
-/// less than this, the V-cycle has overshot along a few functions with much energy. The decrease is
-/// theirs, and says nothing about the error that remains.
+/// less than this, or negative, the V-cycle has overshot along a few functions with much energy.
+/// The decrease is theirs, and says nothing about the error that remains.
 constexpr double kOvershot = 0.5;
 
 /// Returns a / b if b is positive, else 0, for then nothing is left to solve.
@@ -121,7 +121,7 @@ double ConjugateGradients::descend(ElementMultigrid& multigrid, double goal, dou
         if (energy <= 0 || !is_factor(alpha)) return std::numeric_limits<double>::max();
         move(static_cast<float>(alpha));
         total_decrease_ += alpha * rz;
-        if (0 < alpha && alpha < kOvershot) continue;
+        if (alpha < kOvershot) continue;
         const double decrease_before = std::exchange(decrease, alpha * rz);
         if (decrease > 0 && decrease_before > 0) decrease_ratio_ = decrease / decrease_before;
         // The ratio of an earlier solve says little about a first iteration, so be careful.

@@ -219,6 +219,24 @@ TEST(ConjugateGradients, SolvesForAZeroRightHandSide) {
     EXPECT_TRUE(all_zero.x.isZero(0));
 }
 
+TEST(ConjugateGradients, ClaimsNoConvergenceWhereTheVCycleIsIndefinite) {
+    for (const float factor : {10.0F, 100.0F}) {
+        ElementSystem system = stabilized(shapes::bumpy_sphere(20), 4, 100.0F);
+        // The smoother keeps the inverses of the smaller matrices, so it overshoots by this factor.
+        MatrixBlocks& matrices = system.systems.matrices;
+        for (std::int64_t element = 0; element < matrices.size(); ++element) {
+            for (int row = 0; row < 8; ++row) {
+                for (int column = row; column < 8; ++column) {
+                    matrices.at(element, row, column) *= factor;
+                }
+            }
+        }
+        const Solution solution = solved(system, 0.1, 20);
+        EXPECT_GT(2 * solution.convergence.error_estimate, relative_error(system, solution.x));
+        EXPECT_FALSE(solution.convergence.reached_tolerance);
+    }
+}
+
 TEST(ConjugateGradients, ReportsNonFiniteNumbers) {
     using Limits = std::numeric_limits<float>;
     for (const float bad : {Limits::quiet_NaN(), Limits::infinity(), Limits::max()}) {
