@@ -16,6 +16,7 @@
 #include "filter_tracked_mcf/core/evolve.h"
 #include "filter_tracked_mcf/core/flow/confinement.h"
 #include "filter_tracked_mcf/core/flow/preserving.h"
+#include "filter_tracked_mcf/core/mesh/weld.h"
 #include "tests/support/process_time.h"
 #include "tests/support/shapes.h"
 
@@ -192,6 +193,9 @@ private:
     void check_scale();
     void check_order();
     void check_translation();
+    double difference(const Case& base, const Run& base_run, const Case& other,
+                      const Run& other_run, const std::vector<std::int32_t>& vertex_of) const;
+    double effect_of_rounding(const Case& base, const Run& base_run);
     void compare(Property property, const Case& base, const Run& base_run, const Case& other,
                  const std::vector<std::int32_t>& vertex_of);
 
@@ -368,10 +372,54 @@ void Checker::check_scale() {
     }
 }
 
+/// Returns how far apart two runs move a vertex that flows, at most, mesh units. Vertex i of
+/// `other` is the vertex vertex_of[i] of `base`.
+double Checker::difference(const Case& base, const Run& base_run, const Case& other,
+                           const Run& other_run, const std::vector<std::int32_t>& vertex_of) const {
+    double largest = 0;
+    for (std::size_t i = 0; i < vertex_of.size(); ++i) {
+        const std::int32_t j = vertex_of[i];
+        if (!flows_[j]) continue;
+        const Eigen::Vector3d d = base_run.mesh.positions[j] - base.mesh.positions[j];
+        const Eigen::Vector3d e = other_run.mesh.positions[i] - other.mesh.positions[i] - d;
+        largest = std::max(largest, e.norm());
+    }
+    return largest;
+}
+
+/// Returns the largest difference() to eight runs that move each position by up to the rounding of
+/// clipping, 2^-30 of a cell. Coincident vertices stay coincident.
+double Checker::effect_of_rounding(const Case& base, const Run& base_run) {
+    const std::vector<std::int32_t> first = weld_coincident_vertices(base.mesh);
+    const double rounding = std::ldexp(base_run.report.cell_size, -30);
+    double largest = 0;
+    for (int i = 0; i < 8; ++i) {
+        Case moved = base;
+        std::vector<Eigen::Vector3d>& at = moved.mesh.positions;
+        for (Eigen::Vector3d& position : at) position += rounding * random_.point();
+        for (std::size_t j = 0; j < at.size(); ++j) at[j] = at[first[j]];
+        const Run moved_run = run(moved);
+        if (!moved_run.made() || !is_regular(base.parameters, moved_run.report)) continue;
+        largest =
+            std::max(largest, difference(base, base_run, moved, moved_run, counted(at.size())));
+    }
+    return largest;
+}
+
 /// Compares `base` with a case whose vertex i is the vertex vertex_of[i] of `base`. Both are solved
 /// to the tolerance, in the energy norm. No bound for single vertices follows, but their errors are
 /// of the same order: ten times the tolerance for each solve of a step. The W-cycle makes the same
 /// error in both. Single precision adds 1e-5 of the diagonal.
+///
+/// Some flows magnify rounding errors by more than that:
+/// - only its mass holds a surface much smaller than √δ in its place, and rounding errors of the
+///   stiffness move it by up to 6e-8 δ cells, with δ in squared cells, and further once its mass
+///   has shrunk;
+/// - scaling a surface that is much smaller than a cell scales its rounding errors, too;
+/// - triangles much thinner than a cell may make the system nearly singular.
+/// Such a flow magnifies a rounding of its input as much, so the bound is measured: four times the
+/// largest effect of eight roundings. In five such cases, with 16 orders and 24 roundings each, the
+/// effect of a random order exceeded this bound in at most 0.2 % of the draws of eight roundings.
 void Checker::compare(Property property, const Case& base, const Run& base_run, const Case& other,
                       const std::vector<std::int32_t>& vertex_of) {
     const Run other_run = run(other);
@@ -383,22 +431,17 @@ void Checker::compare(Property property, const Case& base, const Run& base_run, 
     const FlowParameters& parameters = base.parameters;
     if (!is_regular(parameters, base_run.report) || !is_regular(parameters, other_run.report))
         return;
-    double furthest = 0, difference = 0;
-    for (std::size_t i = 0; i < vertex_of.size(); ++i) {
-        const std::int32_t j = vertex_of[i];
-        if (!flows_[j]) continue;
-        const Eigen::Vector3d d = base_run.mesh.positions[j] - base.mesh.positions[j];
-        furthest = std::max(furthest, d.norm());
-        const Eigen::Vector3d e = other_run.mesh.positions[i] - other.mesh.positions[i] - d;
-        difference = std::max(difference, e.norm());
-    }
+    const double distance = difference(base, base_run, other, other_run, vertex_of);
     // Scaling multiplies the error of the step before it.
     const double solves = parameters.order * (parameters.preserve == Preserve::None ? 1 : 4);
     const double diagonal = box_.diagonal().norm();
-    const double allowed = 10 * solves * parameters.tolerance * furthest + 1e-5 * diagonal;
-    if (difference <= allowed) return;
+    const double furthest = base_run.report.largest_displacement;
+    double allowed = 10 * solves * parameters.tolerance * furthest + 1e-5 * diagonal;
+    if (distance <= allowed) return;
+    allowed = std::max(allowed, 4 * effect_of_rounding(base, base_run));
+    if (distance <= allowed) return;
     fail(property,
-         number(difference / diagonal) + " diagonals, allowed " + number(allowed / diagonal));
+         number(distance / diagonal) + " diagonals, allowed " + number(allowed / diagonal));
 }
 
 void Checker::check_order() {
