@@ -160,6 +160,7 @@ void Flow::move_vertices(std::vector<Eigen::Vector3d>& positions) const {
 
 std::vector<Eigen::Vector3d> Flow::velocities(std::size_t vertex_count) {
     std::vector<Eigen::Vector3d> velocities(vertex_count, Eigen::Vector3d::Zero());
+    if (parameters_.quality != Quality::MeanCurvature) return velocities;
     if (state_.velocity.size() == 0) {
         StepReport ignored;
         const StepSize& size = stepper_.size();

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "filter_tracked_mcf/core/errors.h"
+#include "filter_tracked_mcf/core/flow/flow.h"
 #include "tests/support/shapes.h"
 #include "tests/unit/flows.h"
 
@@ -51,6 +52,15 @@ void expect_all_near(const std::vector<double>& numbers, double expected, double
 
 TEST(Quality, IsEmptyUnlessAskedFor) {
     EXPECT_TRUE(quality_of(sphere(), measuring(Quality::None)).empty());
+}
+
+TEST(Quality, VelocitiesAreZeroUnlessTheMeanCurvatureIsAskedFor) {
+    const TriangleMesh mesh = sphere();
+    Flow flow(mesh, measuring(Quality::Displacement));
+    ASSERT_TRUE(flow.step());
+    for (const Eigen::Vector3d& velocity : flow.velocities(mesh.positions.size())) {
+        EXPECT_TRUE(velocity.isZero(0));
+    }
 }
 
 TEST(Quality, DoesNotChangeTheFlow) {
