@@ -46,26 +46,23 @@ std::string default_in_words(const Parameter& parameter) {
     return text.str();
 }
 
-TEST(Pages, TheReadmesTableHasTheNamesAndDefaultsOfAllParametersOfDialogs) {
+/// Expects that the table after a heading of a page has the names and defaults of the parameters
+/// that dialogs have, or of those that the program alone has.
+void expect_table(const std::string& file, const std::string& heading, const std::string& pattern,
+                  bool in_dialogs) {
     Rows expected;
     for (const Parameter& parameter : parameter_table()) {
-        if (parameter.label.empty()) continue;
+        if (parameter.label.empty() == in_dialogs) continue;
         expected.emplace_back(parameter.name, default_in_words(parameter));
     }
-    const std::string text = page("README.md");
-    const std::string table = text.substr(text.find("\n## Parameters"));
-    EXPECT_EQ(matches(table, "\n\\| `([a-z_]+)` \\| ([^|]*) \\|"), expected);
+    const std::string text = page(file);
+    EXPECT_EQ(matches(text.substr(text.find(heading)), pattern), expected);
 }
 
-TEST(Pages, TheToolsTableHasTheOptionsAndDefaultsOfItsOwnParameters) {
-    Rows expected;
-    for (const Parameter& parameter : parameter_table()) {
-        if (!parameter.label.empty()) continue;
-        expected.emplace_back(parameter.name, default_in_words(parameter));
-    }
-    const std::string text = page("filter_tracked_mcf/tool/README.md");
-    const std::string table = text.substr(text.find("\nFurther options"));
-    EXPECT_EQ(matches(table, "\n\\| `--([a-z-]+) [^`]*` \\| ([^| ]+) \\|"), expected);
+TEST(Pages, TablesHaveTheNamesAndDefaultsOfAllParameters) {
+    expect_table("README.md", "\n## Parameters", "\n\\| `([a-z_]+)` \\| ([^|]*) \\|", true);
+    expect_table("filter_tracked_mcf/tool/README.md", "\nFurther options",
+                 "\n\\| `--([a-z-]+) [^`]*` \\| ([^| ]+) \\|", false);
 }
 
 TEST(Pages, TheFilterScriptSetsAllParametersToTheirDefaults) {
