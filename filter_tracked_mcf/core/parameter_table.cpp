@@ -38,7 +38,9 @@ ParameterMember integer(int smallest, int largest, const char* advice = "") {
 template <auto member>
 ParameterMember choice(std::vector<NamedChoice> choices) {
     Range range = {0, static_cast<double>(choices.size() - 1), ":"};
-    for (const NamedChoice& choice : choices) range.advice += ' ' + choice.label + ',';
+    for (const auto& [label, name] : choices) {
+        range.advice += ' ' + (label.empty() ? name : label) + ',';
+    }
     range.advice.pop_back();
     ParameterMember result = access<member>(Type::Choice, range);
     result.choices = std::move(choices);
@@ -104,8 +106,9 @@ const std::vector<Parameter>& parameter_table() {
          "The step size is in squared units of the mesh."},
         {integer<&P::depth>(0, kMaximumDepth, ", where 0 chooses automatically"), "depth",
          "Octree depth (expert)",
-         "2^depth grid cells a side, 1 to 12; one more takes four times as long. 0 takes about as "
-         "many functions as vertices."},
+         "2^depth grid cells a side, 1 to 12; one more takes four times as long. 0 chooses it by "
+         "the "
+         "vertices and the detail size."},
         {choice<&P::flow>(
              {{"Mean curvature", "mean-curvature"}, {"Conformalized", "conformalized"}}),
          "flow", "Flow (expert)",
