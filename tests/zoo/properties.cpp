@@ -418,8 +418,7 @@ double Checker::effect_of_rounding(const Case& base, const Run& base_run) {
 /// - scaling a surface that is much smaller than a cell scales its rounding errors, too;
 /// - triangles much thinner than a cell may make the system nearly singular.
 /// Such a flow magnifies a rounding of its input as much, so the bound is measured: four times the
-/// largest effect of eight roundings. In five such cases, with 16 orders and 24 roundings each, the
-/// effect of a random order exceeded this bound in at most 0.2 % of the draws of eight roundings.
+/// largest effect of eight roundings.
 void Checker::compare(Property property, const Case& base, const Run& base_run, const Case& other,
                       const std::vector<std::int32_t>& vertex_of) {
     const Run other_run = run(other);
