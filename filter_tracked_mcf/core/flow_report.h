@@ -30,7 +30,7 @@ enum class Stop {
     Vanished,      ///< the next step would have left no area, and was undone
     Pinched,       ///< preserving would have blown up what has pinched; the step was undone
     NotPreserved,  ///< no pressure restores the volume after a step this large; it was undone
-    StepFailed,    ///< the next step failed, in parts, too (Flow::step), and was undone
+    StepFailed,    ///< the next step failed, in substeps, too (Flow::step), and was undone
     NothingMoves,  ///< all vertices or all unknowns are constrained
 };
 

@@ -36,8 +36,9 @@ std::string early_stop(const FlowReport& report, int iterations) {
         case Stop::StepFailed:
             return (made > 0 ? stopped : "Nothing has moved: ") + "step " +
                    std::to_string(made + 1) +
-                   " failed, in 16 parts, too: the surface left its bounds, or the equations could "
-                   "not be solved. Take a smaller detail size or step size, or a greater depth.";
+                   " failed, in 16 smaller steps, too: the surface left its bounds, or the "
+                   "equations could not be solved. Take a smaller detail size or step size, or a "
+                   "greater depth.";
         case Stop::NotPreserved:
             return (made > 0 ? stopped : "Nothing has moved: ") + "step " +
                    std::to_string(made + 1) +

@@ -252,7 +252,8 @@ TEST(EarlyStop, NamesTheStepTheReasonAndTheRemedy) {
               "cannot be restored. Take more steps, or a smaller detail size or step size.");
     report.stop = Stop::StepFailed;
     EXPECT_EQ(early_stop(),
-              "Nothing has moved: step 1 failed, in 16 parts, too: the surface left its bounds, or "
+              "Nothing has moved: step 1 failed, in 16 smaller steps, too: the surface left its "
+              "bounds, or "
               "the equations could not be solved. Take a smaller detail size or step size, or a "
               "greater depth.");
     report.stop = Stop::NothingMoves;

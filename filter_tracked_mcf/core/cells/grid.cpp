@@ -24,9 +24,9 @@ constexpr double kFarthest = 1e12;
 
 Eigen::AlignedBox3d bounding_box(const SurfaceView& surface) {
     const auto count = static_cast<std::int64_t>(surface.triangles.size());
-    std::vector<Eigen::AlignedBox3d> boxes(static_cast<std::size_t>(block_count(count)));
-    parallel_for_blocks(count, [&](std::int64_t begin, std::int64_t end) {
-        Eigen::AlignedBox3d& box = boxes[begin / kBlockSize];
+    std::vector<Eigen::AlignedBox3d> boxes(static_cast<std::size_t>(chunk_count(count)));
+    parallel_for_chunks(count, [&](std::int64_t begin, std::int64_t end) {
+        Eigen::AlignedBox3d& box = boxes[begin / kChunkSize];
         for (std::int64_t i = begin; i < end; ++i) {
             for (const std::int32_t vertex : surface.triangles[i])
                 box.extend(surface.positions[vertex]);

@@ -35,7 +35,7 @@ Share share_of(const TrackedElements& elements, std::int64_t element) {
 Supports measure_supports(const TrackedElements& elements) {
     const Level& finest = elements.finest();
     std::vector<Share> shares(finest.cells.size());
-    parallel_for_blocks(finest.element_count(), [&](std::int64_t begin, std::int64_t end) {
+    parallel_for_chunks(finest.element_count(), [&](std::int64_t begin, std::int64_t end) {
         Pacer pacer;
         for (std::int64_t element = begin; element < end; ++element) {
             shares[element] = share_of(elements, element);

@@ -52,7 +52,7 @@ public:
 
     void build() {
         allocate();
-        parallel_for_blocks(elements_.finest().element_count(),
+        parallel_for_chunks(elements_.finest().element_count(),
                             [&](std::int64_t begin, std::int64_t end) {
                                 Pacer pacer;
                                 for (std::int64_t element = begin; element < end; ++element) {

@@ -13,8 +13,8 @@ namespace tracked_mcf {
 
 namespace {
 
-/// The numbers of parts in which a step that has failed is made again.
-constexpr int kParts[] = {1, 4, 16};
+/// The numbers of substeps in which a step that has failed is made again.
+constexpr int kSubsteps[] = {1, 4, 16};
 
 /// The length of the step, in squared sides of a cell, that measures the velocity of a surface that
 /// makes no step. The grid resolves no finer detail.
@@ -107,10 +107,10 @@ bool Flow::step() {
         end_before_last_step(Stop::Vanished);
         return false;
     }
-    for (const int parts : kParts) {
+    for (const int substeps : kSubsteps) {
         if (!is(next, Stop::StepFailed)) break;
         care = {std::min(parameters_.tolerance, kCarefulTolerance), true};
-        next = advance_in_parts(parts, care, report);
+        next = advance_in_substeps(substeps, care, report);
     }
     if (preserver_ && std::holds_alternative<FlowState>(next)) {
         next = preserver_->restore(state_, std::get<FlowState>(std::move(next)), care, report);
@@ -124,15 +124,15 @@ bool Flow::step() {
     return true;
 }
 
-StepResult Flow::advance_in_parts(int parts, const Care& care, StepReport& report) {
+StepResult Flow::advance_in_substeps(int substeps, const Care& care, StepReport& report) {
     stepper_.forget_solutions();
-    const StepSize size = 1.0 / parts * stepper_.size();
+    const StepSize size = 1.0 / substeps * stepper_.size();
     StepReport again;
     StepResult result = Stop::NothingMoves;
     const FlowState* from = &state_;
-    for (int part = 0; part < parts && from != nullptr; ++part) {
+    for (int substep = 0; substep < substeps && from != nullptr; ++substep) {
         StepResult next = stepper_.advance(*from, size, care, again);
-        if (part > 0 && is(next, Stop::NothingMoves)) break;
+        if (substep > 0 && is(next, Stop::NothingMoves)) break;
         result = std::move(next);
         from = std::get_if<FlowState>(&result);
     }

@@ -42,7 +42,7 @@ public:
     Flow& operator=(const Flow&) = delete;
 
     /// Makes one step (Stepper::advance) and restores what is preserved. A step that fails is made
-    /// again with more care, in one, 4 or 16 parts.
+    /// again with more care, in one, 4 or 16 substeps.
     ///
     /// Returns false and keeps the state if there is no such step; report().stop then says why. If
     /// the previous step has left almost no area, takes the flow back to before that step.
@@ -85,8 +85,8 @@ private:
     Flow(const Domain& domain, const FlowParameters& parameters, Start start);
 
     void fill_report(const Domain& domain);
-    /// Makes a step again with more care, in parts of the same size.
-    StepResult advance_in_parts(int parts, const Care& care, StepReport& report);
+    /// Makes a step again with more care, in substeps of the same size.
+    StepResult advance_in_substeps(int substeps, const Care& care, StepReport& report);
 
     FlowParameters parameters_;
     Care care_;  ///< of a step that has not failed yet

@@ -224,7 +224,7 @@ void Stepper::remove_drift_from(Coefficients& step, const FlowState& from,
 const Coefficients& Stepper::pressure_response(const FlowState& from, const Care& care,
                                                StepReport& report) {
     const Stopwatch stopwatch;
-    integrate_normals(elements_, from.displacement, systems_.right_sides);
+    assemble_normals(elements_, from.displacement, systems_.right_sides);
     solver_->solve(systems_.right_sides, care.tolerance, pressure_response_, report);
     report.reached_tolerance = report.error_estimate <= parameters_.tolerance;
     report.solve_seconds += stopwatch.seconds();

@@ -72,7 +72,7 @@ public:
     /// Returns Stop::Vanished if `from` has almost no area, Stop::NothingMoves if it has no free
     /// unknown, and Stop::StepFailed if the solver reaches nothing, or if the step takes the
     /// surface where it cannot be (confinement.h). Sets the report's area and collapsed samples to
-    /// those of `from`, and adds its other numbers to those of earlier parts of the step.
+    /// those of `from`, and adds its other numbers to those of earlier substeps.
     StepResult advance(const FlowState& from, const StepSize& size, const Care& care,
                        StepReport& report);
 

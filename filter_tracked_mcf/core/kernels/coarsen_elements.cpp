@@ -57,12 +57,12 @@ static HWY_INLINE void pack(const WholeMatrices& matrices, MatrixBlock& block) {
 
 /// A row of a matrix takes one vector, or two of four lanes.
 constexpr hn::CappedTag<float, 8> kRow;
-constexpr int kPartLanes = static_cast<int>(hn::MaxLanes(kRow));
-constexpr int kParts = 8 / kPartLanes;
-using Part = hn::Vec<decltype(kRow)>;
+constexpr int kVectorLanes = static_cast<int>(hn::MaxLanes(kRow));
+constexpr int kVectors = 8 / kVectorLanes;
+using RowLanes = hn::Vec<decltype(kRow)>;
 
 struct Row {
-    Part part[kParts];
+    RowLanes lanes[kVectors];
 };
 struct Rows {
     Row row[8];
@@ -71,35 +71,35 @@ struct Rows {
 /// Adds a row and `factor` times another one.
 static HWY_INLINE Row add(const Row& a, float factor, const Row& b) {
     Row sum;
-    for (int i = 0; i < kParts; ++i) {
-        sum.part[i] = hn::MulAdd(hn::Set(kRow, factor), b.part[i], a.part[i]);
+    for (int i = 0; i < kVectors; ++i) {
+        sum.lanes[i] = hn::MulAdd(hn::Set(kRow, factor), b.lanes[i], a.lanes[i]);
     }
     return sum;
 }
 static HWY_INLINE Row half_of(const Row& a) {
     Row half;
-    for (int i = 0; i < kParts; ++i) half.part[i] = hn::Set(kRow, 0.5F) * a.part[i];
+    for (int i = 0; i < kVectors; ++i) half.lanes[i] = hn::Set(kRow, 0.5F) * a.lanes[i];
     return half;
 }
 
 static HWY_INLINE Row load_row(const float* from) {
     Row row;
-    for (int i = 0; i < kParts; ++i) row.part[i] = hn::Load(kRow, from + i * kPartLanes);
+    for (int i = 0; i < kVectors; ++i) row.lanes[i] = hn::Load(kRow, from + i * kVectorLanes);
     return row;
 }
 
 static HWY_INLINE Rows zero_rows() {
     Rows rows;
     for (Row& row : rows.row) {
-        for (Part& part : row.part) part = hn::Zero(kRow);
+        for (RowLanes& lanes : row.lanes) lanes = hn::Zero(kRow);
     }
     return rows;
 }
 
 static HWY_INLINE void store_rows(const Rows& rows, ElementMatrix& matrix) {
     for (int i = 0; i < 8; ++i) {
-        for (int k = 0; k < kParts; ++k) {
-            hn::Store(rows.row[i].part[k], kRow, matrix.entry[i] + k * kPartLanes);
+        for (int k = 0; k < kVectors; ++k) {
+            hn::Store(rows.row[i].lanes[k], kRow, matrix.entry[i] + k * kVectorLanes);
         }
     }
 }
@@ -108,14 +108,14 @@ static HWY_INLINE void store_rows(const Rows& rows, ElementMatrix& matrix) {
 template <int Axis>
 static HWY_INLINE Row other_end(const Row& row) {
     Row other;
-    for (int i = 0; i < kParts; ++i) {
-        const Part part = row.part[i];
+    for (int i = 0; i < kVectors; ++i) {
+        const RowLanes lanes = row.lanes[i];
         if (Axis == 0) {
-            other.part[i] = hn::Shuffle2301(part);
+            other.lanes[i] = hn::Shuffle2301(lanes);
         } else if (Axis == 1) {
-            other.part[i] = hn::Shuffle1032(part);
+            other.lanes[i] = hn::Shuffle1032(lanes);
         } else {
-            other.part[kParts - 1 - i] = hn::SwapAdjacentBlocks(part);
+            other.lanes[kVectors - 1 - i] = hn::SwapAdjacentBlocks(lanes);
         }
     }
     return other;
@@ -139,9 +139,9 @@ static HWY_INLINE void coarsen_axis(Rows& m, bool upper_child) {
     HWY_UNROLL(8)
     for (Row& row : m.row) {
         const Row other = other_end<Axis>(row);
-        for (int k = 0; k < kParts; ++k) {
-            const Part take = keep.part[k] - hn::Set(kRow, 0.5F);
-            row.part[k] = hn::MulAdd(keep.part[k], row.part[k], take * other.part[k]);
+        for (int k = 0; k < kVectors; ++k) {
+            const RowLanes take = keep.lanes[k] - hn::Set(kRow, 0.5F);
+            row.lanes[k] = hn::MulAdd(keep.lanes[k], row.lanes[k], take * other.lanes[k]);
         }
     }
     HWY_UNROLL(8)

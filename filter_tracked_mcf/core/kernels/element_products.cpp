@@ -52,20 +52,20 @@ static HWY_INLINE Block block_at(const ElementRange& range, const MatrixBlock* m
     return block;
 }
 
-/// Prefetches a part of a block. The work on one block takes longer than the distance at which
-/// processors prefetch on their own.
-static HWY_INLINE void prefetch(const MatrixBlock& block, int part, int parts) {
-    for (int entry = part; entry < kMatrixEntries; entry += parts) {
+/// Prefetches every `step`-th entry of a block, from `first` on. The work on one block takes longer
+/// than the distance at which processors prefetch on their own.
+static HWY_INLINE void prefetch(const MatrixBlock& block, int first, int step) {
+    for (int entry = first; entry < kMatrixEntries; entry += step) {
         hwy::Prefetch(block.entry[entry]);
     }
 }
 
 static HWY_INLINE void read_corners(const float* x, const Block& block, int lane,
                                     CornerLanes& corners) {
-    constexpr int parts = 8 * kBlockElements / kLanes;
+    constexpr int step = 8 * kBlockElements / kLanes;
     HWY_UNROLL(8)
     for (int corner = 0; corner < 8; ++corner) {
-        prefetch(*block.later, 8 * (lane / kLanes) + corner, parts);
+        prefetch(*block.later, 8 * (lane / kLanes) + corner, step);
         const Coordinates c = coordinates(read_columns(x, block.unknowns + 8 * lane + corner));
         for (int axis = 0; axis < 3; ++axis) corners[axis][corner] = c.of_axis[axis];
     }

@@ -112,11 +112,11 @@ double inner_fragments(const SurfaceSize& size, double cell) {
 
 /// Returns the expected counts of a level with cells of side `cell`.
 ///
-/// The expected number of pieces of a surface in the cells is its characteristic, plus half the
+/// The expected number of parts of a surface in the cells is its characteristic, plus half the
 /// number of its rim's crossings with grid planes, plus the number of its crossings with grid
 /// lines. The supports of the unknowns are the cells of eight shifted grids with sides twice as
 /// long. Copies of triangles are connected where a cell meets their sides; elsewhere each copy is a
-/// piece. Handles and holes smaller than a cell leave a piece whole.
+/// part. Handles and holes smaller than a cell leave a part whole.
 LevelCounts level_counts(const SurfaceSize& size, double cell, int depth, double fragments,
                          bool separate_sheets) {
     const double rim = size.rim / cell;

@@ -123,7 +123,7 @@ RawVector<ElementFragment> sorted_by_triangle(const RawVector<FragmentEntry>& fr
                                               const FinestElements& elements) {
     RawVector<ElementFragment> sorted(fragments.size());
     const auto count = static_cast<std::int64_t>(elements.cells.size());
-    parallel_for_blocks(count, [&](std::int64_t begin, std::int64_t end) {
+    parallel_for_chunks(count, [&](std::int64_t begin, std::int64_t end) {
         auto element = static_cast<std::int32_t>(begin);
         for (std::int64_t i = elements.fragment_begin[begin]; i < elements.fragment_begin[end];
              ++i) {

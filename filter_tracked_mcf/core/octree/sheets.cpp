@@ -140,7 +140,7 @@ FinestElements one_element_per_cell(const RawVector<FragmentEntry>& fragments) {
 FinestElements separate_sheets(const MeshTopology& topology, RawVector<FragmentEntry>& fragments) {
     const FinestElements cells = one_element_per_cell(fragments);
     std::vector<std::uint8_t> begins_sheet(fragments.size(), 0);
-    parallel_for_blocks_with(
+    parallel_for_chunks_with(
         static_cast<std::int64_t>(cells.cells.size()),
         [&] { return SheetFinder(topology, fragments); },
         [&](SheetFinder& finder, std::int64_t begin, std::int64_t end) {

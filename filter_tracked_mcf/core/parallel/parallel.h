@@ -15,7 +15,7 @@
 #include "filter_tracked_mcf/core/parallel/raw_vector.h"
 
 /// Parallel loops over the items of a mesh. All of them poll progress (progress_meter.h) at every
-/// block, and give the same bits for any number of threads.
+/// chunk, and give the same bits for any number of threads.
 namespace tracked_mcf {
 
 /// Sets the number of OpenMP threads for loops that the calling thread starts during the scope's
@@ -65,37 +65,37 @@ void parallel_for(std::int64_t count, const Body& body,
     if (failure) std::rethrow_exception(failure);
 }
 
-/// Items of a block. The size does not depend on the number of threads, so sums and lists that are
-/// joined in the order of the blocks have the same bits for any number of threads.
-inline constexpr std::int64_t kBlockSize = 1024;
+/// Items of a chunk. The size does not depend on the number of threads, so sums and lists that are
+/// joined in the order of the chunks have the same bits for any number of threads.
+inline constexpr std::int64_t kChunkSize = 1024;
 
-inline std::int64_t block_count(std::int64_t count) {
-    return (count + kBlockSize - 1) / kBlockSize;
+inline std::int64_t chunk_count(std::int64_t count) {
+    return (count + kChunkSize - 1) / kChunkSize;
 }
 
-/// Calls body(begin, end) for consecutive blocks that cover [0, count), in parallel.
+/// Calls body(begin, end) for consecutive chunks that cover [0, count), in parallel.
 template <class Body>
-void parallel_for_blocks(std::int64_t count, const Body& body) {
-    parallel_for(block_count(count), [&](std::int64_t block) {
-        body(block * kBlockSize, std::min(count, (block + 1) * kBlockSize));
+void parallel_for_chunks(std::int64_t count, const Body& body) {
+    parallel_for(chunk_count(count), [&](std::int64_t chunk) {
+        body(chunk * kChunkSize, std::min(count, (chunk + 1) * kChunkSize));
     });
 }
 
-/// Blocks of light work that outweigh waking and joining threads.
-inline constexpr std::int64_t kBlocksWorthThreads = 16;
+/// Chunks of light work that outweigh waking and joining threads.
+inline constexpr std::int64_t kChunksWorthThreads = 16;
 
 /// Calls body(row) for every row in [0, count), in parallel if there are many. For light bodies.
 template <class Body>
 void parallel_for_rows(std::int64_t count, const Body& body) {
     parallel_for(
-        block_count(count),
-        [&](std::int64_t block) {
-            const auto end = static_cast<std::int32_t>(std::min(count, (block + 1) * kBlockSize));
-            for (auto row = static_cast<std::int32_t>(block * kBlockSize); row < end; ++row) {
+        chunk_count(count),
+        [&](std::int64_t chunk) {
+            const auto end = static_cast<std::int32_t>(std::min(count, (chunk + 1) * kChunkSize));
+            for (auto row = static_cast<std::int32_t>(chunk * kChunkSize); row < end; ++row) {
                 body(row);
             }
         },
-        kBlocksWorthThreads);
+        kChunksWorthThreads);
 }
 
 /// Calls body(item) for every item of a vector, in parallel if there are many. For light bodies.
@@ -105,37 +105,37 @@ void parallel_for_items(const Items& items, const Body& body) {
                       [&](std::int32_t i) { body(items[i]); });
 }
 
-/// Calls body(workspace, begin, end) for consecutive blocks that cover [0, count), in parallel.
-/// make() returns a workspace, one for each thread that gets a block. Results must not depend on
-/// the blocks that used a workspace before.
+/// Calls body(workspace, begin, end) for consecutive chunks that cover [0, count), in parallel.
+/// make() returns a workspace, one for each thread that gets a chunk. Results must not depend on
+/// the chunks that used a workspace before.
 template <class Make, class Body>
-void parallel_for_blocks_with(std::int64_t count, const Make& make, const Body& body) {
+void parallel_for_chunks_with(std::int64_t count, const Make& make, const Body& body) {
     std::vector<std::optional<decltype(make())>> workspaces(thread_count());
-    parallel_for_blocks(count, [&](std::int64_t begin, std::int64_t end) {
+    parallel_for_chunks(count, [&](std::int64_t begin, std::int64_t end) {
         auto& workspace = workspaces[thread_number()];
         if (!workspace) workspace.emplace(make());
         body(*workspace, begin, end);
     });
 }
 
-/// Returns `zero` plus body(begin, end) of the blocks that cover [0, count), added in their order.
+/// Returns `zero` plus body(begin, end) of the chunks that cover [0, count), added in their order.
 template <class Value, class Body>
 Value parallel_sum(std::int64_t count, const Value& zero, const Body& body) {
-    std::vector<Value> sums(static_cast<std::size_t>(block_count(count)));
-    parallel_for_blocks(count, [&](std::int64_t begin, std::int64_t end) {
-        sums[begin / kBlockSize] = body(begin, end);
+    std::vector<Value> sums(static_cast<std::size_t>(chunk_count(count)));
+    parallel_for_chunks(count, [&](std::int64_t begin, std::int64_t end) {
+        sums[begin / kChunkSize] = body(begin, end);
     });
     return std::accumulate(sums.begin(), sums.end(), zero);
 }
 
-/// Returns the sum of size(i) over each of the blocks that cover [0, count).
+/// Returns the sum of size(i) over each of the chunks that cover [0, count).
 template <class Number, class Size>
-std::vector<Number> block_sums(std::int64_t count, const Size& size) {
-    std::vector<Number> sums(static_cast<std::size_t>(block_count(count)), 0);
-    parallel_for_blocks(count, [&](std::int64_t begin, std::int64_t end) {
+std::vector<Number> chunk_sums(std::int64_t count, const Size& size) {
+    std::vector<Number> sums(static_cast<std::size_t>(chunk_count(count)), 0);
+    parallel_for_chunks(count, [&](std::int64_t begin, std::int64_t end) {
         Number sum = 0;
         for (std::int64_t i = begin; i < end; ++i) sum += static_cast<Number>(size(i));
-        sums[begin / kBlockSize] = sum;
+        sums[begin / kChunkSize] = sum;
     });
     return sums;
 }
@@ -143,19 +143,19 @@ std::vector<Number> block_sums(std::int64_t count, const Size& size) {
 /// Returns how many i in [0, count) satisfy counted(i).
 template <class Counted>
 std::int64_t parallel_count(std::int64_t count, const Counted& counted) {
-    const auto sums = block_sums<std::int64_t>(count, counted);
+    const auto sums = chunk_sums<std::int64_t>(count, counted);
     return std::accumulate(sums.begin(), sums.end(), std::int64_t{0});
 }
 
-/// Calls body(begin, end, sum) for consecutive blocks that cover [0, count), in parallel; `sum` is
+/// Calls body(begin, end, sum) for consecutive chunks that cover [0, count), in parallel; `sum` is
 /// the exclusive prefix sum of size(i) at `begin`. Returns the sum over all i.
 template <class Number, class Size, class Body>
 Number parallel_scan(std::int64_t count, const Size& size, const Body& body) {
-    std::vector<Number> sums = block_sums<Number>(count, size);
+    std::vector<Number> sums = chunk_sums<Number>(count, size);
     Number total = 0;
     for (Number& sum : sums) total += std::exchange(sum, total);
-    parallel_for_blocks(count, [&](std::int64_t begin, std::int64_t end) {
-        body(begin, end, sums[begin / kBlockSize]);
+    parallel_for_chunks(count, [&](std::int64_t begin, std::int64_t end) {
+        body(begin, end, sums[begin / kChunkSize]);
     });
     return total;
 }
@@ -190,17 +190,17 @@ std::int64_t next_run(std::int64_t begin, std::int64_t end, const Begins& begins
     return begin;
 }
 
-/// Returns, for each block of [0, count) and for the end, the first item from there on that begins
-/// a run. Between two of these offsets are whole runs, about a block of items.
+/// Returns, for each chunk of [0, count) and for the end, the first item from there on that begins
+/// a run. Between two of these offsets are whole runs, about a chunk of items.
 template <class Begins>
 std::vector<std::int64_t> run_offsets(std::int64_t count, const Begins& begins) {
-    std::vector<std::int64_t> offsets(static_cast<std::size_t>(block_count(count)) + 1, count);
-    parallel_for_blocks(count, [&](std::int64_t begin, std::int64_t end) {
-        offsets[begin / kBlockSize] = next_run(begin, end, begins);
+    std::vector<std::int64_t> offsets(static_cast<std::size_t>(chunk_count(count)) + 1, count);
+    parallel_for_chunks(count, [&](std::int64_t begin, std::int64_t end) {
+        offsets[begin / kChunkSize] = next_run(begin, end, begins);
     });
-    for (std::int64_t block = block_count(count) - 1; block >= 0; --block) {
-        const bool has_begin = offsets[block] < (block + 1) * kBlockSize;
-        if (!has_begin) offsets[block] = offsets[block + 1];
+    for (std::int64_t chunk = chunk_count(count) - 1; chunk >= 0; --chunk) {
+        const bool has_begin = offsets[chunk] < (chunk + 1) * kChunkSize;
+        if (!has_begin) offsets[chunk] = offsets[chunk + 1];
     }
     return offsets;
 }
@@ -211,8 +211,8 @@ std::vector<std::int64_t> run_offsets(std::int64_t count, const Begins& begins) 
 template <class Begins, class Body>
 void parallel_for_runs(std::int64_t count, const Begins& begins, const Body& body) {
     const std::vector<std::int64_t> offsets = run_offsets(count, begins);
-    parallel_for(block_count(count), [&](std::int64_t block) {
-        if (offsets[block] < offsets[block + 1]) body(offsets[block], offsets[block + 1]);
+    parallel_for(chunk_count(count), [&](std::int64_t chunk) {
+        if (offsets[chunk] < offsets[chunk + 1]) body(offsets[chunk], offsets[chunk + 1]);
     });
 }
 
@@ -225,27 +225,27 @@ void for_each_run(std::int64_t begin, std::int64_t end, const Begins& begins, co
     }
 }
 
-/// Calls body(begin, end, out) for consecutive blocks that cover [0, count), in parallel; body
-/// appends to `out`, which starts empty. Returns all appended items in the order of the blocks.
+/// Calls body(begin, end, out) for consecutive chunks that cover [0, count), in parallel; body
+/// appends to `out`, which starts empty. Returns all appended items in the order of the chunks.
 template <class Item, class Items = std::vector<Item>, class Body>
 Items parallel_collect(std::int64_t count, const Body& body) {
-    std::vector<std::vector<Item>> parts(static_cast<std::size_t>(block_count(count)));
-    // Each part is copied to exactly its size: together the parts may take most of the memory.
-    parallel_for_blocks_with(
+    std::vector<std::vector<Item>> lists(static_cast<std::size_t>(chunk_count(count)));
+    // Each list is copied to exactly its size: together the lists may take most of the memory.
+    parallel_for_chunks_with(
         count, [] { return std::vector<Item>(); },
-        [&](std::vector<Item>& part, std::int64_t begin, std::int64_t end) {
-            part.clear();
-            body(begin, end, part);
-            parts[begin / kBlockSize].assign(part.begin(), part.end());
+        [&](std::vector<Item>& list, std::int64_t begin, std::int64_t end) {
+            list.clear();
+            body(begin, end, list);
+            lists[begin / kChunkSize].assign(list.begin(), list.end());
         });
-    const auto part_count = static_cast<std::int64_t>(parts.size());
+    const auto list_count = static_cast<std::int64_t>(lists.size());
     std::vector<std::size_t> offsets;
     parallel_prefix_sum(
-        part_count, [&](std::int64_t part) { return parts[part].size(); }, offsets);
+        list_count, [&](std::int64_t list) { return lists[list].size(); }, offsets);
     Items all(offsets.back());
-    parallel_for(part_count, [&](std::int64_t part) {
-        std::copy(parts[part].begin(), parts[part].end(), all.begin() + offsets[part]);
-        std::vector<Item>().swap(parts[part]);
+    parallel_for(list_count, [&](std::int64_t list) {
+        std::copy(lists[list].begin(), lists[list].end(), all.begin() + offsets[list]);
+        std::vector<Item>().swap(lists[list]);
     });
     return all;
 }
@@ -267,8 +267,8 @@ Items parallel_collect_runs(std::int64_t count, const Begins& begins, const Body
     const std::vector<std::int64_t> offsets = run_offsets(count, begins);
     return parallel_collect<Item, Items>(
         count, [&](std::int64_t begin, std::int64_t /*end*/, std::vector<Item>& out) {
-            const std::int64_t block = begin / kBlockSize;
-            if (offsets[block] < offsets[block + 1]) body(offsets[block], offsets[block + 1], out);
+            const std::int64_t chunk = begin / kChunkSize;
+            if (offsets[chunk] < offsets[chunk + 1]) body(offsets[chunk], offsets[chunk + 1], out);
         });
 }
 

@@ -70,11 +70,11 @@ void advance_progress(double share);
 void enter_phase(double share, std::string phase);
 
 /// Invokes the callback if the interval is over, and throws like enter_phase(). Without a call it
-/// takes some ten nanoseconds. Parallel loops poll at every block (parallel.h).
+/// takes some ten nanoseconds. Parallel loops poll at every chunk (parallel.h).
 void poll_progress();
 
-/// Polls progress within a block of a parallel loop whose work has no bound, such as a triangle
-/// with millions of fragments. The loops themselves poll at every block (parallel.h).
+/// Polls progress within a chunk of a parallel loop whose work has no bound, such as a triangle
+/// with millions of fragments. The loops themselves poll at every chunk (parallel.h).
 class Pacer {
 public:
     /// Reports work worth `items` light items. Throws like poll_progress().

@@ -38,14 +38,14 @@ struct Digit {
 /// Returns digits of about equal length, lowest first, that cover the bits set in `varying`.
 std::vector<Digit> digits_of(std::uint64_t varying);
 
-/// Items of a block, which one thread counts and moves.
+/// Items of a chunk, which one thread counts and moves.
 inline constexpr std::int64_t kItems = 1 << 15;
 
-/// Calls body(block, begin, end) for consecutive blocks that cover [0, count), in parallel.
+/// Calls body(chunk, begin, end) for consecutive chunks that cover [0, count), in parallel.
 template <class Body>
-void for_each_block(std::int64_t count, const Body& body) {
-    parallel_for((count + kItems - 1) / kItems, [&](std::int64_t block) {
-        body(block, block * kItems, std::min(count, (block + 1) * kItems));
+void for_each_chunk(std::int64_t count, const Body& body) {
+    parallel_for((count + kItems - 1) / kItems, [&](std::int64_t chunk) {
+        body(chunk, chunk * kItems, std::min(count, (chunk + 1) * kItems));
     });
 }
 
@@ -54,18 +54,18 @@ template <class Items, class Key>
 std::uint64_t varying_bits(const Items& items, const Key& key) {
     const auto count = static_cast<std::int64_t>(items.size());
     std::vector<std::uint64_t> varying(static_cast<std::size_t>(count / kItems + 1), 0);
-    for_each_block(count, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
+    for_each_chunk(count, [&](std::int64_t chunk, std::int64_t begin, std::int64_t end) {
         std::uint64_t bits = 0;
         const std::uint64_t first = key(items[0]);
         for (std::int64_t i = begin; i < end; ++i) bits |= key(items[i]) ^ first;
-        varying[block] = bits;
+        varying[chunk] = bits;
     });
     return std::accumulate(varying.begin(), varying.end(), std::uint64_t{0},
                            [](std::uint64_t a, std::uint64_t b) { return a | b; });
 }
 
 /// Replaces counts by their exclusive prefix sum, in the order of the digits and, for equal digits,
-/// of the blocks. counts[block * digits + digit] belongs to a block and a digit.
+/// of the chunks. counts[chunk * digits + digit] belongs to a chunk and a digit.
 void counts_to_offsets(std::vector<std::size_t>& counts, std::size_t digits);
 
 /// Sorts by one digit with a stable counting sort.
@@ -74,13 +74,13 @@ void sort_by_digit(const Items& from, To& to, const Digit& digit, const Key& key
     const auto count = static_cast<std::int64_t>(from.size());
     const std::size_t digits = digit.count();
     std::vector<std::size_t> offsets(static_cast<std::size_t>(count / kItems + 1) * digits, 0);
-    for_each_block(count, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
-        std::size_t* const counts = offsets.data() + static_cast<std::size_t>(block) * digits;
+    for_each_chunk(count, [&](std::int64_t chunk, std::int64_t begin, std::int64_t end) {
+        std::size_t* const counts = offsets.data() + static_cast<std::size_t>(chunk) * digits;
         for (std::int64_t i = begin; i < end; ++i) ++counts[digit.of(key(from[i]))];
     });
     counts_to_offsets(offsets, digits);
-    for_each_block(count, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
-        std::size_t* const next = offsets.data() + static_cast<std::size_t>(block) * digits;
+    for_each_chunk(count, [&](std::int64_t chunk, std::int64_t begin, std::int64_t end) {
+        std::size_t* const next = offsets.data() + static_cast<std::size_t>(chunk) * digits;
         for (std::int64_t i = begin; i < end; ++i) to[next[digit.of(key(from[i]))]++] = from[i];
     });
 }

@@ -27,7 +27,7 @@ Matrix8 pseudo_inverse(const Matrix8& matrix) {
 
 void CoarseSolver::factorise(const MatrixBlocks& matrices) {
     pseudo_inverses_.resize(level_.unknowns.size());
-    parallel_for_blocks(level_.element_count(), [&](std::int64_t begin, std::int64_t end) {
+    parallel_for_chunks(level_.element_count(), [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t element = begin; element < end; ++element) {
             const ElementMatrix whole = matrices.of(element);
             const Eigen::Map<const Eigen::Matrix<float, 8, 8>> matrix(whole.entry[0]);
@@ -40,10 +40,10 @@ void CoarseSolver::solve(const Field& right_side, Field& x) const {
     x.resize(4, right_side.cols());
     parallel_for_rows(level_.element_count(), [&](std::int32_t element) {
         const auto& unknowns = level_.unknowns[element];
-        Eigen::Matrix<float, 4, 8> part;
-        for (int i = 0; i < 8; ++i) part.col(i) = right_side.col(unknowns[i]);
-        part = (part.cast<double>() * pseudo_inverses_[element]).cast<float>();
-        for (int i = 0; i < 8; ++i) x.col(unknowns[i]) = part.col(i);
+        Eigen::Matrix<float, 4, 8> at_corners;
+        for (int i = 0; i < 8; ++i) at_corners.col(i) = right_side.col(unknowns[i]);
+        at_corners = (at_corners.cast<double>() * pseudo_inverses_[element]).cast<float>();
+        for (int i = 0; i < 8; ++i) x.col(unknowns[i]) = at_corners.col(i);
     });
 }
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "filter_tracked_mcf/core/parallel/parallel.h"
-#include "filter_tracked_mcf/core/solver/element_products.h"
+#include "filter_tracked_mcf/core/solver/level_products.h"
 #include "filter_tracked_mcf/core/system/constrained_cells.h"
 
 namespace tracked_mcf {
@@ -36,9 +36,9 @@ constexpr double kStiff = 4;
 
 ElementMultigrid::LevelData::LevelData(const Level& of_level)
     : level(of_level),
-      blocks(of_level),
+      bricks(of_level),
       partition(of_level),
-      smoother(of_level, blocks, partition) {}
+      smoother(of_level, bricks, partition) {}
 
 ElementMultigrid::ElementMultigrid(const TrackedElements& elements,
                                    std::vector<std::vector<std::uint8_t>> constrained)

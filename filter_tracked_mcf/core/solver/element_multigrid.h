@@ -7,7 +7,7 @@
 
 #include "filter_tracked_mcf/core/elements/tracked_elements.h"
 #include "filter_tracked_mcf/core/solver/coarse_solver.h"
-#include "filter_tracked_mcf/core/solver/element_blocks.h"
+#include "filter_tracked_mcf/core/solver/element_bricks.h"
 #include "filter_tracked_mcf/core/solver/element_partition.h"
 #include "filter_tracked_mcf/core/solver/element_smoother.h"
 #include "filter_tracked_mcf/core/solver/element_transfer.h"
@@ -86,7 +86,7 @@ private:
         void make_residual(const Field& right_side, const Field& x);
 
         const Level& level;
-        ElementBlocks blocks;
+        ElementBricks bricks;
         ElementPartition partition;
         ElementSmoother smoother;
         ElementTransfer transfer;  ///< from the next coarser level; unused at level 0

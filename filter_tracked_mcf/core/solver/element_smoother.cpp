@@ -6,7 +6,7 @@
 
 #include "filter_tracked_mcf/core/kernels/kernels.h"
 #include "filter_tracked_mcf/core/parallel/parallel.h"
-#include "filter_tracked_mcf/core/solver/element_products.h"
+#include "filter_tracked_mcf/core/solver/level_products.h"
 #include "filter_tracked_mcf/core/system/constrained_cells.h"
 
 namespace tracked_mcf {
@@ -33,7 +33,7 @@ std::vector<float> damping_of(const Level& level) {
 /// Finds the entries without an index of their own in Couplings, see CoupledElements. An unknown
 /// may be coupled with two unknowns at the same corner, if two sheets of the surface in that
 /// corner's support connect outside it. The index belongs to the first of the two.
-std::vector<std::uint32_t> find_unshared(const Level& level, const ElementBlocks& blocks) {
+std::vector<std::uint32_t> find_unshared(const Level& level, const ElementBricks& bricks) {
     constexpr std::int32_t none = -1;
     constexpr std::int64_t size = sizeof(Couplings) / sizeof(float);
     RawVector<std::int32_t> coupled_with(size * level.unknown_count());
@@ -49,7 +49,7 @@ std::vector<std::uint32_t> find_unshared(const Level& level, const ElementBlocks
             }
         }
     };
-    blocks.for_each([&](std::int32_t begin, std::int32_t end) {
+    bricks.for_each([&](std::int32_t begin, std::int32_t end) {
         for (std::int32_t element = begin; element < end; ++element) {
             for_each_entry(element, [&](std::int32_t& owner, std::int32_t unknown, int /*bit*/) {
                 if (owner == none) owner = unknown;
@@ -67,13 +67,13 @@ std::vector<std::uint32_t> find_unshared(const Level& level, const ElementBlocks
 
 }  // namespace
 
-ElementSmoother::ElementSmoother(const Level& level, const ElementBlocks& blocks,
+ElementSmoother::ElementSmoother(const Level& level, const ElementBricks& bricks,
                                  const ElementPartition& partition)
     : level_(level),
-      blocks_(blocks),
+      bricks_(bricks),
       partition_(partition),
       damping_(damping_of(level)),
-      unshared_(find_unshared(level, blocks)),
+      unshared_(find_unshared(level, bricks)),
       inverses_(level.element_count()),
       free_unknowns_(level.unknown_count()) {}
 
@@ -87,13 +87,13 @@ void ElementSmoother::refresh(const MatrixBlocks& matrices, std::vector<Coupling
     }
     parallel_for_rows(level_.unknown_count(),
                       [&](std::int32_t unknown) { workspace[unknown] = Couplings{}; });
-    blocks_.for_each([&](std::int32_t begin, std::int32_t end) {
+    bricks_.for_each([&](std::int32_t begin, std::int32_t end) {
         kernels().sum_couplings(coupled(begin, end), matrices.blocks(), workspace.data());
     });
     parallel_for_rows(level_.unknown_count(), [&](std::int32_t unknown) {
         free_unknowns_[unknown] = is_free(workspace[unknown].sum[0]) ? 1 : 0;
     });
-    parallel_for_blocks(level_.element_count(), [&](std::int64_t begin, std::int64_t end) {
+    parallel_for_chunks(level_.element_count(), [&](std::int64_t begin, std::int64_t end) {
         kernels().invert_locally(
             coupled(static_cast<std::int32_t>(begin), static_cast<std::int32_t>(end)),
             matrices.blocks(), workspace.data(), damping_.data(), inverses_.blocks());

@@ -6,7 +6,7 @@
 
 #include "filter_tracked_mcf/core/kernels/local_systems.h"
 #include "filter_tracked_mcf/core/octree/octree.h"
-#include "filter_tracked_mcf/core/solver/element_blocks.h"
+#include "filter_tracked_mcf/core/solver/element_bricks.h"
 #include "filter_tracked_mcf/core/solver/element_partition.h"
 #include "filter_tracked_mcf/core/solver/field.h"
 #include "filter_tracked_mcf/core/system/matrix_blocks.h"
@@ -25,7 +25,7 @@ namespace tracked_mcf {
 class ElementSmoother {
 public:
     /// All arguments must outlive this.
-    ElementSmoother(const Level& level, const ElementBlocks& blocks,
+    ElementSmoother(const Level& level, const ElementBricks& bricks,
                     const ElementPartition& partition);
 
     /// Takes the level's element matrices, with zero rows and columns for constrained unknowns.
@@ -47,7 +47,7 @@ private:
     CoupledElements coupled(std::int32_t begin, std::int32_t end) const;
 
     const Level& level_;
-    const ElementBlocks& blocks_;
+    const ElementBricks& bricks_;
     const ElementPartition& partition_;
     std::vector<float> damping_;           ///< 1 / m_e for each element
     std::vector<std::uint32_t> unshared_;  ///< for each element, see CoupledElements

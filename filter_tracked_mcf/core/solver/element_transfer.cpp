@@ -114,7 +114,7 @@ void coarsen_element_matrices(const Level& fine, const Groups& children,
                               const MatrixBlocks& fine_matrices, MatrixBlocks& coarse_matrices) {
     const ChildElements elements = {fine_matrices.blocks(), fine.cells.data(), children.items(),
                                     children.begins()};
-    parallel_for_blocks(coarse_matrices.size(), [&](std::int64_t begin, std::int64_t end) {
+    parallel_for_chunks(coarse_matrices.size(), [&](std::int64_t begin, std::int64_t end) {
         kernels().coarsen_elements(elements, static_cast<std::int32_t>(begin),
                                    static_cast<std::int32_t>(end), coarse_matrices.blocks());
     });

@@ -35,33 +35,33 @@ CurveConstraint::CurveConstraint(const TrackedElements& elements, double penalty
     const std::vector<CurveSample>& samples = elements.curve_samples;
     for (std::size_t begin = 0, end = 0; begin < samples.size(); begin = end) {
         while (end < samples.size() && samples[end].element == samples[begin].element) ++end;
-        pieces_.push_back({samples[begin].element, begin, end});
+        runs_.push_back({samples[begin].element, begin, end});
     }
 }
 
 void CurveConstraint::add(const Coefficients& displacement,
                           const std::vector<Eigen::Vector3d>& multipliers,
                           double step_size_in_cells, ElementSystems& systems) const {
-    parallel_for_rows(static_cast<std::int64_t>(pieces_.size()), [&](std::int32_t i) {
-        const Piece& piece = pieces_[i];
-        for (std::size_t k = piece.begin; k < piece.end; ++k) {
+    parallel_for_rows(static_cast<std::int64_t>(runs_.size()), [&](std::int32_t i) {
+        const Run& run = runs_[i];
+        for (std::size_t k = run.begin; k < run.end; ++k) {
             const CurveSample& sample = elements_.curve_samples[k];
             const Eigen::Vector3d force =
                 sample.conormal.cast<double>() + multipliers[i] -
                 penalty_ * displacement_at(sample, elements_, displacement);
             add_at(bspline_values(sample.local.cast<double>()),
                    sample.weight * step_size_in_cells * penalty_,
-                   sample.weight * step_size_in_cells * force, piece.element, systems);
+                   sample.weight * step_size_in_cells * force, run.element, systems);
         }
     });
 }
 
 std::vector<Eigen::Vector3d> CurveConstraint::updated(std::vector<Eigen::Vector3d> multipliers,
                                                       const Coefficients& displacement) const {
-    parallel_for_rows(static_cast<std::int64_t>(pieces_.size()), [&](std::int32_t i) {
+    parallel_for_rows(static_cast<std::int64_t>(runs_.size()), [&](std::int32_t i) {
         Eigen::Vector3d sum = Eigen::Vector3d::Zero();
         double length = 0;
-        for (std::size_t k = pieces_[i].begin; k < pieces_[i].end; ++k) {
+        for (std::size_t k = runs_[i].begin; k < runs_[i].end; ++k) {
             const CurveSample& sample = elements_.curve_samples[k];
             sum += sample.weight * displacement_at(sample, elements_, displacement);
             length += sample.weight;

@@ -31,7 +31,7 @@ public:
 
     /// Returns the multipliers λ at the start.
     std::vector<Eigen::Vector3d> zero_multipliers() const {
-        return std::vector<Eigen::Vector3d>(pieces_.size(), Eigen::Vector3d::Zero());
+        return std::vector<Eigen::Vector3d>(runs_.size(), Eigen::Vector3d::Zero());
     }
 
     /// Adds the constraint to the finest level's system, for the step size δ in squared sides of a
@@ -45,15 +45,15 @@ public:
                                          const Coefficients& displacement) const;
 
 private:
-    /// The pieces of constrained edges in one element.
-    struct Piece {
+    /// Consecutive samples of constrained edges in one element.
+    struct Run {
         std::int32_t element;
         std::size_t begin, end;  ///< indices into TrackedElements::curve_samples
     };
 
     const TrackedElements& elements_;
     double penalty_;
-    std::vector<Piece> pieces_;
+    std::vector<Run> runs_;
 };
 
 }  // namespace tracked_mcf

@@ -103,13 +103,13 @@ void multiply(const TrackedElements& elements, const MatrixBlocks& matrices,
     });
 }
 
-void integrate_normals(const TrackedElements& elements, const Coefficients& displacement,
-                       std::vector<ElementVector>& normals) {
+void assemble_normals(const TrackedElements& elements, const Coefficients& displacement,
+                      std::vector<ElementVector>& normals) {
     IntegrateNormals& integrate = *kernels().integrate_normals;
     const std::int64_t count = elements.finest().element_count();
     normals.resize(static_cast<std::size_t>(count));
     const IntegrationInput all = integration_input(elements, displacement, {});
-    parallel_for_blocks(count, [&](std::int64_t begin, std::int64_t end) {
+    parallel_for_chunks(count, [&](std::int64_t begin, std::int64_t end) {
         for_each_batch(elements, all, begin, end,
                        [&](const IntegrationInput& batch) { integrate(batch, normals.data()); });
     });

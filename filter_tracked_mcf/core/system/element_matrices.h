@@ -53,7 +53,7 @@ void multiply(const TrackedElements& elements, const MatrixBlocks& matrices,
               const Coefficients& vector, std::vector<ElementVector>& products);
 
 /// Computes ∫ B_I n over the embedded surface, element by element, with its unit normal n.
-void integrate_normals(const TrackedElements& elements, const Coefficients& displacement,
-                       std::vector<ElementVector>& normals);
+void assemble_normals(const TrackedElements& elements, const Coefficients& displacement,
+                      std::vector<ElementVector>& normals);
 
 }  // namespace tracked_mcf

@@ -44,8 +44,8 @@ private:
     RawVector<MatrixBlock> blocks_;
 };
 
-// The blocks of a parallel loop (parallel.h) hold whole matrix blocks, so in one loop over elements
+// The chunks of a parallel loop (parallel.h) hold whole matrix blocks, so in one loop over elements
 // only one thread writes to a matrix block.
-static_assert(kBlockSize % kBlockElements == 0);
+static_assert(kChunkSize % kBlockElements == 0);
 
 }  // namespace tracked_mcf

@@ -91,7 +91,7 @@ Stabilization::Stabilization(const TrackedElements& elements) {
     const std::int64_t count = elements.finest().element_count();
     normal_tensors_.resize(static_cast<std::size_t>((count + kBlockElements - 1) / kBlockElements));
     if (count > 0) normal_tensors_.back() = TensorBlock{};
-    parallel_for_blocks(count, [&](std::int64_t begin, std::int64_t end) {
+    parallel_for_chunks(count, [&](std::int64_t begin, std::int64_t end) {
         Pacer pacer;
         for (std::int64_t element = begin; element < end; ++element) {
             const Eigen::Matrix3d tensor = normal_tensor(normal_product(elements, element));
@@ -109,7 +109,7 @@ Stabilization::Stabilization(const TrackedElements& elements) {
 void Stabilization::add(double weight, double step_size_in_cells, MatrixBlocks& matrices) const {
     if (weight == 0) return;
     const TensorProducts products = tensor_products(weight * (step_size_in_cells + kMassShare));
-    parallel_for_blocks(matrices.size(), [&](std::int64_t begin, std::int64_t end) {
+    parallel_for_chunks(matrices.size(), [&](std::int64_t begin, std::int64_t end) {
         kernels().add_tensor_products(normal_tensors_.data(), products, begin / kBlockElements,
                                       (end + kBlockElements - 1) / kBlockElements,
                                       matrices.blocks());

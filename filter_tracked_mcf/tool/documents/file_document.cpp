@@ -43,10 +43,10 @@ std::string read_whole_file(const fs::path& path) {
     if (!error) content.reserve(size);
     errno = 0;
     std::ifstream file(path, std::ios::binary);
-    std::vector<char> part(1 << 16);
+    std::vector<char> buffer(1 << 16);
     while (file) {
-        file.read(part.data(), static_cast<std::streamsize>(part.size()));
-        content.append(part.data(), static_cast<std::size_t>(file.gcount()));
+        file.read(buffer.data(), static_cast<std::streamsize>(buffer.size()));
+        content.append(buffer.data(), static_cast<std::size_t>(file.gcount()));
     }
     if (!file.eof()) fail_to_read(path, std::strerror(errno));
     return content;
@@ -67,8 +67,8 @@ Color make_color(const std::vector<double>& channels, double full) {
     Color color = kWhite;
     for (std::size_t i = 0; i < channels.size(); ++i) {
         // A channel that is not a number becomes 0.
-        const double part = channels[i] > 0 ? std::min(channels[i] / full, 1.0) : 0;
-        color[i] = static_cast<std::uint8_t>(std::lround(part * 255));
+        const double share = channels[i] > 0 ? std::min(channels[i] / full, 1.0) : 0;
+        color[i] = static_cast<std::uint8_t>(std::lround(share * 255));
     }
     return color;
 }

@@ -126,7 +126,7 @@ void expect_same_bits_at_any_number_of_threads(const TriangleMesh& mesh, FlowPar
 }
 
 TEST(Flow, ResultHasTheSameBitsForAnyNumberOfThreads) {
-    // Large enough for many blocks and several slabs of cells.
+    // Large enough for many chunks and several slabs of cells.
     const TriangleMesh mesh = shapes::bumpy_sphere(60);
     FlowParameters p = parameters(7, 1e-4, 2);
     for (const Solver solver : {Solver::Converged, Solver::OneWCycle}) {

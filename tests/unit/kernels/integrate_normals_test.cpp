@@ -111,7 +111,7 @@ TEST(IntegratedNormals, SatisfyTheDivergenceTheorem) {
     const Eigen::RowVector3d stretch(1, 2, 0.5);
     const Coefficients x = identity_coefficients(elements) * stretch.asDiagonal();
     std::vector<ElementVector> normals;
-    integrate_normals(elements, x - identity_coefficients(elements), normals);
+    assemble_normals(elements, x - identity_coefficients(elements), normals);
     Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
     double flux = 0;
     for (std::size_t element = 0; element < normals.size(); ++element) {

@@ -14,7 +14,7 @@ namespace {
 
 std::int64_t sum_of_squares() {
     const ThreadCountScope threads(2);
-    return parallel_sum(100 * kBlockSize, std::int64_t{0},
+    return parallel_sum(100 * kChunkSize, std::int64_t{0},
                         [](std::int64_t begin, std::int64_t end) {
                             std::int64_t sum = 0;
                             for (std::int64_t i = begin; i < end; ++i) sum += i * i;

@@ -10,7 +10,7 @@ namespace {
 
 TEST(Marks, AreSetInAParallelLoop) {
     const ThreadCountScope threads(3);
-    constexpr std::int64_t count = 20 * kBlockSize + 3;
+    constexpr std::int64_t count = 20 * kChunkSize + 3;
     Marks marks(count);
     EXPECT_EQ(marks.count(), 0);
     parallel_for_rows(count, [&](std::int32_t i) { marks.set(i / 2); });

@@ -12,13 +12,13 @@
 namespace tracked_mcf {
 namespace {
 
-constexpr std::int64_t kSizes[] = {0, 1, kBlockSize - 1, kBlockSize, 5 * kBlockSize + 7};
+constexpr std::int64_t kSizes[] = {0, 1, kChunkSize - 1, kChunkSize, 5 * kChunkSize + 7};
 
 TEST(ParallelForRuns, VisitsEveryRunOnceAndDividesNone) {
     const ThreadCountScope threads(3);
     std::mt19937 random(1);
     for (const std::int64_t count : kSizes) {
-        // Some runs are longer than a block.
+        // Some runs are longer than a chunk.
         std::vector<int> run_of;
         while (static_cast<std::int64_t>(run_of.size()) < count) {
             const std::size_t length = random() % 4 == 0 ? 3000 : 1 + random() % 5;
@@ -44,8 +44,8 @@ TEST(ParallelForRuns, LetsBodiesChangeTheirItemsInPlace) {
         std::int64_t run, number;
     };
     std::vector<Item> items;
-    items.reserve(20 * kBlockSize);
-    for (std::int64_t i = 0; i < 20 * kBlockSize; ++i) items.push_back({i / 7, i});
+    items.reserve(20 * kChunkSize);
+    for (std::int64_t i = 0; i < 20 * kChunkSize; ++i) items.push_back({i / 7, i});
     const auto count = static_cast<std::int64_t>(items.size());
     const auto begins = [&](std::int64_t i) { return i == 0 || items[i].run != items[i - 1].run; };
     parallel_for_runs(count, begins, [&](std::int64_t begin, std::int64_t end) {
@@ -98,10 +98,10 @@ TEST(ParallelFor, SkipsTheRemainingBodiesAfterAnException) {
 
 TEST(ParallelForBlocksWith, GivesEveryThreadItsOwnWorkspace) {
     const ThreadCountScope scope(3);
-    constexpr std::int64_t count = 20 * kBlockSize + 1;
+    constexpr std::int64_t count = 20 * kChunkSize + 1;
     std::atomic<int> made{0};
     std::vector<int> visits(count, 0);
-    parallel_for_blocks_with(
+    parallel_for_chunks_with(
         count,
         [&] {
             ++made;

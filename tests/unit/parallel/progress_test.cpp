@@ -118,7 +118,7 @@ TEST(Progress, ResultsAreTheSameBitsWithAndWithoutIt) {
 TEST(Progress, IsReportedByTheCallingThreadAndRisesFromZeroToOne) {
     for (const int threads : {1, 2, 3}) {
         TriangleMesh mesh =
-            shapes::bumpy_sphere(40);  // every parallel loop has more than one block
+            shapes::bumpy_sphere(40);  // every parallel loop has more than one chunk
         FlowParameters p = parameters(0, 1e-3, 2);
         p.threads = threads;
         Calls calls;

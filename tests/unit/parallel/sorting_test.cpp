@@ -54,7 +54,7 @@ TEST(SortBy, IsStableOverManyBlocksAndSkipsBitsThatAllKeysHave) {
 }
 
 /// The keys differ in their lowest and in their highest bits.
-TEST(SortBy, SortsExtremeKeysAtTheEdgesOfBlocks) {
+TEST(SortBy, SortsExtremeKeysAtTheEdgesOfChunks) {
     const std::vector<std::uint64_t> keys = {0, 1, 1023, 1024, ~0ULL, ~0ULL - 1, 1ULL << 63U, 1};
     for (const int threads : {1, 3}) {
         const ThreadCountScope scope(threads);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Sums over elements in parallel: ElementPartition and ElementBlocks.
+// Sums over elements in parallel: ElementPartition and ElementBricks.
 
 #include "filter_tracked_mcf/core/solver/element_partition.h"
 
@@ -9,7 +9,7 @@
 #include <numeric>
 #include <vector>
 
-#include "filter_tracked_mcf/core/solver/element_blocks.h"
+#include "filter_tracked_mcf/core/solver/element_bricks.h"
 
 namespace tracked_mcf {
 namespace {
@@ -77,15 +77,15 @@ TEST(ElementPartition, SumsToTheSameBitsWithAnyNumberOfThreads) {
     }
 }
 
-TEST(ElementBlocks, VisitEachElementOnceAndAddInTheSameOrderWithAnyNumberOfThreads) {
+TEST(ElementBricks, VisitEachElementOnceAndAddInTheSameOrderWithAnyNumberOfThreads) {
     const Level level = full_level();
-    const ElementBlocks blocks(level);
+    const ElementBricks bricks(level);
     std::vector<std::vector<float>> results;
     for (const int count : kThreadCounts) {
         const ThreadCountScope threads(count);
         std::vector<int> visits(level.unknowns.size());
         results.emplace_back(level.unknown_count());
-        blocks.for_each([&](std::int32_t begin, std::int32_t end) {
+        bricks.for_each([&](std::int32_t begin, std::int32_t end) {
             for (std::int32_t element = begin; element < end; ++element) {
                 ++visits[element];
                 for (int i = 0; i < 8; ++i) {

@@ -15,9 +15,9 @@ namespace {
 /// A smoother for the finest level of a first step.
 struct Smoother {
     explicit Smoother(const FirstStep& step)
-        : blocks(step.elements.finest()),
+        : bricks(step.elements.finest()),
           partition(step.elements.finest()),
-          smoother(step.elements.finest(), blocks, partition) {
+          smoother(step.elements.finest(), bricks, partition) {
         std::vector<Couplings> workspace;
         smoother.refresh(step.systems.matrices, workspace);
     }
@@ -27,7 +27,7 @@ struct Smoother {
         return x;
     }
 
-    ElementBlocks blocks;
+    ElementBricks bricks;
     ElementPartition partition;
     ElementSmoother smoother;
 };

@@ -10,7 +10,7 @@
 namespace tracked_mcf {
 namespace {
 
-constexpr Eigen::Index kCount = 50 * kBlockSize + 3;
+constexpr Eigen::Index kCount = 50 * kChunkSize + 3;
 
 TEST(Field, DotAndNormEqualTheSumsInDouble) {
     const Field a = Field::Random(4, kCount), b = Field::Random(4, kCount);

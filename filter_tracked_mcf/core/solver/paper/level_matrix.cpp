@@ -55,7 +55,7 @@ void LevelMatrix::make_pattern() {
     row_begin[0] = 0;
     for (std::int32_t row = 0; row < count; ++row)
         row_begin[row + 1] = row_begin[row] + row_size[row];
-    parallel_for_blocks(static_cast<std::int64_t>(columns.size()), [&](std::int64_t begin,
+    parallel_for_chunks(static_cast<std::int64_t>(columns.size()), [&](std::int64_t begin,
                                                                        std::int64_t end) {
         std::copy(columns.begin() + begin, columns.begin() + end, matrix_.innerIndexPtr() + begin);
     });
@@ -76,7 +76,7 @@ void LevelMatrix::assemble(const MatrixBlocks& elements,
             store_row(row, sums);
         }
     };
-    parallel_for_blocks_with(level_.unknown_count(), no_sums, assemble_rows);
+    parallel_for_chunks_with(level_.unknown_count(), no_sums, assemble_rows);
 }
 
 void LevelMatrix::assemble_row(std::int32_t row, const MatrixBlocks& elements,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "filter_tracked_mcf/core/solver/element_products.h"
+#include "filter_tracked_mcf/core/solver/level_products.h"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "filter_tracked_mcf/core/solver/element_products.h"
+#include "filter_tracked_mcf/core/solver/level_products.h"
 
 #include "filter_tracked_mcf/core/kernels/kernels.h"
 #include "filter_tracked_mcf/core/parallel/parallel.h"
-#include "filter_tracked_mcf/core/solver/element_blocks.h"
+#include "filter_tracked_mcf/core/solver/element_bricks.h"
 
 namespace tracked_mcf {
 
@@ -18,7 +18,7 @@ void subtract_products(const ElementPartition& partition, const MatrixBlocks& ma
 void subtract_products(const Level& level, const MatrixBlocks& matrices, const Field& right_side,
                        const Coefficients& x, Field& residual) {
     Coefficients sum = right_side.topRows<3>().transpose().cast<double>();
-    ElementBlocks(level).for_each([&](std::int32_t begin, std::int32_t end) {
+    ElementBricks(level).for_each([&](std::int32_t begin, std::int32_t end) {
         for (std::int32_t element = begin; element < end; ++element) {
             const auto& unknowns = level.unknowns[element];
             for (int i = 0; i < 8; ++i) {
