@@ -59,6 +59,10 @@ double detail_size_of(const FlowParameters& parameters, double mean_edge) {
     return parameters.detail_size > 0 ? parameters.detail_size : kDefaultDetailInEdges * mean_edge;
 }
 
+double reach_of(const FlowParameters& parameters) {
+    return parameters.keep_edges > 0 ? kKeptEdgesReach : 1;
+}
+
 double stabilization_of(const FlowParameters& parameters) {
     const bool needed = parameters.solver == Solver::Converged;
     return parameters.stabilization.value_or(needed ? kDefaultStabilization : 0.0);
@@ -76,6 +80,11 @@ void validate(const FlowParameters& parameters) {
         throw InvalidParameter(
             "quality asks for the mean curvature, which a conformalized flow does not know; take "
             "the mean-curvature flow, or another quality.");
+    }
+    if (parameters.keep_edges > 0 && parameters.flow != FlowKind::MeanCurvature) {
+        throw InvalidParameter(
+            "keep_edges is given, but a conformalized flow keeps no edges; take the mean-curvature "
+            "flow, or set keep_edges to 0.");
     }
 }
 

@@ -119,6 +119,11 @@ const std::vector<Parameter>& parameter_table() {
          "solver", "Solver (expert)",
          "Converged: solves each step. One W-cycle: one multigrid cycle, only to compare with the "
          "paper."},
+        {access<&P::keep_edges>(Type::Real, {0, 179, " degrees, such as 25, where 0 keeps none"}),
+         "keep_edges", "",
+         "Keeps edges where the smoothed surface turns by more than this angle, in degrees, within "
+         "the detail size: 20 to 30 suits noise, with --order 2. Elsewhere, noise is removed as by "
+         "a detail size three times as large. 0 keeps none. Not for --flow conformalized."},
         {access<&P::tolerance>(Type::Real, {0, 1, ", such as 1e-3", true}), "tolerance", "",
          "With --solver converged: a step is solved when the error estimate, relative to the step "
          "in the energy norm, is at most this number; greater than 0, less than 1. A smaller one "

@@ -123,7 +123,9 @@ std::string changes(const FlowReport& report) {
     if (report.steps.empty()) return "Nothing has moved.";
     std::ostringstream text;
     text.precision(3);
-    if (report.stop == Stop::None) {
+    if (report.normal_length > 0) {
+        text << "Edges are kept, " << 100 * report.edge_share << " % of the area. ";
+    } else if (report.stop == Stop::None) {
         text << "Waves of length " << report.detail_size << " keep half of their amplitude. ";
     }
     text << "The step size was " << report.step_size

@@ -53,7 +53,10 @@ void expect_table(const std::string& file, const std::string& heading, const std
     Rows expected;
     for (const Parameter& parameter : parameter_table()) {
         if (parameter.label.empty() == in_dialogs) continue;
-        expected.emplace_back(parameter.name, default_in_words(parameter));
+        std::string name = parameter.name;
+        // The program's options have dashes.
+        if (!in_dialogs) std::replace(name.begin(), name.end(), '_', '-');
+        expected.emplace_back(name, default_in_words(parameter));
     }
     const std::string text = page(file);
     EXPECT_EQ(matches(text.substr(text.find(heading)), pattern), expected);

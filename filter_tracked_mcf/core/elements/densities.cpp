@@ -30,7 +30,8 @@ std::vector<double> local_edge_lengths(const Domain& domain) {
     return lengths;
 }
 
-/// Returns the mass density of each triangle.
+}  // namespace
+
 std::vector<double> triangle_densities(const Domain& domain) {
     const std::vector<double> lengths = local_edge_lengths(domain);
     const double mean = mean_edge_length(domain.surface());
@@ -43,8 +44,6 @@ std::vector<double> triangle_densities(const Domain& domain) {
     }
     return densities;
 }
-
-}  // namespace
 
 std::vector<float> element_densities(const TrackedElements& elements, const Domain& domain,
                                      const RawVector<FragmentEntry>& fragments) {

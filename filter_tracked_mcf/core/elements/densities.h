@@ -13,6 +13,9 @@ namespace tracked_mcf {
 /// latter to the former.
 inline constexpr double kLargestDetailRatio = 10;
 
+/// Returns the mass density of each triangle of the domain's surface; 1 at mean edge length.
+std::vector<double> triangle_densities(const Domain& domain);
+
 /// Returns the mass density of each finest element, with 1 at triangles of mean edge length, for a
 /// detail size that follows the local edge length. In equation 2, a density ρ acts like a time step
 /// δ / ρ, so it is 1 / r² where the detail size is r times the usual one. `fragments` are those of

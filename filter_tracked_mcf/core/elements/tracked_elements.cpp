@@ -215,6 +215,12 @@ TrackedElements build_tracked_elements(const Domain& domain, ClippedSurface surf
     ElementBuilder(elements, domain, surface.mesh, surface.fragments,
                    cubature_rule(parameters.cubature))
         .build();
+    if (parameters.keep_edges > 0) {
+        elements.fragment_triangle.resize(surface.fragments.size());
+        parallel_for_rows(static_cast<std::int64_t>(surface.fragments.size()), [&](std::int32_t i) {
+            elements.fragment_triangle[i] = surface.fragments[i].triangle;
+        });
+    }
     if (parameters.local_detail_size) {
         elements.densities = element_densities(elements, domain, surface.fragments);
     }

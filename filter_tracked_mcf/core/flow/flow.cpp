@@ -89,7 +89,11 @@ void Flow::fill_report(const Domain& domain) {
     report_.step_size = stepper_.size().in_mesh_units;
     report_.asked_step_size = stepper_.asked_size().in_mesh_units;
     report_.detail_size =
-        detail_size_for(report_.step_size, parameters_.iterations, parameters_.order);
+        detail_size_for(report_.step_size, parameters_.iterations, parameters_.order) /
+        reach_of(parameters_);
+    if (const EdgeMetric* const edges = stepper_.edge_metric()) {
+        report_.normal_length = edges->size().normal_length() * elements.grid.cell_size;
+    }
     report_.cells = count_cells(elements.finest());
     report_.elements = elements.finest().element_count();
     report_.unknowns = elements.finest().unknown_count();
@@ -118,6 +122,9 @@ bool Flow::step() {
     if (const Stop* const reason = std::get_if<Stop>(&next)) {
         report_.stop = *reason;
         return false;
+    }
+    if (const EdgeMetric* const edges = stepper_.edge_metric()) {
+        report_.edge_share = edges->edge_share();
     }
     before_ = std::exchange(state_, std::get<FlowState>(std::move(next)));
     report_.steps.push_back(report);
@@ -161,11 +168,14 @@ void Flow::move_vertices(std::vector<Eigen::Vector3d>& positions) const {
 std::vector<Eigen::Vector3d> Flow::velocities(std::size_t vertex_count) {
     std::vector<Eigen::Vector3d> velocities(vertex_count, Eigen::Vector3d::Zero());
     if (parameters_.quality != Quality::MeanCurvature) return velocities;
-    if (state_.velocity.size() == 0) {
+    // A step that keeps edges does not move by the mean curvature.
+    if (state_.velocity.size() == 0 || parameters_.keep_edges > 0) {
         StepReport ignored;
+        Care care = care_;
+        care.ignores_edges = true;
         const StepSize& size = stepper_.size();
         const StepResult next = stepper_.advance(
-            state_, std::min(1.0, kShortStepInCells / size.in_cells) * size, care_, ignored);
+            state_, std::min(1.0, kShortStepInCells / size.in_cells) * size, care, ignored);
         const auto* const state = std::get_if<FlowState>(&next);
         if (state == nullptr) return velocities;
         state_.velocity = state->velocity;

@@ -46,7 +46,8 @@ double asked_in_cells(const FlowParameters& parameters, const Domain& domain, co
         return parameters.step_size * cells * cells;
     }
     const double detail_size = detail_size_of(parameters, mean_edge_length(domain.surface()));
-    return step_size_for(detail_size / grid.cell_size, parameters.iterations, parameters.order);
+    return step_size_for(reach_of(parameters) * detail_size / grid.cell_size, parameters.iterations,
+                         parameters.order);
 }
 
 }  // namespace
@@ -70,6 +71,13 @@ Stepper::Stepper(const Domain& domain, ClippedSurface surface, const FlowParamet
         std::count(initially_constrained_.begin(), initially_constrained_.end(), 1);
     solver_ = make_step_solver(elements_, std::move(constrained), parameters);
     if (parameters.flow == FlowKind::Conformalized) vanished_components_.emplace(elements_);
+    if (parameters.keep_edges > 0) {
+        const double waves =
+            detail_size_for(size_.in_cells, parameters.iterations, parameters.order);
+        edge_metric_.emplace(domain, elements_,
+                             EdgeSize{waves / reach_of(parameters), parameters.keep_edges},
+                             parameters.local_detail_size);
+    }
     // With the stabilisation, functions that hardly meet the surface follow those that do.
     if (stabilization_of(parameters) == 0) constrain_negligible(supports(), initially_constrained_);
 }
@@ -93,9 +101,11 @@ StepResult Stepper::advance(const FlowState& from, const StepSize& size, const C
                          : from.multipliers;
 
     const Stopwatch assembling;
+    if (edge_metric_) edge_metric_->update(elements_, from.displacement);
     // A = D + δS, b = -δ S x(t)
     assemble_elements(elements_, from.displacement,
-                      {1.0F, static_cast<float>(delta), parameters_.flow, parameters_.order > 1},
+                      {1.0F, static_cast<float>(delta), parameters_.flow, parameters_.order > 1,
+                       care.ignores_edges ? nullptr : edge_tensors()},
                       systems_);
     report.area = systems_.area * elements_.grid.cell_size * elements_.grid.cell_size;
     report.collapsed_samples = systems_.collapsed_samples;
@@ -224,7 +234,7 @@ void Stepper::remove_drift_from(Coefficients& step, const FlowState& from,
 const Coefficients& Stepper::pressure_response(const FlowState& from, const Care& care,
                                                StepReport& report) {
     const Stopwatch stopwatch;
-    assemble_normals(elements_, from.displacement, systems_.right_sides);
+    assemble_normals(elements_, from.displacement, edge_tensors(), systems_.right_sides);
     solver_->solve(systems_.right_sides, care.tolerance, pressure_response_, report);
     report.reached_tolerance = report.error_estimate <= parameters_.tolerance;
     report.solve_seconds += stopwatch.seconds();

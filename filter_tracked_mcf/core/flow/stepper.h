@@ -15,6 +15,7 @@
 #include "filter_tracked_mcf/core/flow_report.h"
 #include "filter_tracked_mcf/core/solver/step_solver.h"
 #include "filter_tracked_mcf/core/system/curve_constraint.h"
+#include "filter_tracked_mcf/core/system/edge_metric.h"
 #include "filter_tracked_mcf/core/system/pinches.h"
 #include "filter_tracked_mcf/core/system/stabilization.h"
 
@@ -38,6 +39,7 @@ struct Care {
     double tolerance;  ///< see FlowParameters::tolerance
     /// Whether the step's drift is removed (drift.h), and no scaling is predicted.
     bool removes_drift = false;
+    bool ignores_edges = false;  ///< whether the step is that of a flow that keeps no edges
 };
 
 /// The state after a step, or why there is none.
@@ -87,6 +89,8 @@ public:
 
     const TrackedElements& elements() const { return elements_; }
     const Confinement& confinement() const { return confinement_; }
+    /// Returns what keeps edges in the last step, or null.
+    const EdgeMetric* edge_metric() const { return edge_metric_ ? &*edge_metric_ : nullptr; }
     /// Returns the number of unknowns that a boundary of locked cells constrains.
     std::int64_t locked_unknown_count() const { return locked_unknown_count_; }
     /// Returns δ as the parameters ask for it.
@@ -115,6 +119,9 @@ private:
                            const std::vector<std::uint8_t>& constrained) const;
     bool constrains_curve() const { return parameters_.boundary != BoundaryCondition::LockedCells; }
     const Supports& supports();
+    const EdgeTensor* edge_tensors() const {
+        return edge_metric_ ? edge_metric_->tensors().data() : nullptr;
+    }
 
     const FlowParameters parameters_;
     const TrackedElements elements_;
@@ -126,7 +133,8 @@ private:
     std::int64_t locked_unknown_count_ = 0;
     std::optional<VanishedComponents> vanished_components_;  ///< only in a conformalized flow
     std::optional<Supports> supports_;                       ///< measured when first needed
-    double first_area_ = 0;  ///< of the surface in the first step, grid units²
+    std::optional<EdgeMetric> edge_metric_;  ///< of the present surface; only if edges are kept
+    double first_area_ = 0;                  ///< of the surface in the first step, grid units²
 
     // Workspaces.
     std::unique_ptr<StepSolver> solver_;

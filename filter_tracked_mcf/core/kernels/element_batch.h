@@ -111,7 +111,8 @@ static HWY_INLINE Lanes flux_entry(const Lanes (&moments)[kMomentRows], int axis
     return sum;
 }
 
-/// Returns the area, as the sum of ∫ B_I B_J over all I and J: the functions B sum to 1.
+/// Returns the area in the metric of X. In that of the mass, it is the sum of ∫ B_I B_J over all I
+/// and J: the functions B sum to 1.
 static HWY_INLINE Lanes area_of(const Lanes (&moments)[kMomentRows]) {
     Lanes area = zero();
     for (int i = 0; i < 3; ++i) {
@@ -121,7 +122,7 @@ static HWY_INLINE Lanes area_of(const Lanes (&moments)[kMomentRows]) {
             area = hn::MulAdd(splat(products), hn::MulAdd(splat(2), m[1], m[0]) + m[2], area);
         }
     }
-    return area;
+    return area - moments[kAddedArea];
 }
 
 /// Writes the matrices of the batch into a block, from this lane of the block on.

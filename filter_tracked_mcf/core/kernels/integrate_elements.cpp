@@ -42,11 +42,13 @@ void integrate(const IntegrationInput& input, const Embedding& embedding, std::i
     while (reader.left > 0) {
         read_samples(reader, chunk);
         if (input.initial_metric) {
-            evaluate_samples(embedding, true, chunk);
+            evaluate_samples(embedding, Metric::Initial, chunk);
+        } else if (chunk.has_edges) {
+            evaluate_samples(embedding, Metric::PresentWithEdges, chunk);
         } else {
-            evaluate_samples(embedding, false, chunk);
-            if (any_collapsed(chunk)) count_collapsed(chunk, collapse);
+            evaluate_samples(embedding, Metric::Present, chunk);
         }
+        if (!input.initial_metric && any_collapsed(chunk)) count_collapsed(chunk, collapse);
         add_moments(chunk, moments);
     }
 }

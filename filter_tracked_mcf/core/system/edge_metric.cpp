@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "filter_tracked_mcf/core/system/edge_metric.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "filter_tracked_mcf/core/elements/densities.h"
+#include "filter_tracked_mcf/core/mesh/measures.h"
+#include "filter_tracked_mcf/core/parallel/parallel.h"
+
+namespace tracked_mcf {
+
+namespace {
+
+/// The step size of the normals, in squared detail sizes. Normals of noise must be smoother than
+/// the surface, or noise would count as edges.
+constexpr double kNormalStep = 1.0 / 3;
+
+/// The largest ratio of s to twice a triangle's area, in grid units, so that all numbers are
+/// finite.
+constexpr double kLargestScale = 1e12;
+
+}  // namespace
+
+double EdgeSize::normal_length() const {
+    return detail_size / (2 * std::sin(angle * std::acos(-1.0) / 360));
+}
+
+EdgeMetric::EdgeMetric(const Domain& domain, const TrackedElements& elements, const EdgeSize& size,
+                       bool local_detail_size)
+    : positions_(domain.mesh().positions),
+      grid_(elements.grid),
+      size_(size),
+      smoother_(domain.topology(),
+                local_detail_size ? triangle_densities(domain) : std::vector<double>()),
+      at_constrained_edge_(domain.constrained_edges()) {}
+
+void EdgeMetric::update(const TrackedElements& elements, const Coefficients& displacement) {
+    std::vector<Eigen::Vector3d> present = positions_;
+    add_at_vertices(elements, displacement, present);
+    for (Eigen::Vector3d& position : present) position = grid_.to_grid(position);
+    const double step_size = kNormalStep * size_.detail_size * size_.detail_size;
+    const std::vector<Eigen::Vector3f>& normals =
+        smoother_.smooth(present, step_size, size_.normal_length());
+    tensors_.resize(smoother_.triangles().size());
+    parallel_for_rows(static_cast<std::int64_t>(tensors_.size()), [&](std::int32_t triangle) {
+        tensors_[triangle] = tensor_of(triangle, normals);
+    });
+}
+
+/// With the sides e_1 and e_2 that begin opposite to corners 1 and 2, and the differences d_1 and
+/// d_2 of the normals there to that at corner 0, n × s ∇N_a is -s (d_1a e_1 + d_2a e_2) / 2A.
+EdgeTensor EdgeMetric::tensor_of(std::int64_t triangle,
+                                 const std::vector<Eigen::Vector3f>& normals) const {
+    EdgeTensor tensor = {};
+    const Triangle& t = smoother_.triangles()[triangle];
+    std::array<Eigen::Vector3d, 3> corners = corners_of(positions_, t);
+    for (Eigen::Vector3d& corner : corners) corner = grid_.to_grid(corner);
+    const double twice_area = twice_vector_area(corners[0], corners[1], corners[2]).norm();
+    const double s = size_.normal_length() / std::sqrt(smoother_.density(triangle));
+    const double scale = std::min(s / twice_area, kLargestScale);
+    if (at_constrained_edge_[triangle] != 0 || twice_area == 0) return tensor;
+    const Eigen::Vector3d e1 = corners[0] - corners[2], e2 = corners[1] - corners[0];
+    const Eigen::Vector3d d1 = scale * (normals[t[1]] - normals[t[0]]).cast<double>();
+    const Eigen::Vector3d d2 = scale * (normals[t[2]] - normals[t[0]]).cast<double>();
+    const Eigen::Matrix3d mixed = d1.dot(d2) * e1 * e2.transpose();
+    const Eigen::Matrix3d adjugate = d1.squaredNorm() * e1 * e1.transpose() + mixed +
+                                     mixed.transpose() + d2.squaredNorm() * e2 * e2.transpose();
+    constexpr int rows[] = {0, 1, 2, 0, 1, 2}, columns[] = {0, 1, 2, 1, 2, 0};
+    for (int e = 0; e < 6; ++e) {
+        tensor.adjugate[e] = static_cast<float>(adjugate(rows[e], columns[e]));
+    }
+    const double determinant = d1.cross(d2).squaredNorm() * twice_area * twice_area;
+    tensor.determinant = static_cast<float>(determinant);
+    return tensor;
+}
+
+double EdgeMetric::edge_share() const {
+    using Areas = Eigen::Vector2d;  // of edges, of all
+    const auto count = static_cast<std::int64_t>(tensors_.size());
+    const Areas sum = parallel_sum(count, Areas(0, 0), [&](std::int64_t begin, std::int64_t end) {
+        Areas areas(0, 0);
+        for (std::int64_t i = begin; i < end; ++i) {
+            const auto [a, b, c] = corners_of(positions_, smoother_.triangles()[i]);
+            const double area = twice_vector_area(a, b, c).norm();
+            const float* const adjugate = tensors_[i].adjugate;
+            areas += Areas(adjugate[0] + adjugate[1] + adjugate[2] > 1 ? area : 0, area);
+        }
+        return areas;
+    });
+    return sum[1] > 0 ? sum[0] / sum[1] : 0;
+}
+
+}  // namespace tracked_mcf
