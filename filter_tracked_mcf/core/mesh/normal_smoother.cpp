@@ -191,7 +191,7 @@ void NormalSmoother::assemble(const std::vector<Eigen::Vector3d>& positions, dou
 }
 
 Eigen::Vector3f NormalSmoother::product(const Field& x, std::int32_t vertex) const {
-    const Eigen::Vector3f own = x[vertex];
+    const Eigen::Vector3f& own = x[vertex];
     Eigen::Vector3f sum = masses_[vertex] * own;
     for_each_corner(vertex, [&](std::uint32_t triangle, int corner) {
         const int next = (corner + 1) % 3, last = (corner + 2) % 3;
