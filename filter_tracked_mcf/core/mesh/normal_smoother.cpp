@@ -8,18 +8,17 @@
 
 #include "filter_tracked_mcf/core/mesh/measures.h"
 #include "filter_tracked_mcf/core/parallel/parallel.h"
-#include "filter_tracked_mcf/core/parallel/progress_meter.h"
 
 namespace tracked_mcf {
 
 namespace {
 
-/// Edges hardly change after this many solves.
-constexpr int kFits = 3;
+/// More sharpen edges little, and keep more noise.
+constexpr int kFits = 2;
 
 /// Conjugate gradients stop at this residual, relative to the right-hand side. Normals need not be
 /// more accurate, since the metric averages them over triangles.
-constexpr double kTolerance = 1e-3;
+constexpr double kTolerance = 2e-2;
 constexpr int kMostIterations = 500;
 
 /// The least ratio of a triangle's area to its sides' squares, in any metric, so that all
@@ -27,23 +26,22 @@ constexpr int kMostIterations = 500;
 constexpr double kLeastAreaRatio = 1e-6;
 
 /// One number for each coordinate.
-using Numbers = Eigen::Array3d;
-
-Numbers inner_product(const std::vector<Eigen::Vector3f>& a, const std::vector<Eigen::Vector3f>& b,
-                      const std::vector<float>& divisors) {
-    const auto count = static_cast<std::int64_t>(a.size());
-    return parallel_sum(count, Numbers(Numbers::Zero()), [&](std::int64_t begin, std::int64_t end) {
-        Numbers sum = Numbers::Zero();
-        for (std::int64_t i = begin; i < end; ++i) {
-            const double scale = divisors.empty() ? 1 : divisors[i] > 0 ? 1 / divisors[i] : 0;
-            sum += scale * a[i].cast<double>().array() * b[i].cast<double>().array();
-        }
-        return sum;
-    });
-}
+using Numbers = Eigen::Array4d;
 
 Numbers ratio(const Numbers& a, const Numbers& b) {
     return (b > 0).select(a / b, 0);
+}
+
+/// Returns the sum of body(row), a number for each coordinate, over the rows. Chunks are short
+/// enough for single precision.
+template <class Body>
+Numbers sum_over_rows(std::size_t rows, const Body& body) {
+    const auto count = static_cast<std::int64_t>(rows);
+    return parallel_sum(count, Numbers(Numbers::Zero()), [&](std::int64_t begin, std::int64_t end) {
+        Eigen::Vector4f sum = Eigen::Vector4f::Zero();
+        for (auto row = static_cast<std::int32_t>(begin); row < end; ++row) sum += body(row);
+        return Numbers(sum.cast<double>().array());
+    });
 }
 
 }  // namespace
@@ -52,6 +50,7 @@ NormalSmoother::NormalSmoother(const MeshTopology& topology, std::vector<double>
     : triangles_(topology.triangles), densities_(std::move(densities)) {
     orient(topology);
     find_stars(topology.welded.size());
+    find_rows();
 }
 
 void NormalSmoother::orient(const MeshTopology& topology) {
@@ -119,15 +118,45 @@ void NormalSmoother::find_stars(std::size_t vertex_count) {
     }
 }
 
-template <class Visit>
-void NormalSmoother::for_each_corner(std::int32_t vertex, const Visit& visit) const {
-    for (std::int64_t i = star_begin_[vertex]; i < star_begin_[vertex + 1]; ++i) {
-        visit(stars_[i] / 3, static_cast<int>(stars_[i] % 3));
-    }
+void NormalSmoother::find_rows() {
+    const auto count = static_cast<std::int64_t>(star_begin_.size()) - 1;
+    using Row = std::vector<std::int32_t>;
+    const auto for_each_row = [&](const auto& body) {
+        parallel_for_chunks_with(
+            count, [] { return Row(); },
+            [&](Row& row, std::int64_t begin, std::int64_t end) {
+                for (std::int64_t vertex = begin; vertex < end; ++vertex) {
+                    row.clear();
+                    for (std::int64_t i = star_begin_[vertex]; i < star_begin_[vertex + 1]; ++i) {
+                        const Triangle& t = triangles_[stars_[i] / 3];
+                        row.insert(row.end(), t.begin(), t.end());
+                    }
+                    std::sort(row.begin(), row.end());
+                    row.erase(std::unique(row.begin(), row.end()), row.end());
+                    body(vertex, row);
+                }
+            });
+    };
+    std::vector<std::size_t> sizes(static_cast<std::size_t>(count));
+    for_each_row([&](std::int64_t vertex, const Row& row) { sizes[vertex] = row.size(); });
+    parallel_prefix_sum(
+        count, [&](std::int64_t vertex) { return sizes[vertex]; }, row_begin_);
+    columns_.resize(row_begin_.back());
+    slots_.resize(stars_.size());
+    for_each_row([&](std::int64_t vertex, const Row& row) {
+        std::copy(row.begin(), row.end(), columns_.begin() + row_begin_[vertex]);
+        for (std::int64_t i = star_begin_[vertex]; i < star_begin_[vertex + 1]; ++i) {
+            const Triangle& t = triangles_[stars_[i] / 3];
+            for (int k = 0; k < 3; ++k) {
+                const auto place = std::lower_bound(row.begin(), row.end(), t[k]);
+                slots_[i][k] = static_cast<std::uint32_t>(place - row.begin());
+            }
+        }
+    });
 }
 
-const std::vector<Eigen::Vector3f>& NormalSmoother::smooth(
-    const std::vector<Eigen::Vector3d>& positions, double step_size, double normal_length) {
+const NormalSmoother::Normals& NormalSmoother::smooth(const std::vector<Eigen::Vector3d>& positions,
+                                                      double step_size, double normal_length) {
     average_normals(positions);
     normals_ = averages_;
     for (int fit = 0; fit < kFits; ++fit) {
@@ -143,12 +172,13 @@ void NormalSmoother::average_normals(const std::vector<Eigen::Vector3d>& positio
     averages_.resize(positions.size());
     parallel_for_rows(static_cast<std::int64_t>(positions.size()), [&](std::int32_t vertex) {
         Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-        for_each_corner(vertex, [&](std::uint32_t triangle, int) {
+        for (std::int64_t i = star_begin_[vertex]; i < star_begin_[vertex + 1]; ++i) {
+            const std::uint32_t triangle = stars_[i] / 3;
             const auto [a, b, c] = corners_of(positions, triangles_[triangle]);
             const Eigen::Vector3d area = twice_vector_area(a, b, c);
             sum += flipped_[triangle] != 0 ? Eigen::Vector3d(-area) : area;
-        });
-        averages_[vertex] = sum.normalized().cast<float>();
+        }
+        averages_[vertex] << sum.normalized().cast<float>(), 0;
     });
 }
 
@@ -176,61 +206,72 @@ void NormalSmoother::assemble(const std::vector<Eigen::Vector3d>& positions, dou
         }
         weights_[i][3] = static_cast<float>(density(i) * area / 3);
     });
+    values_.resize(columns_.size());
     masses_.resize(positions.size());
-    diagonal_.resize(positions.size());
+    inverse_.resize(positions.size());
     parallel_for_rows(static_cast<std::int64_t>(positions.size()), [&](std::int32_t vertex) {
-        float mass = 0, stiffness = 0;
-        for_each_corner(vertex, [&](std::uint32_t triangle, int corner) {
-            const auto& weights = weights_[triangle];
+        float* const row = values_.data() + row_begin_[vertex];
+        std::fill(row, values_.data() + row_begin_[vertex + 1], 0.0F);
+        float mass = 0, diagonal = 0;
+        for (std::int64_t i = star_begin_[vertex]; i < star_begin_[vertex + 1]; ++i) {
+            const auto& weights = weights_[stars_[i] / 3];
+            const std::uint32_t own = stars_[i] % 3, next = (own + 1) % 3, last = (own + 2) % 3;
+            const float entry = weights[next] + weights[last] + weights[3];
+            row[slots_[i][own]] += entry;
+            row[slots_[i][next]] -= weights[last];
+            row[slots_[i][last]] -= weights[next];
+            diagonal += entry;
             mass += weights[3];
-            stiffness += weights[(corner + 1) % 3] + weights[(corner + 2) % 3];
-        });
+        }
         masses_[vertex] = mass;
-        diagonal_[vertex] = mass + stiffness;
+        inverse_[vertex] = diagonal > 0 ? 1 / diagonal : 0;
     });
 }
 
-Eigen::Vector3f NormalSmoother::product(const Field& x, std::int32_t vertex) const {
-    const Eigen::Vector3f& own = x[vertex];
-    Eigen::Vector3f sum = masses_[vertex] * own;
-    for_each_corner(vertex, [&](std::uint32_t triangle, int corner) {
-        const int next = (corner + 1) % 3, last = (corner + 2) % 3;
-        sum += weights_[triangle][last] * (own - x[triangles_[triangle][next]]) +
-               weights_[triangle][next] * (own - x[triangles_[triangle][last]]);
-    });
+Eigen::Vector4f NormalSmoother::product(const Normals& x, std::int32_t vertex) const {
+    Eigen::Vector4f sum = Eigen::Vector4f::Zero();
+    for (std::size_t i = row_begin_[vertex]; i < row_begin_[vertex + 1]; ++i) {
+        sum += values_[i] * x[columns_[i]];
+    }
     return sum;
 }
 
-/// Conjugate gradients, preconditioned by the diagonal, for the three coordinates side by side.
+/// Conjugate gradients, preconditioned by the diagonal, for the coordinates side by side.
 void NormalSmoother::solve() {
-    const auto count = static_cast<std::int64_t>(normals_.size());
-    residual_.resize(normals_.size());
-    direction_.assign(normals_.size(), Eigen::Vector3f::Zero());
-    product_.resize(normals_.size());
-    parallel_for_rows(count, [&](std::int32_t i) {
-        product_[i] = masses_[i] * averages_[i];
-        residual_[i] = product_[i] - product(normals_, i);
+    const std::size_t count = normals_.size();
+    const auto squares = [&](std::int32_t row) -> Eigen::Vector4f {
+        return inverse_[row] * residual_[row].cwiseAbs2();
+    };
+    residual_.resize(count);
+    product_.resize(count);
+    direction_.assign(count, Eigen::Vector4f::Zero());
+    const Numbers right_hand_side = sum_over_rows(count, [&](std::int32_t row) {
+        residual_[row] = masses_[row] * averages_[row];
+        return squares(row);
     });
-    const double limit =
-        kTolerance * kTolerance * inner_product(product_, product_, diagonal_).sum();
-    Numbers squared = inner_product(residual_, residual_, diagonal_), beta = Numbers::Zero();
+    const double limit = kTolerance * kTolerance * right_hand_side.sum();
+    Numbers squared = sum_over_rows(count, [&](std::int32_t row) {
+        residual_[row] -= product(normals_, row);
+        return squares(row);
+    });
+    Numbers beta = Numbers::Zero();
     for (int i = 0; i < kMostIterations && squared.sum() > limit; ++i) {
-        poll_progress();
-        parallel_for_rows(count, [&](std::int32_t row) {
-            if (diagonal_[row] <= 0) return;
-            direction_[row] = residual_[row] / diagonal_[row] +
-                              beta.matrix().cast<float>().cwiseProduct(direction_[row]);
+        const Eigen::Vector4f keep = beta.matrix().cast<float>();
+        parallel_for_rows(static_cast<std::int64_t>(count), [&](std::int32_t row) {
+            direction_[row] = inverse_[row] * residual_[row] + keep.cwiseProduct(direction_[row]);
         });
-        parallel_for_rows(count,
-                          [&](std::int32_t row) { product_[row] = product(direction_, row); });
-        const Numbers alpha = ratio(squared, inner_product(direction_, product_, {}));
-        const Eigen::Vector3f step = alpha.matrix().cast<float>();
-        parallel_for_rows(count, [&](std::int32_t row) {
+        const Numbers energy = sum_over_rows(count, [&](std::int32_t row) {
+            product_[row] = product(direction_, row);
+            return direction_[row].cwiseProduct(product_[row]);
+        });
+        const Eigen::Vector4f step = ratio(squared, energy).matrix().cast<float>();
+        const Numbers before = squared;
+        squared = sum_over_rows(count, [&](std::int32_t row) {
             normals_[row] += step.cwiseProduct(direction_[row]);
             residual_[row] -= step.cwiseProduct(product_[row]);
+            return squares(row);
         });
-        beta = ratio(inner_product(residual_, residual_, diagonal_), squared);
-        squared *= beta;
+        beta = ratio(squared, before);
     }
 }
 

@@ -23,16 +23,20 @@ namespace tracked_mcf {
 /// of the mesh does not matter. A surface with one side gets a seam that counts as an edge.
 class NormalSmoother {
 public:
+    /// A vector per vertex. The fourth component is 0, and makes arithmetic four wide.
+    using Normals = std::vector<Eigen::Vector4f>;
+
     /// Where lengths vary, `densities` has 1 / r² for each triangle if its δ and s² are r² times
     /// those that smooth() gets; else it is empty.
     NormalSmoother(const MeshTopology& topology, std::vector<double> densities);
 
     /// Smooths the normals of the surface with these positions, one per vertex of the mesh; δ is
     /// `step_size`, a squared length, and s is `normal_length`, in the unit of the positions.
-    /// Returns a unit vector per vertex, only those of MeshTopology::triangles are set. Valid until
-    /// the next call. The bits are the same for any number of threads.
-    const std::vector<Eigen::Vector3f>& smooth(const std::vector<Eigen::Vector3d>& positions,
-                                               double step_size, double normal_length);
+    /// Returns a unit vector per vertex, or zero if no triangle of MeshTopology::triangles has it
+    /// or all of these are flat. Valid until the next call. The bits are the same for any number of
+    /// threads.
+    const Normals& smooth(const std::vector<Eigen::Vector3d>& positions, double step_size,
+                          double normal_length);
 
     /// Returns the surface's triangles.
     const RawVector<Triangle>& triangles() const { return triangles_; }
@@ -42,29 +46,30 @@ public:
     }
 
 private:
-    using Field = std::vector<Eigen::Vector3f>;  ///< a vector per vertex
-
     void orient(const MeshTopology& topology);
     void find_stars(std::size_t vertex_count);
+    void find_rows();
     void average_normals(const std::vector<Eigen::Vector3d>& positions);
     void assemble(const std::vector<Eigen::Vector3d>& positions, double step_size,
                   double normal_length);
     void solve();
-    Eigen::Vector3f product(const Field& x, std::int32_t vertex) const;  // of M + δ L
-    /// Calls visit(triangle, corner) for all triangles of a vertex.
-    template <class Visit>
-    void for_each_corner(std::int32_t vertex, const Visit& visit) const;
+    Eigen::Vector4f product(const Normals& x, std::int32_t vertex) const;  // of M + δ L
 
     RawVector<Triangle> triangles_;
     std::vector<double> densities_;
     std::vector<std::uint8_t> flipped_;     ///< per triangle
     std::vector<std::int64_t> star_begin_;  ///< per vertex, and the end
     RawVector<std::uint32_t> stars_;        ///< 3 × triangle + corner, sorted
+    std::vector<std::size_t> row_begin_;    ///< per vertex, and the end
+    std::vector<std::int32_t> columns_;     ///< of each row: the vertices of the star, sorted
+    /// Per entry of stars_: where the row has each corner of the triangle.
+    RawVector<std::array<std::uint32_t, 3>> slots_;
 
     // Workspaces.
-    std::vector<std::array<float, 4>> weights_;  ///< per triangle: δ cot / 2 at each corner, mass
-    std::vector<float> masses_, diagonal_;       ///< per vertex
-    Field averages_, normals_, residual_, direction_, product_;
+    RawVector<std::array<float, 4>> weights_;  ///< per triangle: δ cot / 2 at each corner, mass
+    RawVector<float> values_;                  ///< of M + δ L, one for each column
+    RawVector<float> masses_, inverse_;  ///< per vertex: of M, and of the diagonal's inverse or 0
+    Normals averages_, normals_, residual_, direction_, product_;
 };
 
 }  // namespace tracked_mcf

@@ -27,7 +27,7 @@ constexpr double kMuchMore = 1.5;
 constexpr double kCellsPerDetail = 2;
 
 /// An edge that is kept bends within a cell or two, which must be less than the detail size.
-constexpr double kCellsPerKeptEdge = 3;
+constexpr double kCellsPerKeptEdge = 4;
 
 /// The same for the default detail size and greater ones. A grid with about as many unknowns as
 /// vertices has 0.95 to 2.2 cells per default detail size.

@@ -16,7 +16,7 @@ namespace {
 
 /// The step size of the normals, in squared detail sizes. Normals of noise must be smoother than
 /// the surface, or noise would count as edges.
-constexpr double kNormalStep = 1.0 / 3;
+constexpr double kNormalStep = 1.0 / 4;
 
 /// The largest ratio of s to twice a triangle's area, in grid units, so that all numbers are
 /// finite.
@@ -42,7 +42,7 @@ void EdgeMetric::update(const TrackedElements& elements, const Coefficients& dis
     add_at_vertices(elements, displacement, present);
     for (Eigen::Vector3d& position : present) position = grid_.to_grid(position);
     const double step_size = kNormalStep * size_.detail_size * size_.detail_size;
-    const std::vector<Eigen::Vector3f>& normals =
+    const NormalSmoother::Normals& normals =
         smoother_.smooth(present, step_size, size_.normal_length());
     tensors_.resize(smoother_.triangles().size());
     parallel_for_rows(static_cast<std::int64_t>(tensors_.size()), [&](std::int32_t triangle) {
@@ -53,7 +53,7 @@ void EdgeMetric::update(const TrackedElements& elements, const Coefficients& dis
 /// With the sides e_1 and e_2 that begin opposite to corners 1 and 2, and the differences d_1 and
 /// d_2 of the normals there to that at corner 0, n × s ∇N_a is -s (d_1a e_1 + d_2a e_2) / 2A.
 EdgeTensor EdgeMetric::tensor_of(std::int64_t triangle,
-                                 const std::vector<Eigen::Vector3f>& normals) const {
+                                 const NormalSmoother::Normals& normals) const {
     EdgeTensor tensor = {};
     const Triangle& t = smoother_.triangles()[triangle];
     std::array<Eigen::Vector3d, 3> corners = corners_of(positions_, t);
@@ -63,8 +63,8 @@ EdgeTensor EdgeMetric::tensor_of(std::int64_t triangle,
     const double scale = std::min(s / twice_area, kLargestScale);
     if (at_constrained_edge_[triangle] != 0 || twice_area == 0) return tensor;
     const Eigen::Vector3d e1 = corners[0] - corners[2], e2 = corners[1] - corners[0];
-    const Eigen::Vector3d d1 = scale * (normals[t[1]] - normals[t[0]]).cast<double>();
-    const Eigen::Vector3d d2 = scale * (normals[t[2]] - normals[t[0]]).cast<double>();
+    const Eigen::Vector3d d1 = scale * (normals[t[1]] - normals[t[0]]).head<3>().cast<double>();
+    const Eigen::Vector3d d2 = scale * (normals[t[2]] - normals[t[0]]).head<3>().cast<double>();
     const Eigen::Matrix3d mixed = d1.dot(d2) * e1 * e2.transpose();
     const Eigen::Matrix3d adjugate = d1.squaredNorm() * e1 * e1.transpose() + mixed +
                                      mixed.transpose() + d2.squaredNorm() * e2 * e2.transpose();

@@ -46,7 +46,7 @@ public:
     double edge_share() const;
 
 private:
-    EdgeTensor tensor_of(std::int64_t triangle, const std::vector<Eigen::Vector3f>& normals) const;
+    EdgeTensor tensor_of(std::int64_t triangle, const NormalSmoother::Normals& normals) const;
 
     const std::vector<Eigen::Vector3d>& positions_;  ///< initial ones, mesh units
     Grid grid_;

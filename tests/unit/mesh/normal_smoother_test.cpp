@@ -14,7 +14,7 @@
 namespace tracked_mcf {
 namespace {
 
-using Normals = std::vector<Eigen::Vector3f>;
+using Normals = NormalSmoother::Normals;
 
 Normals smoothed(const TriangleMesh& mesh, double step_size, double normal_length,
                  std::vector<double> densities = {}) {
@@ -27,7 +27,7 @@ template <class Expected>
 double mean_angle(const TriangleMesh& mesh, const Normals& normals, const Expected& expected) {
     double sum = 0;
     for (std::size_t i = 0; i < normals.size(); ++i) {
-        const double cosine = normals[i].cast<double>().dot(expected(mesh.positions[i]));
+        const double cosine = normals[i].head<3>().cast<double>().dot(expected(mesh.positions[i]));
         sum += std::acos(std::clamp(cosine, -1.0, 1.0));
     }
     return sum / static_cast<double>(normals.size()) * 180 / std::acos(-1.0);
@@ -86,7 +86,7 @@ TEST(NormalSmoother, GivesUnitVectorsOnBadMeshes) {
     for (const TriangleMesh& mesh :
          {shapes::moebius_band(40, 5), copies, flat, shapes::separate_triangles(20)}) {
         const NormalSmoother smoother(topology_of(mesh), {});
-        for (const Eigen::Vector3f& normal : smoothed(mesh, 0.1, 1)) {
+        for (const Eigen::Vector4f& normal : smoothed(mesh, 0.1, 1)) {
             ASSERT_TRUE(normal.allFinite());
             EXPECT_TRUE(normal.isZero() || std::abs(normal.norm() - 1) < 1e-4);
         }
