@@ -55,6 +55,29 @@ ParameterMember selected() {
             {}};
 }
 
+/// The solver, and whether separate sheets move independently.
+ParameterMember method() {
+    enum { Converged, SharedCells, Paper };
+    return {Type::Choice,
+            [](const P& p) -> ParameterValue {
+                if (p.solver == Solver::OneWCycle) return Paper;
+                if (p.solver == Solver::Converged)
+                    return p.separate_sheets ? Converged : SharedCells;
+                return static_cast<int>(p.solver);
+            },
+            [](P& p, const ParameterValue& value) {
+                const int method = std::get<int>(value);
+                const bool is_method = method >= Converged && method <= Paper;
+                // Another number stays one that validate() refuses.
+                p.solver = !is_method        ? static_cast<Solver>(method)
+                           : method == Paper ? Solver::OneWCycle
+                                             : Solver::Converged;
+                p.separate_sheets = method == Converged;
+            },
+            {0, 2, ": Converged, Shared cells, Paper"},
+            {{"Converged", "converged"}, {"Shared cells", "shared-cells"}, {"Paper", "paper"}}};
+}
+
 /// Its value is the weight that is used, also where none was given.
 ParameterMember stabilization() {
     return {Type::Real,
@@ -74,6 +97,10 @@ const std::vector<Parameter>& parameter_table() {
          "detail_size", "Remove detail smaller than",
          "Waves of this length keep half their height after all steps, shorter ones less. 0 takes "
          "2.5 mean edge lengths."},
+        {access<&P::keep_edges>(Type::Real, {0, 179, " degrees, such as 25, where 0 keeps none"}),
+         "keep_edges", "Keep edges sharper than",
+         "In degrees, 25 for noise, with order 2. Elsewhere three times the size is removed. 0 "
+         "keeps none."},
         {toggle<&P::local_detail_size>(), "local_detail_size", "Larger where faces are larger",
          "The length follows the local edge length, as noise of scans does."},
         {integer<&P::iterations>(1, kMaximumIterations), "iterations", "Smoothing steps",
@@ -113,28 +140,20 @@ const std::vector<Parameter>& parameter_table() {
              {{"Mean curvature", "mean-curvature"}, {"Conformalized", "conformalized"}}),
          "flow", "Flow (expert)",
          "Mean curvature: thin parts pinch. Conformalized: becomes a sphere."},
-        {toggle<&P::separate_sheets>(), "separate_sheets", "Separate sheets (expert)",
-         "Parts that only share grid cells move independently. Off is as in the paper."},
-        {choice<&P::solver>({{"Converged", "converged"}, {"One W-cycle (paper)", "w-cycle"}}),
-         "solver", "Solver (expert)",
-         "Converged: solves each step. One W-cycle: one multigrid cycle, only to compare with the "
-         "paper."},
-        {access<&P::keep_edges>(Type::Real, {0, 179, " degrees, such as 25, where 0 keeps none"}),
-         "keep_edges", "",
-         "Keeps edges where the smoothed surface turns by more than this angle, in degrees, within "
-         "the detail size: 20 to 30 suits noise, with --order 2. Elsewhere, noise is removed as by "
-         "a detail size three times as large. 0 keeps none. Not for --flow conformalized."},
+        {method(), "method", "Method (expert)",
+         "Shared cells: close parts stick together. Paper: also one W-cycle a step, only to "
+         "compare."},
         {access<&P::tolerance>(Type::Real, {0, 1, ", such as 1e-3", true}), "tolerance", "",
-         "With --solver converged: a step is solved when the error estimate, relative to the step "
-         "in the energy norm, is at most this number; greater than 0, less than 1. A smaller one "
-         "takes more iterations. With the default, the grid's own error is larger."},
+         "Except with --method paper: a step is solved when the error estimate, relative to the "
+         "step in the energy norm, is at most this number; greater than 0, less than 1. A smaller "
+         "one takes more iterations. With the default, the grid's own error is larger."},
         {stabilization(), "stabilization", "",
          "Weight of the volume stabilisation, without unit, 0 to 1000. The stabilisation lets the "
          "solver converge; a much larger weight slows the surface down. 0 is the paper's system, "
-         "for which --solver converged takes more iterations and may stop short. With --solver "
-         "w-cycle it is 0 unless given."},
+         "for which the solver takes more iterations and may stop short. With --method paper it "
+         "is 0 unless given."},
         {integer<&P::cycles>(1, 1000), "cycles", "",
-         "With --solver w-cycle: W-cycles of multigrid in each step, 1 to 1000. The paper uses "
+         "With --method paper: W-cycles of multigrid in each step, 1 to 1000. The paper uses "
          "one. More solve the equations more exactly, and the time grows in proportion."},
         {choice<&P::cubature>({{"", "1"}, {"", "3"}, {"", "12"}}), "cubature", "",
          "Samples on each split triangle: 3 as in the paper. Take 1, which is inaccurate, or 12, "

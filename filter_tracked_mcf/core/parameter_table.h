@@ -32,7 +32,7 @@ struct NamedChoice {
 /// The member of FlowParameters that a parameter sets.
 struct ParameterMember {
     enum class Type {
-        Switch,    ///< bool; in the program a flag, or on|off if it is on by default
+        Switch,    ///< bool, off by default; in the program a flag
         Selected,  ///< bool; no member, because hosts select the faces that flow
         Integer,
         Real,

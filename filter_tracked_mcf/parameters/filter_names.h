@@ -13,7 +13,7 @@ inline constexpr const char* kPythonFilterName = "apply_coord_mean_curvature_flo
 /// The filter's help in the HTML that MeshLab shows.
 inline constexpr const char* kFilterHelp =
     "Smooths the surface by <b>mean-curvature flow</b>, which removes noise and detail below a "
-    "chosen size. Sharp features are smoothed like noise. Only positions and, if asked for, vertex "
+    "chosen size, and keeps sharp edges if asked to. Only positions and, if asked for, vertex "
     "qualities change.<br>See Ming Chuang and Michael Kazhdan: <b>Fast Mean-Curvature Flow via "
     "Finite-Elements Tracking</b>, 2011, <a "
     "href=\"https://doi.org/10.1111/j.1467-8659.2011.01899.x\">"

@@ -22,7 +22,7 @@ constexpr std::size_t kNameColumns = 26, kTextColumns = 70;
 const char* const kDescription =
     "Smooths a triangle mesh by mean-curvature flow: every point moves along the normal with the "
     "speed of the mean curvature, so that noise and small detail vanish first and large shapes "
-    "last. Closed surfaces shrink, thin parts pinch, and sharp features are smoothed like noise.";
+    "last. Closed surfaces shrink and thin parts pinch; --keep-edges keeps sharp features.";
 
 const std::string kLength =
     "Remove detail smaller than X, in units of the mesh, or X% of its bounding box's diagonal. ";
@@ -95,16 +95,6 @@ Length length_of(std::string text) {
     return length;
 }
 
-/// Adds an option that takes one of the names, and calls `take` with it.
-template <class Take>
-void add_choice(CLI::App& app, const std::string& option, const std::vector<std::string>& names,
-                int first, const Take& take, const std::string& help) {
-    app.add_option_function<std::string>(option, take, help)
-        ->type_name(CLI::detail::join(names, "|"))
-        ->check(CLI::IsMember(names).description(""))
-        ->default_str(names.at(static_cast<std::size_t>(first)));
-}
-
 /// Adds the option of a parameter. `line` and `parameter` must outlive `app`.
 void add_parameter(CLI::App& app, CommandLine& line, const Parameter& parameter) {
     std::string option = "--" + parameter.name;
@@ -117,14 +107,8 @@ void add_parameter(CLI::App& app, CommandLine& line, const Parameter& parameter)
     };
     switch (parameter.type) {
         case Parameter::Type::Switch:
-            if (std::get<bool>(value)) {
-                add_choice(
-                    app, option, {"on", "off"}, 0,
-                    [set](const std::string& name) { set(name == "on"); }, help);
-            } else {
-                app.add_flag_function(
-                    option, [set](auto count) { set(count > 0); }, help);
-            }
+            app.add_flag_function(
+                option, [set](auto count) { set(count > 0); }, help);
             break;
         case Parameter::Type::Selected:
             app.add_option(option, line.selected, help_of(kProperty + parameter.help))
@@ -152,7 +136,10 @@ void add_parameter(CLI::App& app, CommandLine& line, const Parameter& parameter)
                     parameter.set(line.parameters, static_cast<int>(i));
                 }
             };
-            add_choice(app, option, names, std::get<int>(value), take, help);
+            app.add_option_function<std::string>(option, take, help)
+                ->type_name(CLI::detail::join(names, "|"))
+                ->check(CLI::IsMember(names).description(""))
+                ->default_str(names.at(static_cast<std::size_t>(std::get<int>(value))));
     }
 }
 

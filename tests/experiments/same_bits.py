@@ -23,9 +23,9 @@ OPTION_SETS = [
     "--boundary free --step-size 1e-5 --iterations 3",
     "--boundary locked-cells --step-size 1e-5 --iterations 3 --depth 6",
     "--boundary free --flow conformalized --step-size 1e-2 --iterations 5",
-    "--separate-sheets off --step-size 1e-5 --iterations 3",
-    "--solver w-cycle --step-size 1e-5 --iterations 3",
-    "--solver w-cycle --cycles 2 --stabilization 0.1 --separate-sheets off --step-size 1e-5 "
+    "--method shared-cells --step-size 1e-5 --iterations 3",
+    "--method paper --step-size 1e-5 --iterations 3",
+    "--method paper --cycles 2 --stabilization 0.1 --step-size 1e-5 "
     "--iterations 2",
     "--tolerance 1e-6 --stabilization 0.03 --step-size 1e-5 --iterations 2",
     "--cubature 1 --step-size 1e-5 --iterations 2",

@@ -164,9 +164,11 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"AbsoluteOfTheWrongType", replace<RichInt>("absolute", 1), "absolute"},
         BadInput{"AbsoluteStepSizeNaN", set_absolute_step_size(kNaN), "step_size"},
         BadInput{"AbsoluteStepSizeInfinite", set_absolute_step_size(kInfinity), "step_size"},
-        BadInput{"SolverTooLarge", set_choice("solver", 2), "solver"},
-        BadInput{"SolverNegative", set_choice("solver", -1), "solver"},
-        BadInput{"SheetsOfTheWrongType", replace<RichInt>("separate_sheets", 1), "separate_sheets"},
+        BadInput{"MethodTooLarge", set_choice("method", 3), "method"},
+        BadInput{"MethodNegative", set_choice("method", -1), "method"},
+        BadInput{"KeepEdgesNegative", set<FloatValue>("keep_edges", -1.0F), "keep_edges"},
+        BadInput{"KeepEdgesTooLarge", set<FloatValue>("keep_edges", 180.0F), "keep_edges"},
+        BadInput{"KeepEdgesNaN", set<FloatValue>("keep_edges", kNaN), "keep_edges"},
         BadInput{"DepthOfTheWrongType", replace<RichFloat>("depth", 5.0F), "depth"}),
     [](const auto& test) { return std::string(test.param.name); });
 

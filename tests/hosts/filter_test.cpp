@@ -23,7 +23,7 @@ TEST(ParameterTable, NamesTheValuesOfEachChoiceInTheirOrder) {
         {"boundary", {static_cast<int>(BoundaryCondition::LockedCells), "Locked cells (paper)"}},
         {"preserve", {static_cast<int>(Preserve::Volume), "Volume"}},
         {"quality", {static_cast<int>(Quality::MeanCurvature), "Mean curvature"}},
-        {"solver", {static_cast<int>(Solver::OneWCycle), "One W-cycle (paper)"}}};
+        {"method", {2, "Paper"}}};
     for (const Parameter& parameter : parameter_table()) {
         if (parameter.type != Parameter::Type::Choice || parameter.label.empty()) continue;
         const auto& [value, label] = labels.at(parameter.name);

@@ -58,14 +58,15 @@ protected:
 
     /// Sets random values. One set in ten is invalid.
     void set_random_values() {
-        for (const char* name : {"local_detail_size", "selected", "absolute", "separate_sheets"}) {
+        for (const char* name : {"local_detail_size", "selected", "absolute"}) {
             parameters.setValue(name, BoolValue(random(2) == 1));
         }
         const std::pair<const char*, int> choices[] = {
-            {"preserve", 3}, {"boundary", 3}, {"quality", 3}, {"flow", 2}, {"solver", 2}};
+            {"preserve", 3}, {"boundary", 3}, {"quality", 3}, {"flow", 2}, {"method", 3}};
         for (const auto& [name, count] : choices) {
             parameters.setValue(name, *host::choice(random(count)));
         }
+        parameters.setValue("keep_edges", FloatValue(random(2) == 1 ? 25.0F : 0));
         parameters.setValue("order", IntValue(1 + random(4)));
         parameters.setValue("iterations", IntValue(1 + random(2)));
         parameters.setValue("step_size", FloatValue(random(2) == 1 ? 1e-3F : 0));

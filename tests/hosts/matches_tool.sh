@@ -65,9 +65,9 @@ compare absolute "absolute=true step_size=$step_size" "--absolute --step-size $s
 compare locked_cells boundary=1 "--boundary locked-cells"
 compare free boundary=2 "--boundary free"
 compare conformalized flow=1 "--flow conformalized"
-compare glued separate_sheets=false "--separate-sheets off"
-compare paper "boundary=1 separate_sheets=false solver=1" \
-    "--boundary locked-cells --separate-sheets off --solver w-cycle"
+compare shared_cells method=1 "--method shared-cells"
+compare keep_edges keep_edges=25 "--keep-edges 25"
+compare paper "boundary=1 method=2" "--boundary locked-cells --method paper"
 compare area "boundary=2 preserve=1" "--boundary free --preserve area"
 compare sphere "boundary=2 flow=1 preserve=1" "--boundary free --flow conformalized --preserve area"
 if [ "$(report volume_change)" = null ]; then

@@ -87,10 +87,10 @@ TEST(CommandLine, EveryOptionIsTaken) {
                                     "my quality",
                                     "--preserve",
                                     "volume",
-                                    "--separate-sheets",
-                                    "off",
-                                    "--solver",
-                                    "w-cycle",
+                                    "--method",
+                                    "paper",
+                                    "--keep-edges",
+                                    "25",
                                     "--tolerance",
                                     "1e-10",
                                     "--stabilization",
@@ -118,6 +118,7 @@ TEST(CommandLine, EveryOptionIsTaken) {
     EXPECT_EQ(line.parameters.preserve, Preserve::Volume);
     EXPECT_FALSE(line.parameters.separate_sheets);
     EXPECT_EQ(line.parameters.solver, Solver::OneWCycle);
+    EXPECT_EQ(line.parameters.keep_edges, 25);
     EXPECT_EQ(line.parameters.tolerance, 1e-10);
     EXPECT_EQ(line.parameters.stabilization, 0.5);
     EXPECT_EQ(line.parameters.cubature, Cubature::Degree6);
@@ -192,14 +193,14 @@ TEST(CommandLine, NegativeNumbersAndNotANumberReachTheFlowsOwnCheck) {
     EXPECT_TRUE(std::isnan(parse({"a.ply", "b.ply", "--tolerance", "nan"}).parameters.tolerance));
 }
 
-TEST(CommandLine, TheSolverDecidesOnTheStabilizationUnlessItIsGiven) {
+TEST(CommandLine, TheMethodDecidesOnTheStabilizationUnlessItIsGiven) {
     const auto stabilization = [](std::vector<const char*> options) {
         options.insert(options.begin(), {"a.ply", "b.ply"});
         return stabilization_of(parse(options).parameters);
     };
-    EXPECT_EQ(stabilization({"--solver", "converged"}), kDefaultStabilization);
-    EXPECT_EQ(stabilization({"--solver", "w-cycle"}), 0);
-    EXPECT_EQ(stabilization({"--solver", "w-cycle", "--stabilization", "0.02"}), 0.02);
+    EXPECT_EQ(stabilization({"--method", "shared-cells"}), kDefaultStabilization);
+    EXPECT_EQ(stabilization({"--method", "paper"}), 0);
+    EXPECT_EQ(stabilization({"--method", "paper", "--stabilization", "0.02"}), 0.02);
     EXPECT_EQ(stabilization({"--stabilization", "0"}), 0);
 }
 
@@ -217,8 +218,8 @@ TEST(CommandLine, InvalidArgumentsAreNamed) {
     EXPECT_THAT(complaint({"a.ply", "b.ply", "--order", "x"}), HasSubstr("--order = x"));
     EXPECT_THAT(complaint({"a.ply", "b.ply", "--order", "1.5"}), HasSubstr("--order = 1.5"));
     EXPECT_THAT(complaint({"a.ply", "b.ply", "--cubature", "2"}), HasSubstr("12"));
-    EXPECT_THAT(complaint({"a.ply", "b.ply", "--separate-sheets", "1"}), HasSubstr("off"));
-    EXPECT_THAT(complaint({"a.ply", "b.ply", "--solver", "cg"}), HasSubstr("w-cycle"));
+    EXPECT_THAT(complaint({"a.ply", "b.ply", "--method", "cg"}), HasSubstr("shared-cells"));
+    EXPECT_THAT(complaint({"a.ply", "b.ply", "--keep-edges", "x"}), HasSubstr("--keep-edges = x"));
     EXPECT_THAT(complaint({"a.ply", "b.ply", "--tolerance", "x"}), HasSubstr("--tolerance = x"));
     EXPECT_THAT(complaint({"a.ply", "b.ply", "--stabilization", "x"}), HasSubstr("stabilization"));
     EXPECT_THAT(complaint({"a.ply", "b.ply", "--speed", "2"}), HasSubstr("--speed"));
@@ -258,10 +259,9 @@ TEST(CommandLine, HelpNamesEveryOptionAndExplainsTheSharedParameters) {
                                "PROPERTY",
                                "--preserve",
                                "none|area|volume",
-                               "--separate-sheets",
-                               "on|off",
-                               "--solver",
-                               "converged|w-cycle",
+                               "--keep-edges",
+                               "--method",
+                               "converged|shared-cells|paper",
                                "--tolerance",
                                "--stabilization",
                                "--cubature",

@@ -86,11 +86,11 @@ TEST_F(Program, SolversDiffer) {
         return read_file(folder_ / "b.off");
     };
     const std::string converged = smoothed("");
-    const std::string one_cycle = smoothed("--solver w-cycle");
-    EXPECT_EQ(smoothed("--solver converged --tolerance 1e-3 --stabilization 0.01"), converged);
-    EXPECT_EQ(smoothed("--solver w-cycle --cycles 1 --stabilization 0"), one_cycle);
+    const std::string one_cycle = smoothed("--method paper");
+    EXPECT_EQ(smoothed("--method converged --tolerance 1e-3 --stabilization 0.01"), converged);
+    EXPECT_EQ(smoothed("--method paper --cycles 1 --stabilization 0"), one_cycle);
     EXPECT_NE(one_cycle, converged);
-    EXPECT_NE(smoothed("--solver w-cycle --cycles 2"), one_cycle);
+    EXPECT_NE(smoothed("--method paper --cycles 2"), one_cycle);
     EXPECT_NE(smoothed("--tolerance 1e-8"), converged);
     EXPECT_NE(smoothed("--stabilization 0.1"), converged);
 }
@@ -109,8 +109,8 @@ TEST_F(Program, SeparateSheetsHaveMoreUnknowns) {
         const std::string report = read_file(folder_ / "r.json");
         return std::stoi(report.substr(report.find("\"unknowns\": ") + 12));
     };
-    EXPECT_GT(unknowns("--separate-sheets on"), unknowns("--separate-sheets off"));
-    EXPECT_EQ(unknowns(""), unknowns("--separate-sheets on"));
+    EXPECT_GT(unknowns("--method converged"), unknowns("--method shared-cells"));
+    EXPECT_EQ(unknowns(""), unknowns("--method converged"));
 }
 
 TEST_F(Program, AbsoluteStepsAreInSquaredUnitsOfTheMesh) {
@@ -323,7 +323,7 @@ TEST_F(Program, HelpAndVersionSucceed) {
 TEST_F(Program, EmptyValuesAreRefused) {
     for (const char* option :
          {"--detail-size", "--order", "--depth", "--step-size", "--iterations", "--flow",
-          "--boundary", "--selected", "--preserve", "--quality", "--separate-sheets", "--solver",
+          "--boundary", "--selected", "--preserve", "--quality", "--method", "--keep-edges",
           "--tolerance", "--stabilization", "--cycles", "--cubature", "--threads", "--report"}) {
         const ProgramRun result = run("a.off b.ply " + std::string(option) + " \"\"");
         EXPECT_EQ(result.exit_code, 2) << option;
@@ -362,8 +362,7 @@ TEST_F(Program, WrongUseExitsWith2) {
                                   "a.off b.ply --selected flags",
                                   "a.off b.ply --absolute --step-size inf",
                                   "a.off b.ply --absolute --step-size -1",
-                                  "a.off b.ply --solver cg",
-                                  "a.off b.ply --separate-sheets maybe",
+                                  "a.off b.ply --method cg",
                                   "a.off b.ply --tolerance 0",
                                   "a.off b.ply --tolerance 1",
                                   "a.off b.ply --tolerance nan",

@@ -74,8 +74,8 @@ TEST(Report, HoldsEveryMemberUnderItsName) {
         "parameters": {"detail_size": 0.375, "local_detail_size": true, "order": 2, "depth": 7,
                        "step_size": 2e-4, "absolute": true, "iterations": 3, "keep_edges": 25.0,
                        "flow": "conformalized", "boundary": "free", "selected": "q",
-                       "preserve": "area", "quality": "displacement", "separate_sheets": false, "cubature": 12,
-                       "solver": "converged", "tolerance": 0.5, "stabilization": 0.25, "cycles": 2, "threads": 1},
+                       "preserve": "area", "quality": "displacement", "cubature": 12,
+                       "method": "shared-cells", "tolerance": 0.5, "stabilization": 0.25, "cycles": 2, "threads": 1},
         "vertices": 1, "triangles": 2, "degenerate_triangles": 3, "boundary_edges": 4,
         "constrained_vertices": 15, "detail_size": 0.4375, "step_size": 0.0625,
         "normal_length": 0.875, "edge_share": 0.03125,
@@ -111,7 +111,7 @@ TEST(Report, WCyclesKnowNoTolerance) {
     report.steps.resize(1);
     report.steps[0].solver_iterations = 2;
     const Json json = Json::parse(report_json(line, report, {}));
-    EXPECT_EQ(json["parameters"]["solver"], "w-cycle");
+    EXPECT_EQ(json["parameters"]["method"], "paper");
     const Json step = json["steps"][0];
     EXPECT_EQ(step["solver_iterations"], 2);
     EXPECT_TRUE(step["error_estimate"].is_null());

@@ -46,8 +46,10 @@ RUNS = [
      [*COARSE_OPTIONS, "--boundary", "free", "--preserve", "area"]),
     ({**COARSE, "boundary": "Free", "preserve": "Volume"},
      [*COARSE_OPTIONS, "--boundary", "free", "--preserve", "volume"]),
-    ({**COARSE, "separate_sheets": False}, [*COARSE_OPTIONS, "--separate-sheets", "off"]),
-    ({**COARSE, "solver": "One W-cycle (paper)"}, [*COARSE_OPTIONS, "--solver", "w-cycle"]),
+    ({**COARSE, "method": "Shared cells"}, [*COARSE_OPTIONS, "--method", "shared-cells"]),
+    ({**COARSE, "method": "Paper"}, [*COARSE_OPTIONS, "--method", "paper"]),
+    ({**COARSE, "keep_edges": 25, "order": 2},
+     [*COARSE_OPTIONS, "--keep-edges", "25", "--order", "2"]),
 ]
 
 # Invalid arguments, and a word of the expected message.
@@ -71,7 +73,9 @@ WRONG = [
     ({"preserve": -1}, "not valid"),
     ({"quality": 3}, "not valid"),
     ({"quality": "Mean curvature", "flow": "Conformalized"}, "mean curvature"),
-    ({"solver": "Magic"}, "Possible values"),
+    ({"keep_edges": 180}, "keep_edges is 180"),
+    ({"keep_edges": 25, "flow": "Conformalized"}, "keep_edges"),
+    ({"method": "Magic"}, "Possible values"),
     ({"selected": True}, "No face is selected"),
     ({"preserve": "Volume", "flow": "Conformalized", "boundary": "Free"}, "open"),
     ({"preserve": "Area"}, "Preserving the area"),
