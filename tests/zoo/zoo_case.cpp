@@ -157,7 +157,7 @@ std::string options_of(const Case& described) {
     for (const Parameter& parameter : parameter_table()) {
         if (parameter.type == Parameter::Type::Selected) continue;
         const ParameterValue value = parameter.get(described.parameters);
-        // The default of the stabilisation depends on the solver.
+        // The default of the stabilisation depends on the method.
         if (value == parameter.get({}) && parameter.name != "stabilization") continue;
         std::string option = parameter.name;
         std::replace(option.begin(), option.end(), '_', '-');
@@ -171,7 +171,6 @@ std::string options_of(const Case& described) {
                 text << *number;
             }
         }
-        if (value == ParameterValue(false)) text << " off";
     }
     if (!described.selection.empty()) text << " --selected selected";
     return text.str();
