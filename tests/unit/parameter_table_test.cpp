@@ -5,6 +5,8 @@
 
 #include <set>
 
+#include "filter_tracked_mcf/core/errors.h"
+
 namespace tracked_mcf {
 namespace {
 
@@ -30,6 +32,22 @@ TEST(ParameterTable, ARowSetsItsMemberAndNoOther) {
             if (set.name == "method" && other.name == "stabilization") continue;
             EXPECT_EQ(other.get(parameters), &other == &set ? value : other.get({}))
                 << set.name << ' ' << other.name;
+        }
+    }
+}
+
+TEST(ParameterTable, AMethodComesBackAndANumberThatIsNoneIsRefused) {
+    for (const Parameter& parameter : parameter_table()) {
+        if (parameter.name != "method") continue;
+        for (int number = -1; number <= 3; ++number) {
+            FlowParameters parameters;
+            parameter.set(parameters, number);
+            EXPECT_EQ(parameter.get(parameters), ParameterValue(number));
+            if (number == -1 || number == 3) {
+                EXPECT_THROW(validate(parameters), InvalidParameter) << number;
+            } else {
+                EXPECT_NO_THROW(validate(parameters)) << number;
+            }
         }
     }
 }
