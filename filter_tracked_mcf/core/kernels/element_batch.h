@@ -111,9 +111,9 @@ static HWY_INLINE Lanes flux_entry(const Lanes (&moments)[kMomentRows], int axis
     return sum;
 }
 
-/// Returns the area in the metric of X. In that of the mass, it is the sum of ∫ B_I B_J over all I
-/// and J: the functions B sum to 1.
-static HWY_INLINE Lanes area_of(const Lanes (&moments)[kMomentRows]) {
+/// Returns the area in the metric of the mass: the sum of ∫ B_I B_J over all I and J, because the
+/// functions B sum to 1.
+static HWY_INLINE Lanes area_of_mass(const Lanes (&moments)[kMomentRows]) {
     Lanes area = zero();
     for (int i = 0; i < 3; ++i) {
         for (int j = 0; j < 3; ++j) {
@@ -122,7 +122,7 @@ static HWY_INLINE Lanes area_of(const Lanes (&moments)[kMomentRows]) {
             area = hn::MulAdd(splat(products), hn::MulAdd(splat(2), m[1], m[0]) + m[2], area);
         }
     }
-    return area - moments[kAddedArea];
+    return area;
 }
 
 /// Writes the matrices of the batch into a block, from this lane of the block on.
@@ -156,7 +156,9 @@ static HWY_INLINE void find_results(const IntegrationInput& input,
                 splat(-input.step_size_in_cells) * flux_entry(moments, axis, row);
         }
     }
-    results[kArea] = area_of(moments);
+    // A difference would cancel where edges make the area many times as large.
+    results[kArea] =
+        input.samples.edge_tensors == nullptr ? area_of_mass(moments) : moments[kPlainArea];
     for (int i = kArea + 1; i < kResults; ++i) results[i] = zero();
 }
 

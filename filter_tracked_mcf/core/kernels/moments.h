@@ -31,7 +31,7 @@ constexpr int kZX = 78;          ///< [k][i][j]: ∫ G_zx lz_k lx_i by_j
 constexpr int kFluxX = 90;       ///< [a][j][k]: ∫ F_a,x ly_j lz_k
 constexpr int kFluxY = 102;      ///< [a][k][i]: ∫ F_a,y lz_k lx_i
 constexpr int kFluxZ = 114;      ///< [a][i][j]: ∫ F_a,z lx_i ly_j
-constexpr int kAddedArea = 126;  ///< ∫ √|g'| - √|g|, what edges add to the area
+constexpr int kPlainArea = 126;  ///< ∫ √|g| where the metric of the mass keeps edges; else 0
 constexpr int kMoments = 127;
 
 /// kMoments rounded up to a multiple of kLanes.
@@ -114,10 +114,9 @@ static HWY_INLINE void flux_moments(const SampleChunk& chunk, int along, int b, 
     for (int m = 0; m < 12; ++m) moments[m] = sum[m];
 }
 
-/// Sums what edges add to the area.
-static HWY_INLINE Lanes added_area(const SampleChunk& chunk) {
+static HWY_INLINE Lanes plain_area(const SampleChunk& chunk) {
     Lanes sum = zero();
-    for (int s = 0; s < chunk.count; s += kLanes) sum = sum + load(chunk.added_area + s);
+    for (int s = 0; s < chunk.count; s += kLanes) sum = sum + load(chunk.plain_area + s);
     return sum;
 }
 
@@ -135,7 +134,7 @@ static HWY_INLINE void add_moments(const SampleChunk& chunk, float (&sums)[kMome
     flux_moments(chunk, 0, 1, 2, lanes + kFluxX);
     flux_moments(chunk, 1, 2, 0, lanes + kFluxY);
     flux_moments(chunk, 2, 0, 1, lanes + kFluxZ);
-    lanes[kAddedArea] = chunk.has_edges ? added_area(chunk) : zero();
+    lanes[kPlainArea] = chunk.has_edges ? plain_area(chunk) : zero();
     for (int m = 0; m < kMomentRows; m += kLanes) {
         store(load(sums + m) + sums_of_lanes(lanes + m), sums + m);
     }

@@ -33,9 +33,9 @@ struct SampleChunk {
     Row tensor[6];     ///< G = w √|g| T g⁻¹ Tᵀ: xx, yy, zz, xy, yz, zx; 0 if collapsed
     Row flux[3][3];    ///< G ∇X_t for each coordinate of X_t; 0 if collapsed
     Row bernstein[9];  ///< (1-x)², x(1-x), x²; the same for y and z
-    /// The numbers of the samples' EdgeTensor, and the area that it adds to `area`; unset without.
+    /// The numbers of the samples' EdgeTensor, and w √|g| where `area` is w √|g'|; unset without.
     alignas(64) float edge[kEdgeTensorEntries][kChunk + kLanes];
-    Row added_area;
+    Row plain_area;
     struct {
         const std::uint32_t* packed_local[2];
         const float* weight;
@@ -346,7 +346,7 @@ static HWY_INLINE void evaluate_samples(const Embedding& x, Metric metric, Sampl
             const EdgeMetricAt with_edges = edge_metric(d, chunk, i);
             const Lanes sound_weight = hn::IfThenElseZero(sound, weight);
             store(sound_weight * with_edges.area, chunk.area + i);
-            store(sound_weight * (with_edges.area - area), chunk.added_area + i);
+            store(sound_weight * area, chunk.plain_area + i);
             const Lanes scale = hn::IfThenElseZero(sound, weight / with_edges.area);
             store_tensor(d, scale, chunk, i);
             store_flux(d, scale, chunk, i);

@@ -142,6 +142,16 @@ TEST(KeepEdges, ReportsWhatItKeeps) {
     EXPECT_LT(report.edge_share, 0.5);
 }
 
+TEST(KeepEdges, TheAreaOfAStepIsThatOfTheSurface) {
+    for (const double angle : {0.01, 1.0, 25.0}) {
+        TriangleMesh cube = noisy(shapes::box(kQuads, {1, 1, 1}), 0.1 * kEdge);
+        FlowParameters p = keeping(angle);
+        p.boundary = BoundaryCondition::Free;
+        const FlowReport report = evolve(cube, p);
+        EXPECT_NEAR(report.steps.front().area, report.area_before, 1e-3 * report.area_before);
+    }
+}
+
 TEST(KeepEdges, AConformalizedFlowIsRefused) {
     TriangleMesh sphere = shapes::geodesic_sphere(4);
     FlowParameters p = keeping(25);
