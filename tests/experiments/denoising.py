@@ -235,9 +235,8 @@ def cube(folder):
         a, b, c, d = (vertex(axis, end, i + x, j + y) for x, y in ((0, 0), (1, 0), (1, 1), (0, 1)))
         faces += [(a, b, c), (a, c, d)] if end else [(a, c, b), (a, d, c)]
     path = pathlib.Path(folder) / "cube.ply"
-    pymeshlab_mesh = pymeshlab.Mesh(numpy.array(list(index), float), numpy.array(faces))
     meshes = pymeshlab.MeshSet()
-    meshes.add_mesh(pymeshlab_mesh)
+    meshes.add_mesh(pymeshlab.Mesh(numpy.array(list(index), float), numpy.array(faces)))
     meshes.save_current_mesh(str(path))
     return path
 
