@@ -59,10 +59,6 @@ double detail_size_of(const FlowParameters& parameters, double mean_edge) {
     return parameters.detail_size > 0 ? parameters.detail_size : kDefaultDetailInEdges * mean_edge;
 }
 
-double reach_of(const FlowParameters& parameters) {
-    return parameters.keep_edges > 0 ? kKeptEdgesReach : 1;
-}
-
 double stabilization_of(const FlowParameters& parameters) {
     const bool needed = parameters.solver == Solver::Converged;
     return parameters.stabilization.value_or(needed ? kDefaultStabilization : 0.0);

@@ -58,8 +58,6 @@ inline constexpr int kMaximumIterations = 1000000;
 inline constexpr int kMaximumOrder = 4;
 /// The default detail size, in mean edge lengths of the triangles that flow.
 inline constexpr double kDefaultDetailInEdges = 2.5;
-/// With kept edges, smooth parts are smoothed as by a detail size this many times as large.
-inline constexpr double kKeptEdgesReach = 3;
 inline constexpr double kMaximumStabilization = 1e3;
 inline constexpr double kDefaultStabilization = 0.01;
 
@@ -92,8 +90,8 @@ struct FlowParameters {
 
     /// Greater than 0: the angle θ, in degrees and less than 180, from which edges are kept. Where
     /// smooth normals turn by θ within the detail size ℓ, the surface counts as longer than it is,
-    /// so that the flow does not cross it (edge_metric.h). Elsewhere, steps are those of a detail
-    /// size kKeptEdgesReach times as large.
+    /// so that the flow does not cross it (edge_metric.h). Steps are longer by a factor that grows
+    /// with the noise of the surface (EdgeMetric::step_factor()).
     double keep_edges = 0;
 
     /// Number of semi-implicit steps, 1 to kMaximumIterations.
@@ -160,9 +158,6 @@ double detail_size_for(double step_size, int iterations, int order);
 
 /// Returns the detail size that the parameters ask for if a mesh has edges of this mean length.
 double detail_size_of(const FlowParameters& parameters, double mean_edge);
-
-/// Returns the ratio of the waves that all steps halve on a plane to the detail size.
-double reach_of(const FlowParameters& parameters);
 
 /// Returns the weight of the stabilisation that the parameters ask for.
 double stabilization_of(const FlowParameters& parameters);

@@ -44,6 +44,7 @@ struct FlowReport {
     double detail_size = 0;    ///< length of the waves whose amplitude all steps halve, mesh units
     double step_size = 0;      ///< δ, mesh units²
     double normal_length = 0;  ///< s of the metric that keeps edges, mesh units; 0 without
+    double noise = 0;          ///< EdgeMetric::noise(), mesh units; 0 if no edges are kept
     double edge_share = 0;     ///< of the area: what counted as edge in the last step (EdgeMetric)
     double asked_step_size = 0;  ///< larger if δ was limited, see FlowParameters::step_size
     int depth = 0;               ///< 1 if all vertices are constrained

@@ -99,8 +99,7 @@ const std::vector<Parameter>& parameter_table() {
          "2.5 mean edge lengths."},
         {access<&P::keep_edges>(Type::Real, {0, 179, " degrees, such as 25, where 0 keeps none"}),
          "keep_edges", "Keep edges sharper than",
-         "In degrees, 25 for noise, with order 2. Elsewhere three times the size is removed. 0 "
-         "keeps none."},
+         "In degrees, 25 for noise, with order 2. More noise makes longer steps. 0 keeps none."},
         {toggle<&P::local_detail_size>(), "local_detail_size", "Larger where faces are larger",
          "The length follows the local edge length, as noise of scans does."},
         {integer<&P::iterations>(1, kMaximumIterations), "iterations", "Smoothing steps",

@@ -124,7 +124,8 @@ std::string changes(const FlowReport& report) {
     std::ostringstream text;
     text.precision(3);
     if (report.normal_length > 0) {
-        text << "Edges are kept, " << 100 * report.edge_share << " % of the area. ";
+        text << "Edges are kept, " << 100 * report.edge_share
+             << " % of the area; the noise is about " << report.noise << ". ";
     } else if (report.stop == Stop::None) {
         text << "Waves of length " << report.detail_size << " keep half of their amplitude. ";
     }

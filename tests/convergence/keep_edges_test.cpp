@@ -119,13 +119,13 @@ Ridge ridge_of(const TriangleMesh& mesh, const TriangleMesh& clean) {
     return {height / count * kQuads, std::acos(cosine) * 180 / std::acos(-1.0)};
 }
 
-/// Returns the ridge after these numbers of steps. `keep_edges` of 0 is the plain flow, with as
-/// long steps.
+/// Returns the ridge after these numbers of steps. `keep_edges` of 0 is the plain flow, with steps
+/// about as long as that the noise makes the others.
 std::vector<Ridge> ridges(double keep_edges, const std::vector<int>& steps) {
     const TriangleMesh clean = roof(0);
     FlowParameters parameters;
     parameters.keep_edges = keep_edges;
-    parameters.detail_size = (keep_edges > 0 ? 3 : 3 * kKeptEdgesReach) / kQuads;
+    parameters.detail_size = (keep_edges > 0 ? 3.0 : 9.0) / kQuads;
     parameters.order = 2;
     parameters.iterations = 1;
     TriangleMesh mesh = roof(0.2 / kQuads);

@@ -37,7 +37,7 @@ ONE_SETTING = {"keep_edges": 25, "detail_size": 3, "order": 2}
 DETAIL_SIZES = [2, 2.5, 3, 3.5, 4, 4.5, 5, 6, 7]  # in mean edge lengths
 STEPS = [1, 2, 3, 4, 6, 8, 10, 14, 20, 30, 50]
 OURS = ["default", "order 2", "edges"]
-OUR_BEST = ["best", "best with edges"]
+OUR_BEST = "best with edges"
 STOCK = ["Taubin", "Laplacian", "two-step"]
 
 LARGEST_COLOURED_ANGLE = 20  # degrees
@@ -145,21 +145,13 @@ def single(scan, smoothed):
             "vertices": vertices}
 
 
-def our_families(tool, depth, local):
-    """Returns the families without and with edges kept; `depth` is the automatic one."""
-    def family(text, **settings):
-        return [(f"ℓ {size:g}, {text}", lambda size=size: tool.smooth(size, **settings))
-                for size in DETAIL_SIZES]
-
-    def words(local):
-        return ", local" if local else ""
-
-    return ([family(f"order {order}, 10 steps, depth {depth + 1}{words(is_local)}", order=order, steps=10,
-                    depth=depth + 1, local=is_local)
-             for order, is_local in itertools.product((2, 3), {False, local})],
-            [family(f"{angle} degrees, order 2, depth {depth + 1}{words(is_local)}", order=2,
-                    depth=depth + 1, keep_edges=angle, local=is_local)
-             for angle, is_local in itertools.product((15, 25), {False, local})])
+def our_families(tool, depth):
+    """Returns families of settings that keep edges, at this depth."""
+    return [[(f"{angle} degrees, ℓ {size:g}{', local' if local else ''}",
+              lambda size=size, angle=angle, local=local: tool.smooth(
+                  size, order=2, depth=depth, keep_edges=angle, local=local))
+             for size in DETAIL_SIZES]
+            for angle, local in itertools.product((15, 25), (False, True))]
 
 
 def stock_families(scan, vertices):
@@ -210,13 +202,11 @@ def measure(experiment, scan, noise):
     with tempfile.TemporaryDirectory() as folder:
         tool = Tool(experiment, scan, vertices, folder)
         row["default"] = single(scan, tool.smooth())
-        depth = tool.depth
         row["order 2"] = single(scan, tool.smooth(order=2))
         row["edges"] = single(scan, tool.smooth(**ONE_SETTING))
         if noise == "0":
             return row
-        for name, families in zip(OUR_BEST, our_families(tool, depth, "uneven" in scan.name)):
-            row[name] = best(scan, families)
+        row[OUR_BEST] = best(scan, our_families(tool, tool.depth))
     for name, families in stock_families(scan, vertices).items():
         row[name] = best(scan, families)
     row["bilateral"] = best(scan, bilateral_families(scan, vertices))
@@ -292,7 +282,7 @@ def main():
 def report(experiment, rows):
     experiment.record([{"mesh": mesh, "noise": noise, "smoother": name, **result}
                        for (mesh, noise), row in rows.items() for name, result in row.items()])
-    names = ["noisy", *OURS, *OUR_BEST, *STOCK, "bilateral"]
+    names = ["noisy", *OURS, OUR_BEST, *STOCK, "bilateral"]
     experiment.say("\nRMS distance in edges, and mean angle in degrees:\n")
     experiment.table(["mesh", "noise", *names],
                      [[*key, *(f"{row[name]['RMS']:.3f}, {row[name]['angle']:.3g}"
@@ -301,11 +291,11 @@ def report(experiment, rows):
     experiment.say("Processor seconds:\n")
     experiment.table(["mesh", "noise", *names[1:]],
                      [[*key, *(row[name]["seconds"] for name in names[1:])]
-                      for key, row in rows.items() if "best" in row])
+                      for key, row in rows.items() if OUR_BEST in row])
 
 
 def check(experiment, rows):
-    noisy_rows = {key: row for key, row in rows.items() if "best" in row}
+    noisy_rows = {key: row for key, row in rows.items() if OUR_BEST in row}
     clean = {mesh: row for (mesh, noise), row in rows.items() if noise == "0"}
 
     def worst(what, ratio, at_most, of=noisy_rows):
@@ -326,10 +316,10 @@ def check(experiment, rows):
         worst(f"{figure} of the one setting that keeps edges over Taubin's best",
               lambda row, figure=figure: row["edges"][figure] / row["Taubin"][figure], 1)
         worst(f"{figure} of our best over the best of MeshLab's",
-              lambda row, figure=figure: (min(row[name][figure] for name in OUR_BEST)
+              lambda row, figure=figure: (row[OUR_BEST][figure]
                                           / min(row[name][figure] for name in STOCK)), 1)
         worst(f"{figure} of our best over bilateral's best",
-              lambda row, figure=figure: (min(row[name][figure] for name in OUR_BEST)
+              lambda row, figure=figure: (row[OUR_BEST][figure]
                                           / row["bilateral"][figure]), 1.1)
 
 

@@ -48,6 +48,7 @@ TEST(Report, HoldsEveryMemberUnderItsName) {
     report.step_size = 0.0625;
     report.normal_length = 0.875;
     report.edge_share = 0.03125;
+    report.noise = 0.015625;
     report.depth = 5;
     report.cell_size = 6.5;
     report.cells = 7;
@@ -78,7 +79,7 @@ TEST(Report, HoldsEveryMemberUnderItsName) {
                        "method": "shared-cells", "tolerance": 0.5, "stabilization": 0.25, "cycles": 2, "threads": 1},
         "vertices": 1, "triangles": 2, "degenerate_triangles": 3, "boundary_edges": 4,
         "constrained_vertices": 15, "detail_size": 0.4375, "step_size": 0.0625,
-        "normal_length": 0.875, "edge_share": 0.03125,
+        "normal_length": 0.875, "edge_share": 0.03125, "noise": 0.015625,
         "area_before": 20.5, "area_after": 19.5, "volume_change": -2.5,
         "largest_displacement": 0.75, "rms_displacement": 0.25, "converged": false, "stop": "vanished",
         "warnings": ["first", "second"],

@@ -20,7 +20,7 @@ constexpr int kSubsteps[] = {1, 4, 16};
 /// makes no step. The grid resolves no finer detail.
 constexpr double kShortStepInCells = 1;
 
-/// Replaces the numbers of an attempt that has failed by those of another one. Time and iterations
+/// Replaces the numbers of an attempt by those of another one. Time and iterations
 /// are those of both.
 void replace_attempt(StepReport& report, StepReport again) {
     again.assemble_seconds += report.assemble_seconds;
@@ -89,10 +89,10 @@ void Flow::fill_report(const Domain& domain) {
     report_.step_size = stepper_.size().in_mesh_units;
     report_.asked_step_size = stepper_.asked_size().in_mesh_units;
     report_.detail_size =
-        detail_size_for(report_.step_size, parameters_.iterations, parameters_.order) /
-        reach_of(parameters_);
+        detail_size_for(report_.step_size, parameters_.iterations, parameters_.order);
     if (const EdgeMetric* const edges = stepper_.edge_metric()) {
         report_.normal_length = edges->size().normal_length() * elements.grid.cell_size;
+        report_.noise = edges->noise() * elements.grid.cell_size;
     }
     report_.cells = count_cells(elements.finest());
     report_.elements = elements.finest().element_count();
@@ -107,6 +107,10 @@ bool Flow::step() {
     StepReport report;
     Care care = care_;
     StepResult next = stepper_.advance(state_, stepper_.size(), care, report);
+    const auto* const first = std::get_if<FlowState>(&next);
+    if (first != nullptr && report_.steps.empty() && stepper_.shortens_steps(*first)) {
+        next = advance_in_substeps(1, care, report);
+    }
     if (is(next, Stop::Vanished)) {
         end_before_last_step(Stop::Vanished);
         return false;

@@ -46,8 +46,18 @@ double asked_in_cells(const FlowParameters& parameters, const Domain& domain, co
         return parameters.step_size * cells * cells;
     }
     const double detail_size = detail_size_of(parameters, mean_edge_length(domain.surface()));
-    return step_size_for(reach_of(parameters) * detail_size / grid.cell_size, parameters.iterations,
-                         parameters.order);
+    return step_size_for(detail_size / grid.cell_size, parameters.iterations, parameters.order);
+}
+
+/// Returns what keeps edges, if the parameters ask for it, in steps of this size.
+std::optional<EdgeMetric> edge_metric_of(const FlowParameters& parameters, const Domain& domain,
+                                         const TrackedElements& elements, const StepSize& size) {
+    if (parameters.keep_edges == 0) return std::nullopt;
+    const double detail_size =
+        detail_size_for(size.in_cells, parameters.iterations, parameters.order);
+    return std::optional<EdgeMetric>(std::in_place, domain, elements,
+                                     EdgeSize{detail_size, parameters.keep_edges},
+                                     parameters.local_detail_size);
 }
 
 }  // namespace
@@ -58,11 +68,13 @@ Stepper::Stepper(const Domain& domain, ClippedSurface surface, const FlowParamet
       asked_size_(in_cells(asked_in_cells(parameters, domain, elements_.grid), elements_.grid)),
       size_(in_cells(std::min(asked_size_.in_cells, largest_step_size(elements_.densities)),
                      elements_.grid)),
+      edge_metric_(edge_metric_of(parameters, domain, elements_, size_)),
       stabilization_(elements_),
       curve_constraint_(elements_, parameters.boundary_penalty),
-      confinement_(elements_, parameters.order == 1
-                                  ? 0
-                                  : detail_size_for(size_.in_cells, 1, parameters.order)),
+      confinement_(elements_,
+                   parameters.order == 1
+                       ? 0
+                       : detail_size_for(step_factor() * size_.in_cells, 1, parameters.order)),
       solutions_(parameters.order) {
     enter_setup_phase(kPrepareSolver);
     auto constrained = constrained_unknowns(elements_, parameters.boundary);
@@ -71,13 +83,6 @@ Stepper::Stepper(const Domain& domain, ClippedSurface surface, const FlowParamet
         std::count(initially_constrained_.begin(), initially_constrained_.end(), 1);
     solver_ = make_step_solver(elements_, std::move(constrained), parameters);
     if (parameters.flow == FlowKind::Conformalized) vanished_components_.emplace(elements_);
-    if (parameters.keep_edges > 0) {
-        const double waves =
-            detail_size_for(size_.in_cells, parameters.iterations, parameters.order);
-        edge_metric_.emplace(domain, elements_,
-                             EdgeSize{waves / reach_of(parameters), parameters.keep_edges},
-                             parameters.local_detail_size);
-    }
     // With the stabilisation, functions that hardly meet the surface follow those that do.
     if (stabilization_of(parameters) == 0) constrain_negligible(supports(), initially_constrained_);
 }
@@ -92,7 +97,7 @@ FlowState Stepper::start() const {
 
 StepResult Stepper::advance(const FlowState& from, const StepSize& size, const Care& care,
                             StepReport& report) {
-    const double delta = size.in_cells;
+    const double delta = (care.ignores_edges ? 1 : step_factor()) * size.in_cells;
     FlowState to;
     to.boxes = from.boxes;
     to.constrained = from.constrained;
@@ -144,6 +149,25 @@ StepResult Stepper::advance(const FlowState& from, const StepSize& size, const C
     const bool reached = report.reached_tolerance || report.error_estimate <= kNothingReached;
     if (!reached || !confinement_.holds(to.displacement, to.boxes)) return Stop::StepFailed;
     return to;
+}
+
+bool Stepper::shortens_steps(const FlowState& to) {
+    if (!edge_metric_) return false;
+    const auto count = static_cast<std::int64_t>(elements_.vertices.size());
+    using Sums = Eigen::Vector2d;  // of squared movements, of vertices that move
+    const Sums sums = parallel_sum(count, Sums(0, 0), [&](std::int64_t begin, std::int64_t end) {
+        Sums sum(0, 0);
+        for (std::int64_t i = begin; i < end; ++i) {
+            const VertexLocation& vertex = elements_.vertices[i];
+            if (vertex.element == VertexLocation::kNoElement) continue;
+            if (elements_.vertex_constrained[i] != 0) continue;
+            const double square = evaluate_vertex(elements_, to.displacement, vertex).squaredNorm();
+            const bool is_local = !elements_.densities.empty();
+            sum += Sums(is_local ? square * elements_.densities[vertex.element] : square, 1);
+        }
+        return sum;
+    });
+    return sums[1] > 0 && edge_metric_->shorten_steps(std::sqrt(sums[0] / sums[1]));
 }
 
 void Stepper::predict(const std::vector<Scaling>& scalings, const Coefficients& displacement) {

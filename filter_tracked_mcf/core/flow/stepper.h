@@ -66,7 +66,8 @@ public:
 
     /// Makes one step of equation 2: solves (D + δS) d = -δ S x(t) for the displacement
     /// d = x(t+δ) - x(t), with the stabilisation and the constraints that the parameters ask for,
-    /// and adds d to the embedding. A step of order m solves m times, see FlowParameters::order.
+    /// and adds d to the embedding. A step of order m solves m times, see FlowParameters::order. δ
+    /// is `size`, times EdgeMetric::step_factor() if edges are kept.
     ///
     /// In the code, n is the conormal and λ the multiplier of the curve constraint, C its matrix
     /// and u its displacement; N is the matrix of the stabilisation.
@@ -83,6 +84,10 @@ public:
     /// step. In grid units. Adds the solver's numbers to the report. Valid until the next call.
     const Coefficients& pressure_response(const FlowState& from, const Care& care,
                                           StepReport& report);
+
+    /// Returns whether the first step, to this state, shall be made again, because it is now
+    /// shorter (EdgeMetric::shorten_steps()).
+    bool shortens_steps(const FlowState& to);
 
     /// Makes the next solves start from zero instead of the last step's solutions.
     void forget_solutions() { solutions_.assign(solutions_.size(), {}); }
@@ -119,6 +124,7 @@ private:
                            const std::vector<std::uint8_t>& constrained) const;
     bool constrains_curve() const { return parameters_.boundary != BoundaryCondition::LockedCells; }
     const Supports& supports();
+    double step_factor() const { return edge_metric_ ? edge_metric_->step_factor() : 1; }
     const EdgeTensor* edge_tensors() const {
         return edge_metric_ ? edge_metric_->tensors().data() : nullptr;
     }
@@ -126,6 +132,7 @@ private:
     const FlowParameters parameters_;
     const TrackedElements elements_;
     const StepSize asked_size_, size_;
+    std::optional<EdgeMetric> edge_metric_;  ///< of the present surface; only if edges are kept
     const Stabilization stabilization_;
     const CurveConstraint curve_constraint_;
     const Confinement confinement_;
@@ -133,8 +140,7 @@ private:
     std::int64_t locked_unknown_count_ = 0;
     std::optional<VanishedComponents> vanished_components_;  ///< only in a conformalized flow
     std::optional<Supports> supports_;                       ///< measured when first needed
-    std::optional<EdgeMetric> edge_metric_;  ///< of the present surface; only if edges are kept
-    double first_area_ = 0;                  ///< of the surface in the first step, grid units²
+    double first_area_ = 0;  ///< of the surface in the first step, grid units²
 
     // Workspaces.
     std::unique_ptr<StepSolver> solver_;

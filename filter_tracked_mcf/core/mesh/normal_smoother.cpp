@@ -25,6 +25,13 @@ constexpr int kMostIterations = 500;
 /// cotangents are finite.
 constexpr double kLeastAreaRatio = 1e-6;
 
+/// The standard deviation of two differences from the mean of the neighbours, for noise of 1 and
+/// vertices that have six neighbours each.
+constexpr double kNoiseGain = 1.359;
+
+/// The median of the absolute value of a normal distribution whose standard deviation is 1.
+constexpr double kNormalMedian = 0.6745;
+
 /// One number for each coordinate.
 using Numbers = Eigen::Array4d;
 
@@ -180,6 +187,53 @@ void NormalSmoother::average_normals(const std::vector<Eigen::Vector3d>& positio
         }
         averages_[vertex] << sum.normalized().cast<float>(), 0;
     });
+}
+
+double NormalSmoother::vertex_density(std::int32_t vertex) const {
+    double sum = 0;
+    for (std::int64_t i = star_begin_[vertex]; i < star_begin_[vertex + 1]; ++i) {
+        sum += density(stars_[i] / 3);
+    }
+    return sum / static_cast<double>(star_begin_[vertex + 1] - star_begin_[vertex]);
+}
+
+double NormalSmoother::noise(const std::vector<Eigen::Vector3d>& positions) {
+    average_normals(positions);
+    const auto count = static_cast<std::int64_t>(positions.size());
+    const auto has_neighbours = [&](std::int32_t vertex) {
+        return row_begin_[vertex + 1] - row_begin_[vertex] > 1;
+    };
+    // The neighbours' mean differs from the row's by a factor.
+    const auto from_mean = [&](const auto& x, std::int32_t vertex) {
+        const auto own = x[vertex];
+        auto sum = own;
+        sum.setZero();
+        for (std::size_t i = row_begin_[vertex]; i < row_begin_[vertex + 1]; ++i) {
+            sum += own - x[columns_[i]];
+        }
+        using Scalar = typename decltype(sum)::Scalar;
+        sum /= static_cast<Scalar>(row_begin_[vertex + 1] - row_begin_[vertex] - 1);
+        return sum;
+    };
+    residual_.assign(positions.size(), Eigen::Vector4f::Zero());
+    parallel_for_rows(count, [&](std::int32_t vertex) {
+        if (!has_neighbours(vertex)) return;
+        residual_[vertex].head<3>() = from_mean(positions, vertex).cast<float>();
+    });
+    RawVector<float> heights(positions.size());
+    parallel_for_rows(count, [&](std::int32_t vertex) {
+        constexpr float none = -1;
+        heights[vertex] = none;
+        if (!has_neighbours(vertex)) return;
+        heights[vertex] = std::abs(from_mean(residual_, vertex).dot(averages_[vertex])) *
+                          static_cast<float>(std::sqrt(vertex_density(vertex)));
+    });
+    heights.erase(std::remove_if(heights.begin(), heights.end(), [](float h) { return h < 0; }),
+                  heights.end());
+    if (heights.empty()) return 0;
+    const auto median = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2);
+    std::nth_element(heights.begin(), median, heights.end());
+    return *median / (kNormalMedian * kNoiseGain);
 }
 
 void NormalSmoother::assemble(const std::vector<Eigen::Vector3d>& positions, double step_size,

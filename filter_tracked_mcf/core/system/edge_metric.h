@@ -32,8 +32,21 @@ public:
     EdgeMetric(const Domain& domain, const TrackedElements& elements, const EdgeSize& size,
                bool local_detail_size);
 
+    /// Returns the standard deviation of the noise of the initial surface
+    /// (NormalSmoother::noise), grid units.
+    double noise() const { return noise_; }
+
+    /// Returns the factor of a step's δ that makes up for noise: what is left of it in N makes
+    /// smooth parts count as long, too.
+    double step_factor() const { return step_factor_; }
+
+    /// Makes the step factor smaller if the first step has moved the vertices by more than the
+    /// noise explains: it has removed detail (the discrepancy principle, Morozov 1966). `movement`
+    /// is the root of their mean squared movement, grid units. Returns whether it did.
+    bool shorten_steps(double movement);
+
     /// Smooths the normals of the surface with this displacement, in grid units, and sets the
-    /// tensors. Triangles at constrained edges have none: a rim is no edge.
+    /// tensors.
     void update(const TrackedElements& elements, const Coefficients& displacement);
 
     const EdgeSize& size() const { return size_; }
@@ -52,7 +65,8 @@ private:
     Grid grid_;
     EdgeSize size_;
     NormalSmoother smoother_;
-    std::vector<std::uint8_t> at_constrained_edge_;  ///< per triangle
+    double noise_;
+    double step_factor_;
     std::vector<EdgeTensor> tensors_;
 };
 

@@ -51,6 +51,40 @@ TEST(NormalSmoother, KeepsTheNormalsOfASphere) {
     EXPECT_LT(mean_angle(sphere, smoothed(sphere, 0.01, 0.5), outwards), 0.2);
 }
 
+/// Moves vertices along the normals of a sphere, each or one of a few.
+TriangleMesh noisy_sphere(double deviation, int one_of = 1) {
+    TriangleMesh sphere = shapes::geodesic_sphere(30);
+    std::mt19937 random(3);
+    std::normal_distribution<double> noise(0, deviation);
+    for (std::size_t i = 0; i < sphere.positions.size(); ++i) {
+        const double height = noise(random);
+        if (i % static_cast<std::size_t>(one_of) == 0) sphere.positions[i] *= 1 + height;
+    }
+    return sphere;
+}
+
+double noise_of(const TriangleMesh& mesh, std::vector<double> densities = {}) {
+    return NormalSmoother(topology_of(mesh), std::move(densities)).noise(mesh.positions);
+}
+
+TEST(NormalSmoother, FindsTheDeviationOfNoise) {
+    for (const double deviation : {0.001, 0.003, 0.01}) {
+        EXPECT_NEAR(noise_of(noisy_sphere(deviation)), deviation, 0.06 * deviation);
+    }
+    // A density of 4 belongs to lengths half as long, beside which noise is twice as large.
+    const TriangleMesh sphere = noisy_sphere(0.003);
+    const double dense = noise_of(sphere, std::vector<double>(sphere.triangles.size(), 4));
+    EXPECT_NEAR(dense, 2 * noise_of(sphere), 1e-9);
+    EXPECT_GT(noise_of(noisy_sphere(0.01, 5)), 0.001);
+}
+
+TEST(NormalSmoother, FindsLittleNoiseOnACleanSurface) {
+    EXPECT_LT(noise_of(noisy_sphere(0)), 2e-5);
+    EXPECT_LT(noise_of(shapes::box(20, {1, 1, 1})), 1e-6);
+    EXPECT_LT(noise_of(shapes::tube(100, 40, 2)), 1e-4);
+    EXPECT_EQ(noise_of(TriangleMesh()), 0);
+}
+
 TEST(NormalSmoother, RemovesNoise) {
     const TriangleMesh sphere = noisy(shapes::geodesic_sphere(20), 0.01);
     const double before = mean_angle(sphere, smoothed(sphere, 0, 0), outwards);

@@ -75,17 +75,34 @@ TEST(EdgeMetric, EdgesAreWhereTheNormalTurnsByTheAngleWithinTheDetailSize) {
 
 TEST(EdgeMetric, ARimIsNoEdge) {
     const TriangleMesh cap = bumpy_cap(12);
-    const TrackedElements elements = elements_of(cap, 5, keeping(20));
+    const TrackedElements elements = elements_of(cap, 5, keeping(40));
     const Domain domain(cap, BoundaryCondition::Locked);
-    EdgeMetric metric(domain, elements, {3, 20}, false);
+    EdgeMetric metric(domain, elements, {3, 40}, false);
     metric.update(elements, no_displacement(elements));
-    int at_rim = 0;
-    for (std::size_t i = 0; i < cap.triangles.size(); ++i) {
-        if (domain.constrained_edges()[i] == 0) continue;
-        ++at_rim;
-        EXPECT_EQ(metric.tensors()[i].determinant, 0);
-    }
-    EXPECT_GT(at_rim, 20);
+    EXPECT_EQ(metric.edge_share(), 0);
+}
+
+TEST(EdgeMetric, StepsAreLongerForNoiseButNotForDetail) {
+    const TriangleMesh clean = shapes::box(20, {1, 1, 1}), rough = noisy(clean, 0.01);
+    const TrackedElements elements = elements_of(clean, 5, keeping(25));
+    const double detail_size = 3 * 0.05 / elements.grid.cell_size;
+    const auto metric_of = [&](const TriangleMesh& mesh) {
+        return EdgeMetric(Domain(mesh, BoundaryCondition::Locked), elements, {detail_size, 25},
+                          false);
+    };
+    EdgeMetric none = metric_of(clean);
+    EXPECT_NEAR(none.step_factor(), 1, 1e-3);
+    EXPECT_LT(none.noise(), 1e-3 * detail_size);
+    EdgeMetric noise = metric_of(rough);
+    const double factor = noise.step_factor();
+    EXPECT_GT(factor, 2);
+    EXPECT_FALSE(noise.shorten_steps(0.7 * noise.noise()));
+    EXPECT_EQ(noise.step_factor(), factor);
+    EXPECT_TRUE(noise.shorten_steps(noise.noise()));
+    EXPECT_LT(noise.step_factor(), 0.5 * factor);
+    EXPECT_TRUE(noise.shorten_steps(100 * noise.noise()));
+    EXPECT_EQ(noise.step_factor(), 1);
+    EXPECT_FALSE(noise.shorten_steps(100 * noise.noise()));
 }
 
 }  // namespace
