@@ -462,6 +462,8 @@ void Checker::check_order() {
         other.mesh.triangles[i] = {new_index[t[0]], new_index[t[1]], new_index[t[2]]};
         if (!case_.selection.empty()) other.selection[i] = case_.selection[triangle_of[i]];
     }
+    // Where a surface has one side, a seam counts as an edge, and which one depends on the order.
+    if (case_.parameters.keep_edges > 0 && case_.kind == "moebius") return;
     compare(Property::Order, case_, base_, other, vertex_of);
 }
 

@@ -53,10 +53,10 @@ TEST(Symmetry, CommutesWithTranslation) {
 
 TEST(Symmetry, CommutesWithScaling) {
     for (const Case& of : cases()) {
-        for (const double scale : {1e-9, 0.3, 7.0, 1e12}) {
+        const TriangleMesh unscaled = evolved(of.mesh, of.parameters);
+        for (const double scale : {1e-9, 1e12}) {
             const Eigen::Affine3d scaling(Eigen::Scaling(scale));
-            const TriangleMesh expected =
-                shapes::transformed(evolved(of.mesh, of.parameters), scaling);
+            const TriangleMesh expected = shapes::transformed(unscaled, scaling);
             EXPECT_LT(
                 distance(evolved(shapes::transformed(of.mesh, scaling), of.parameters), expected),
                 1e-6 * scale)
