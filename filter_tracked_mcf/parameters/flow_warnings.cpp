@@ -120,9 +120,14 @@ bool converged(const FlowReport& report) {
 }
 
 std::string changes(const FlowReport& report) {
-    if (report.steps.empty()) return "Nothing has moved.";
     std::ostringstream text;
     text.precision(3);
+    if (report.steps.empty()) text << "Nothing has moved. ";
+    if (report.unselected_triangles > 0) {
+        text << "Only the " << report.triangles << " selected of "
+             << report.triangles + report.unselected_triangles << " faces may move. ";
+    }
+    if (report.steps.empty()) return text.str().substr(0, text.str().size() - 1);
     if (report.normal_length > 0) {
         text << "Edges are kept, " << 100 * report.edge_share
              << " % of the area; the noise is about " << report.noise << ". ";
@@ -134,7 +139,8 @@ std::string changes(const FlowReport& report) {
          << report.largest_displacement << ", RMS " << report.rms_displacement
          << "; the area changed by "
          << 100 * (report.area_after - report.area_before) / report.area_before << " %";
-    if (report.oriented_consistently) text << ", the volume by " << report.volume_change;
+    if (report.oriented_consistently)
+        text << ", the volume by " << report.volume_change << " cubic units";
     text << ".";
     return text.str();
 }

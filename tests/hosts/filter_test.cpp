@@ -180,6 +180,10 @@ TEST(Summary, NamesTheFlowAndTheConstrainedVertices) {
 TEST(Summary, TellsWhatWasRemovedAndHowFarTheSurfaceHasMoved) {
     FlowReport report;
     EXPECT_EQ(changes(report), "Nothing has moved.");
+    report.triangles = 3;
+    report.unselected_triangles = 4;
+    const std::string few = "Only the 3 selected of 7 faces may move.";
+    EXPECT_EQ(changes(report), "Nothing has moved. " + few);
     report.steps.resize(1);
     report.detail_size = 0.5;
     report.step_size = 0.015625;
@@ -192,7 +196,9 @@ TEST(Summary, TellsWhatWasRemovedAndHowFarTheSurfaceHasMoved) {
     const std::string moved =
         "The step size was 0.0156 squared units of the mesh. The vertices moved by up to 0.123, "
         "RMS 0.0625; the area changed by -12.5 %";
-    EXPECT_EQ(changes(report), halved + moved + ", the volume by -0.25.");
+    EXPECT_EQ(changes(report).find(few + " Waves"), 0U);
+    report.unselected_triangles = 0;
+    EXPECT_EQ(changes(report), halved + moved + ", the volume by -0.25 cubic units.");
     report.oriented_consistently = false;
     EXPECT_EQ(changes(report), halved + moved + ".");
     EXPECT_NE(run_filter_detail::summary({}, report).find(" s for the steps. " + changes(report)),

@@ -80,6 +80,8 @@ void Flow::fill_report(const Domain& domain) {
     const TrackedElements& elements = stepper_.elements();
     report_.vertices = elements.referenced_vertex_count;
     report_.triangles = static_cast<std::int64_t>(domain.surface().triangles.size());
+    report_.unselected_triangles =
+        static_cast<std::int64_t>(domain.mesh().triangles.size()) - report_.triangles;
     report_.degenerate_triangles = elements.degenerate_triangle_count;
     report_.oriented_consistently = is_oriented_consistently(domain.topology());
     report_.boundary_edges = domain.boundary_edge_count();

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "filter_tracked_mcf/core/flow/flow.h"
 #include "tests/support/shapes.h"
 #include "tests/unit/flows.h"
@@ -40,6 +42,8 @@ TEST(Selection, UnselectedVerticesKeepTheirBitsAndTheOthersMove) {
             }
             EXPECT_GT(moved, 300);
             EXPECT_GT(report.constrained_vertices, 20);
+            EXPECT_EQ(report.triangles, std::count(top.begin(), top.end(), 1));
+            EXPECT_EQ(report.unselected_triangles, std::count(top.begin(), top.end(), 0));
         }
     }
 }
