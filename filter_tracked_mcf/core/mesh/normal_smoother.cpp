@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 #include <utility>
 
 #include "filter_tracked_mcf/core/mesh/measures.h"
@@ -203,17 +204,16 @@ double NormalSmoother::noise(const std::vector<Eigen::Vector3d>& positions) {
     const auto has_neighbours = [&](std::int32_t vertex) {
         return row_begin_[vertex + 1] - row_begin_[vertex] > 1;
     };
-    // The neighbours' mean differs from the row's by a factor.
+    // A row has the vertex itself, too, whose difference is 0.
     const auto from_mean = [&](const auto& x, std::int32_t vertex) {
-        const auto own = x[vertex];
-        auto sum = own;
-        sum.setZero();
+        const auto& own = x[vertex];
+        using Vector = std::decay_t<decltype(own)>;
+        Vector sum = Vector::Zero();
         for (std::size_t i = row_begin_[vertex]; i < row_begin_[vertex + 1]; ++i) {
             sum += own - x[columns_[i]];
         }
-        using Scalar = typename decltype(sum)::Scalar;
-        sum /= static_cast<Scalar>(row_begin_[vertex + 1] - row_begin_[vertex] - 1);
-        return sum;
+        const std::size_t neighbours = row_begin_[vertex + 1] - row_begin_[vertex] - 1;
+        return Vector(sum / static_cast<typename Vector::Scalar>(neighbours));
     };
     residual_.assign(positions.size(), Eigen::Vector4f::Zero());
     parallel_for_rows(count, [&](std::int32_t vertex) {
