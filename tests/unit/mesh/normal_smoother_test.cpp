@@ -55,9 +55,9 @@ TEST(NormalSmoother, KeepsTheNormalsOfASphere) {
 TriangleMesh noisy_sphere(double deviation, int one_of = 1) {
     TriangleMesh sphere = shapes::geodesic_sphere(30);
     std::mt19937 random(3);
-    std::normal_distribution<double> noise(0, deviation);
+    std::normal_distribution<double> noise;
     for (std::size_t i = 0; i < sphere.positions.size(); ++i) {
-        const double height = noise(random);
+        const double height = deviation * noise(random);
         if (i % static_cast<std::size_t>(one_of) == 0) sphere.positions[i] *= 1 + height;
     }
     return sphere;
