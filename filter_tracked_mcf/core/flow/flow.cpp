@@ -20,8 +20,8 @@ constexpr int kSubsteps[] = {1, 4, 16};
 /// makes no step. The grid resolves no finer detail.
 constexpr double kShortStepInCells = 1;
 
-/// Replaces the numbers of an attempt by those of another one. Time and iterations
-/// are those of both.
+/// Replaces the numbers of an attempt by those of another one. Time and iterations are those of
+/// both.
 void replace_attempt(StepReport& report, StepReport again) {
     again.assemble_seconds += report.assemble_seconds;
     again.solve_seconds += report.solve_seconds;
@@ -109,8 +109,9 @@ bool Flow::step() {
     StepReport report;
     Care care = care_;
     StepResult next = stepper_.advance(state_, stepper_.size(), care, report);
-    const auto* const first = std::get_if<FlowState>(&next);
-    if (first != nullptr && report_.steps.empty() && stepper_.shortens_steps(*first)) {
+    // A first step that has removed more than noise is made again, shorter.
+    const auto* const made = std::get_if<FlowState>(&next);
+    if (made != nullptr && report_.steps.empty() && stepper_.shortens_steps(*made)) {
         next = advance_in_substeps(1, care, report);
     }
     if (is(next, Stop::Vanished)) {

@@ -65,8 +65,8 @@ private:
     Grid grid_;
     EdgeSize size_;
     NormalSmoother smoother_;
-    double noise_;
-    double step_factor_;
+    double noise_;        ///< grid units
+    double step_factor_;  ///< at least 1
     std::vector<EdgeTensor> tensors_;
 };
 
