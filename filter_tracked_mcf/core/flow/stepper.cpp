@@ -9,6 +9,7 @@
 #include "filter_tracked_mcf/core/mesh/measures.h"
 #include "filter_tracked_mcf/core/parallel/parallel.h"
 #include "filter_tracked_mcf/core/parallel/progress_meter.h"
+#include "filter_tracked_mcf/core/parallel/raw_vector.h"
 #include "filter_tracked_mcf/core/parallel/setup_phases.h"
 #include "filter_tracked_mcf/core/parallel/stopwatch.h"
 #include "filter_tracked_mcf/core/system/constrained_cells.h"
@@ -153,21 +154,19 @@ StepResult Stepper::advance(const FlowState& from, const StepSize& size, const C
 
 bool Stepper::shortens_steps(const FlowState& to) {
     if (!edge_metric_) return false;
-    const auto count = static_cast<std::int64_t>(elements_.vertices.size());
-    using Sums = Eigen::Vector2d;  // of squared movements, of vertices that move
-    const Sums sums = parallel_sum(count, Sums(0, 0), [&](std::int64_t begin, std::int64_t end) {
-        Sums sum(0, 0);
-        for (std::int64_t i = begin; i < end; ++i) {
-            const VertexLocation& vertex = elements_.vertices[i];
-            if (vertex.element == VertexLocation::kNoElement) continue;
-            if (elements_.vertex_constrained[i] != 0) continue;
-            const double square = evaluate_vertex(elements_, to.displacement, vertex).squaredNorm();
-            const bool is_local = !elements_.densities.empty();
-            sum += Sums(is_local ? square * elements_.densities[vertex.element] : square, 1);
-        }
-        return sum;
+    RawVector<float> movements(elements_.vertices.size());
+    parallel_for_rows(static_cast<std::int64_t>(movements.size()), [&](std::int32_t i) {
+        const VertexLocation& vertex = elements_.vertices[i];
+        const bool moves =
+            vertex.element != VertexLocation::kNoElement && elements_.vertex_constrained[i] == 0;
+        movements[i] = kNoMagnitude;
+        if (!moves) return;
+        const double density =
+            elements_.densities.empty() ? 1.0 : double{elements_.densities[vertex.element]};
+        movements[i] = static_cast<float>(
+            std::sqrt(density) * evaluate_vertex(elements_, to.displacement, vertex).norm());
     });
-    return sums[1] > 0 && edge_metric_->shorten_steps(std::sqrt(sums[0] / sums[1]));
+    return edge_metric_->shorten_steps(deviation_of_most(movements));
 }
 
 void Stepper::predict(const std::vector<Scaling>& scalings, const Coefficients& displacement) {

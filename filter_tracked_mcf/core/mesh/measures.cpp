@@ -126,4 +126,14 @@ std::vector<double> along_normals(const std::vector<Eigen::Vector3d>& vectors,
     return components;
 }
 
+double deviation_of_most(RawVector<float>& magnitudes) {
+    constexpr double normal_median = 0.6745;  // for a standard deviation of 1
+    const auto begin = std::partition(magnitudes.begin(), magnitudes.end(),
+                                      [](float magnitude) { return magnitude == kNoMagnitude; });
+    if (begin == magnitudes.end()) return 0;
+    const auto median = begin + (magnitudes.end() - begin) / 2;
+    std::nth_element(begin, median, magnitudes.end());
+    return *median / normal_median;
+}
+
 }  // namespace tracked_mcf

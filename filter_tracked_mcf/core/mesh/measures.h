@@ -6,6 +6,7 @@
 #include <array>
 #include <vector>
 
+#include "filter_tracked_mcf/core/parallel/raw_vector.h"
 #include "filter_tracked_mcf/core/triangle_mesh.h"
 
 namespace tracked_mcf {
@@ -58,6 +59,14 @@ double swept_volume_rate(const std::array<Eigen::Vector3d, 3>& initial,
 /// where no selected triangle has an area.
 std::vector<double> along_normals(const std::vector<Eigen::Vector3d>& vectors,
                                   const TriangleMesh& mesh, const Selection& selection = {});
+
+/// A magnitude that does not count.
+inline constexpr float kNoMagnitude = -1;
+
+/// Returns the standard deviation of the numbers that have these magnitudes, if most of them are
+/// normally distributed with mean 0: their median, scaled. Few other numbers count little. Returns
+/// 0 if no magnitude counts. Changes the order of the magnitudes.
+double deviation_of_most(RawVector<float>& magnitudes);
 
 /// Returns the positions of a triangle's corners.
 inline std::array<Eigen::Vector3d, 3> corners_of(const std::vector<Eigen::Vector3d>& positions,

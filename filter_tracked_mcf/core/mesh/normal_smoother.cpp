@@ -30,9 +30,6 @@ constexpr double kLeastAreaRatio = 1e-6;
 /// vertices that have six neighbours each.
 constexpr double kNoiseGain = 1.359;
 
-/// The median of the absolute value of a normal distribution whose standard deviation is 1.
-constexpr double kNormalMedian = 0.6745;
-
 /// One number for each coordinate.
 using Numbers = Eigen::Array4d;
 
@@ -222,18 +219,12 @@ double NormalSmoother::noise(const std::vector<Eigen::Vector3d>& positions) {
     });
     RawVector<float> heights(positions.size());
     parallel_for_rows(count, [&](std::int32_t vertex) {
-        constexpr float none = -1;
-        heights[vertex] = none;
+        heights[vertex] = kNoMagnitude;
         if (!has_neighbours(vertex)) return;
         heights[vertex] = std::abs(from_mean(residual_, vertex).dot(averages_[vertex])) *
                           static_cast<float>(std::sqrt(vertex_density(vertex)));
     });
-    heights.erase(std::remove_if(heights.begin(), heights.end(), [](float h) { return h < 0; }),
-                  heights.end());
-    if (heights.empty()) return 0;
-    const auto median = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2);
-    std::nth_element(heights.begin(), median, heights.end());
-    return *median / (kNormalMedian * kNoiseGain);
+    return deviation_of_most(heights) / kNoiseGain;
 }
 
 void NormalSmoother::assemble(const std::vector<Eigen::Vector3d>& positions, double step_size,

@@ -22,11 +22,15 @@ constexpr double kStepsPerNoise = 100;
 /// left to keep.
 constexpr double kMostNoise = 0.25;
 
-/// The first step moves the vertices of a smooth surface by about this many times the noise.
-constexpr double kNoiseMovement = 0.8;
+/// The first step moves most vertices of a smooth surface by at most about this many times the
+/// noise.
+constexpr double kNoiseMovement = 0.9;
 
 /// The power of the excess movement by which steps are shortened.
 constexpr int kShortening = 5;
+
+/// A step is not made again for one that is longer than this many times it.
+constexpr double kLittleShorter = 0.9;
 
 /// Lengths count at most about this many times. An edge needs no more, and where noise is larger
 /// than the triangles the solver would need many iterations.
@@ -49,9 +53,11 @@ EdgeMetric::EdgeMetric(const Domain& domain, const TrackedElements& elements, co
       step_factor_(1 + kStepsPerNoise * std::min(noise_ / size_.detail_size, kMostNoise)) {}
 
 bool EdgeMetric::shorten_steps(double movement) {
-    if (step_factor_ == 1 || movement <= kNoiseMovement * noise_) return false;
+    if (movement <= kNoiseMovement * noise_) return false;
     const double excess = movement / (kNoiseMovement * noise_);
-    step_factor_ = std::max(1.0, step_factor_ / std::pow(excess, kShortening));
+    const double factor = std::max(1.0, step_factor_ / std::pow(excess, kShortening));
+    if (factor > kLittleShorter * step_factor_) return false;
+    step_factor_ = factor;
     return true;
 }
 

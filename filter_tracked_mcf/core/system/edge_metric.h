@@ -40,9 +40,9 @@ public:
     /// smooth parts count as long, too.
     double step_factor() const { return step_factor_; }
 
-    /// Makes the step factor smaller if the first step has moved the vertices by more than the
+    /// Makes the step factor smaller if the first step has moved most vertices by more than the
     /// noise explains: it has removed detail (the discrepancy principle, Morozov 1966). `movement`
-    /// is the root of their mean squared movement, grid units. Returns whether it did.
+    /// is the deviation_of_most() of the vertices' movements, grid units. Returns whether it did.
     bool shorten_steps(double movement);
 
     /// Smooths the normals of the surface with this displacement, in grid units, and sets the

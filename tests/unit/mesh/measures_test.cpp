@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 #include <utility>
 
+#include "filter_tracked_mcf/core/parallel/raw_vector.h"
 #include "tests/support/shapes.h"
 
 namespace tracked_mcf {
@@ -106,6 +108,21 @@ TEST(IsThin, ComparesTheAreaWithTheSquareOfTheLongestEdge) {
     }
     EXPECT_TRUE(
         is_thin({Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()}, 0));
+}
+
+TEST(DeviationOfMost, IsTheDeviationOfNoiseAndIgnoresAFewOutliers) {
+    RawVector<float> magnitudes;
+    EXPECT_EQ(deviation_of_most(magnitudes), 0);
+    std::mt19937 random(3);
+    std::normal_distribution<float> noise(0, 2);
+    for (int i = 0; i < 10000; ++i) magnitudes.push_back(std::abs(noise(random)));
+    EXPECT_NEAR(deviation_of_most(magnitudes), 2, 0.05);
+    magnitudes.insert(magnitudes.end(), 20000, kNoMagnitude);
+    EXPECT_NEAR(deviation_of_most(magnitudes), 2, 0.05);
+    magnitudes.insert(magnitudes.end(), 500, 1e6F);
+    EXPECT_NEAR(deviation_of_most(magnitudes), 2, 0.2);
+    magnitudes.assign(3, kNoMagnitude);
+    EXPECT_EQ(deviation_of_most(magnitudes), 0);
 }
 
 }  // namespace

@@ -96,9 +96,10 @@ TEST(EdgeMetric, StepsAreLongerForNoiseButNotForDetail) {
     EdgeMetric noise = metric_of(rough);
     const double factor = noise.step_factor();
     EXPECT_GT(factor, 2);
-    EXPECT_FALSE(noise.shorten_steps(0.7 * noise.noise()));
+    EXPECT_FALSE(noise.shorten_steps(0.8 * noise.noise()));
+    EXPECT_FALSE(noise.shorten_steps(0.91 * noise.noise())) << "too little to make it again";
     EXPECT_EQ(noise.step_factor(), factor);
-    EXPECT_TRUE(noise.shorten_steps(noise.noise()));
+    EXPECT_TRUE(noise.shorten_steps(1.1 * noise.noise()));
     EXPECT_LT(noise.step_factor(), 0.5 * factor);
     EXPECT_TRUE(noise.shorten_steps(100 * noise.noise()));
     EXPECT_EQ(noise.step_factor(), 1);
