@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
+
+#include "filter_tracked_mcf/core/cells/fragments.h"
+#include "filter_tracked_mcf/core/cells/grid.h"
 #include "filter_tracked_mcf/core/elements/tracked_elements.h"
 #include "filter_tracked_mcf/core/memory/memory_check.h"
+#include "filter_tracked_mcf/core/memory/memory_estimate.h"
 #include "filter_tracked_mcf/core/octree/automatic_depth.h"
 
 namespace tracked_mcf {
@@ -24,16 +29,16 @@ inline TrackedElements build_tracked_elements(const TriangleMesh& mesh, const Gr
                                   separate_sheets);
 }
 
-/// Returns the automatic depth of a whole mesh, for a detail that needs `least_depth`.
-inline int automatic_depth(const TriangleMesh& mesh, bool separate_sheets = true,
-                           int least_depth = 0) {
-    FlowParameters parameters;
-    parameters.separate_sheets = separate_sheets;
+/// Returns the automatic depth of a whole mesh, for a detail that needs `least_depth`, with so much
+/// memory, or as much as is needed.
+inline int automatic_depth(const TriangleMesh& mesh, int least_depth = 0,
+                           std::int64_t available_memory = 0) {
     const Domain domain(mesh, BoundaryCondition::Free);
     const Grid cube = enclosing_grid(mesh, 0);
-    const MemoryCheck memory(size_of(domain), cube, parameters, 0);
-    const std::int64_t vertices = count_vertices(domain.topology());
-    return clip_at_automatic_depth(mesh, cube, vertices, least_depth, memory).grid.depth;
+    const SurfaceSize size = size_of(domain);
+    return clip_at_automatic_depth(domain, size, cube, least_depth,
+                                   MemoryCheck(size, cube, {}, available_memory))
+        .grid.depth;
 }
 
 }  // namespace tracked_mcf

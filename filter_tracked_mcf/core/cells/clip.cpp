@@ -7,12 +7,9 @@ namespace tracked_mcf {
 
 namespace {
 
-/// The side of a plane that is kept.
-enum class Keep { Above, Below };
-
 /// Returns the point where the segment from a to b crosses a plane; a and b are on opposite sides.
-/// The formula always starts at the lower point, so the result has the same bits when clipping to
-/// either side, and for both triangles that share the edge.
+/// The formula always starts at the lower point, so the result has the same bits on either side
+/// of the plane, and for both triangles that share the edge.
 inline Eigen::Vector3d cut(const Eigen::Vector3d& a, const Eigen::Vector3d& b, int axis,
                            double plane) {
     const Eigen::Vector3d& below = a[axis] < b[axis] ? a : b;
@@ -21,33 +18,6 @@ inline Eigen::Vector3d cut(const Eigen::Vector3d& a, const Eigen::Vector3d& b, i
     Eigen::Vector3d point = below + fraction * (above - below);
     point[axis] = plane;
     return point;
-}
-
-/// Clips to one side of a plane: Sutherland and Hodgman's algorithm. Points in the plane belong to
-/// both sides and are never cut again.
-template <Keep keep>
-void clip_to_half_space(const Polygon& polygon, int axis, double plane, Polygon& kept) {
-    const auto height = [&](int i) {
-        const double above = polygon.points[i][axis] - plane;
-        return keep == Keep::Above ? above : -above;
-    };
-    kept.size = 0;
-    const double first = height(0);
-    double here = first;
-    for (int i = 0; i < polygon.size; ++i) {
-        const int next = polygon.next(i);
-        const double there = next == 0 ? first : height(next);
-        if (here >= 0) {
-            const bool leaves_along_plane = here == 0 && there < 0;
-            kept.add(polygon.points[i], polygon.corner[i],
-                     leaves_along_plane ? Polygon::kNone : polygon.edge[i]);
-        }
-        if ((here > 0 && there < 0) || (here < 0 && there > 0)) {
-            kept.add(cut(polygon.points[i], polygon.points[next], axis, plane), Polygon::kNone,
-                     here > 0 ? Polygon::kNone : polygon.edge[i]);
-        }
-        here = there;
-    }
 }
 
 }  // namespace
@@ -66,18 +36,30 @@ Polygon whole_triangle(const std::array<Eigen::Vector3d, 3>& corners) {
     return polygon;
 }
 
-void cut_to_slab(const Polygon& polygon, const Extent& extent, int axis, std::int32_t slab,
-                 Polygon& part) {
-    const double lower = slab;
-    const double upper = slab + 1.0;
-    if (extent.largest <= upper) {
-        clip_to_half_space<Keep::Above>(polygon, axis, lower, part);
-    } else if (extent.smallest >= lower) {
-        clip_to_half_space<Keep::Below>(polygon, axis, upper, part);
-    } else {
-        Polygon above;
-        clip_to_half_space<Keep::Above>(polygon, axis, lower, above);
-        clip_to_half_space<Keep::Below>(above, axis, upper, part);
+/// Sutherland and Hodgman's algorithm for both planes at once: every point is cut from the
+/// polygon's own points. Points in a plane are never cut again.
+void cut_to_slab(const Polygon& polygon, int axis, std::int32_t slab, Polygon& part) {
+    const double lower = slab, upper = slab + 1.0;
+    part.size = 0;
+    for (int i = 0; i < polygon.size; ++i) {
+        const Eigen::Vector3d& point = polygon.points[i];
+        const Eigen::Vector3d& next = polygon.points[polygon.next(i)];
+        const double here = point[axis], there = next[axis];
+        // The side that follows a point where the polygon leaves the slab lies in a plane.
+        if (here >= lower && here <= upper) {
+            const bool leaves =
+                (here == lower && there < lower) || (here == upper && there > upper);
+            part.add(point, polygon.corner[i], leaves ? Polygon::kNone : polygon.edge[i]);
+        }
+        const auto add_cut = [&](double plane, bool leaves) {
+            if ((here < plane && plane < there) || (there < plane && plane < here)) {
+                part.add(cut(point, next, axis, plane), Polygon::kNone,
+                         leaves ? Polygon::kNone : polygon.edge[i]);
+            }
+        };
+        const bool rises = here < there;
+        add_cut(rises ? lower : upper, false);
+        add_cut(rises ? upper : lower, true);
     }
 }
 

@@ -59,10 +59,8 @@ inline Extent extent_along(const Polygon& polygon, int axis) {
 }
 
 /// Sets `part` to the part of a polygon between the planes `slab` and `slab + 1` of an axis, both
-/// included. The polygon must reach beyond one of the planes. `extent` is its extent along the
-/// axis.
-void cut_to_slab(const Polygon& polygon, const Extent& extent, int axis, std::int32_t slab,
-                 Polygon& part);
+/// included.
+void cut_to_slab(const Polygon& polygon, int axis, std::int32_t slab, Polygon& part);
 
 /// Returns the part of a polygon between the planes `slab` and `slab + 1` of an axis. The result
 /// refers to the polygon itself if it lies in the slab, else to `part`. `extent` is the polygon's
@@ -71,7 +69,7 @@ void cut_to_slab(const Polygon& polygon, const Extent& extent, int axis, std::in
 inline const Polygon& clip_to_slab(const Polygon& polygon, const Extent& extent, int axis,
                                    std::int32_t slab, Polygon& part) {
     if (extent.smallest >= slab && extent.largest <= slab + 1.0) return polygon;
-    cut_to_slab(polygon, extent, axis, slab, part);
+    cut_to_slab(polygon, axis, slab, part);
     return part;
 }
 

@@ -108,28 +108,12 @@ GridMesh to_grid(const SurfaceView& mesh, const Grid& grid) {
     return result;
 }
 
-bool has_area(const SurfaceView& mesh, const Grid& grid) {
-    const auto corner = [&](std::int32_t vertex) {
-        return rounded(grid.to_grid(mesh.positions[vertex]));
-    };
-    return std::any_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const Triangle& t) {
-        return !is_thin({corner(t[0]), corner(t[1]), corner(t[2])}, kDegenerate);
-    });
-}
-
 ClippedSurface clip_to_grid(const SurfaceView& mesh, const Grid& grid) {
     ClippedSurface surface{grid, to_grid(mesh, grid), {}, 0};
     surface.fragments = list_fragments(surface);
     number_by_triangle(surface.fragments);
     sort_by(surface.fragments, [](const FragmentEntry& fragment) { return fragment.cell; });
     return surface;
-}
-
-std::vector<MortonCode> occupied_cells(const RawVector<FragmentEntry>& fragments) {
-    const auto cell_of = [](const FragmentEntry& fragment) -> MortonCode { return fragment.cell; };
-    return parallel_collect_if<MortonCode>(static_cast<std::int64_t>(fragments.size()),
-                                           runs_by(fragments, cell_of),
-                                           [&](std::int64_t i) { return cell_of(fragments[i]); });
 }
 
 }  // namespace tracked_mcf

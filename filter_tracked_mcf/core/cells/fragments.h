@@ -33,9 +33,6 @@ GridMesh to_grid(const SurfaceView& mesh, const Grid& grid);
 /// coordinates. In double precision it has no plane then.
 inline constexpr double kDegenerate = 1e-12;
 
-/// Returns whether any triangle is not degenerate in the coordinates of this grid.
-bool has_area(const SurfaceView& mesh, const Grid& grid);
-
 /// A fragment: a (triangle, cell) pair, with flags of the triangle's corners and sides inside the
 /// closed cell. Degenerate triangles have fragments too. They carry no area, but they connect the
 /// surface, and their vertices need test functions. Bit-fields save memory: a surface has many
@@ -68,8 +65,5 @@ struct ClippedSurface {
 /// Clips a mesh to the cells of a grid. Throws InvalidMesh if a referenced vertex lies outside the
 /// grid's cube, InvalidParameter if there are more fragments than can be numbered.
 ClippedSurface clip_to_grid(const SurfaceView& mesh, const Grid& grid);
-
-/// Returns the cells of the fragments, increasing, each once.
-std::vector<MortonCode> occupied_cells(const RawVector<FragmentEntry>& fragments);
 
 }  // namespace tracked_mcf

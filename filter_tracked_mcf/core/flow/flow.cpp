@@ -43,19 +43,18 @@ Flow::Start Flow::start(const Domain& domain, const FlowParameters& parameters,
                         const std::optional<Grid>& grid) {
     if (!grid) enter_setup_phase(kChooseGrid);
     const Grid cube = grid ? *grid : enclosing_grid(domain.surface(), parameters.depth);
-    const MemoryCheck memory = check_of(domain, cube, parameters);
+    const SurfaceSize size = size_of(domain);
+    const MemoryCheck memory = check_of(size, cube, parameters);
     const int resolving = resolving_depth(domain.surface(), cube, parameters);
-    // Depth 0 asks for the automatic depth.
-    if (cube.depth == 0) {
-        ClippedSurface surface = clip_at_automatic_depth(
-            domain.surface(), cube, count_vertices(domain.topology()), resolving, memory);
-        const int depth = surface.grid.depth;
-        memory.before_flow(depth);
-        return {std::move(surface), memory.flow_bytes(depth), resolving};
-    }
-    memory.before_flow(cube.depth);
     enter_setup_phase(kClipTriangles);
-    return {clip_to_grid(domain.surface(), cube), memory.flow_bytes(cube.depth), resolving};
+    // Depth 0 asks for the automatic depth.
+    if (cube.depth > 0) memory.before_flow(cube.depth);
+    ClippedSurface surface = cube.depth > 0
+                                 ? clip_to_grid(domain.surface(), cube)
+                                 : clip_at_automatic_depth(domain, size, cube, resolving, memory);
+    memory.before_flow(surface.grid.depth);
+    const double bytes = memory.flow_bytes(surface.grid.depth);
+    return {std::move(surface), bytes, resolving};
 }
 
 Flow::Flow(const Domain& domain, const FlowParameters& parameters, const std::optional<Grid>& grid)

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "filter_tracked_mcf/core/memory/memory_check.h"
 
-#include <algorithm>
 #include <iomanip>
 #include <locale>
 #include <sstream>
@@ -35,13 +34,6 @@ double MemoryCheck::flow_bytes(int depth) const {
     return estimate_flow_bytes(size_, with_depth(cube_, depth), parameters_);
 }
 
-double MemoryCheck::separate_unknowns(int depth) const {
-    // A component has eight unknowns or more at any depth, a separate triangle for instance.
-    const double least = 8 * std::max(0.0, size_.characteristic);
-    if (!parameters_.separate_sheets || least > size_.vertices) return 0;
-    return expected_counts(size_, with_depth(cube_, depth), parameters_).unknowns - least;
-}
-
 void MemoryCheck::before_flow(int depth) const {
     if (!fits(depth)) refuse(depth);
 }
@@ -66,8 +58,8 @@ void MemoryCheck::refuse(int depth) const {
                           ", or smooth a simplified mesh or a part of it.");
 }
 
-MemoryCheck check_of(const Domain& domain, const Grid& cube, const FlowParameters& parameters) {
-    return {size_of(domain), cube, parameters, available_memory_bytes()};
+MemoryCheck check_of(const SurfaceSize& size, const Grid& cube, const FlowParameters& parameters) {
+    return {size, cube, parameters, available_memory_bytes()};
 }
 
 }  // namespace tracked_mcf

@@ -31,11 +31,6 @@ public:
     /// Returns the expected bytes of a flow at this depth.
     double flow_bytes(int depth) const;
 
-    /// Returns the expected number of the finest level's unknowns at this depth, without the eight
-    /// that each component has at any depth. Returns 0 if the parameters do not separate sheets, or
-    /// if these eight alone are more than the vertices.
-    double separate_unknowns(int depth) const;
-
 private:
     bool is_free(double bytes) const;
     [[noreturn]] void refuse(int depth) const;
@@ -46,8 +41,8 @@ private:
     std::int64_t available_;
 };
 
-/// Returns the check for a domain, with the memory that is available on this machine now. It errs
-/// on the safe side by the domain's own 30 bytes per triangle, which the estimate includes.
-MemoryCheck check_of(const Domain& domain, const Grid& cube, const FlowParameters& parameters);
+/// Returns the check for a domain's surface, with the memory that is available on this machine now.
+/// It errs on the safe side by the domain's own 30 bytes per triangle, which the estimate includes.
+MemoryCheck check_of(const SurfaceSize& size, const Grid& cube, const FlowParameters& parameters);
 
 }  // namespace tracked_mcf

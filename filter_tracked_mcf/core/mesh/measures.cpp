@@ -18,7 +18,8 @@ bool is_thin(const std::array<Eigen::Vector3d, 3>& corners, double ratio) {
     const auto& [a, b, c] = corners;
     const double longest =
         std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
-    return twice_vector_area(a, b, c).norm() <= 2 * ratio * longest;
+    const double least = 2 * ratio * longest;
+    return twice_vector_area(a, b, c).squaredNorm() <= least * least;
 }
 
 double surface_area(const SurfaceView& surface, const Selection& selection) {

@@ -7,21 +7,22 @@
 #include <utility>
 
 #include "filter_tracked_mcf/core/mesh/measures.h"
-#include "filter_tracked_mcf/core/octree/octree.h"
+#include "filter_tracked_mcf/core/mesh/mesh_topology.h"
 #include "filter_tracked_mcf/core/parallel/parallel.h"
-#include "filter_tracked_mcf/core/parallel/setup_phases.h"
-#include "filter_tracked_mcf/core/parallel/sorting.h"
 
 namespace tracked_mcf {
 
 namespace {
 
-/// A surface of area A, in squared sides of a cell, has about 3 A unknowns.
-constexpr double kUnknownsPerArea = 3;
+/// Unknowns of a surface for each of its cells.
+constexpr double kUnknownsPerCell = 2;
 
-/// Separate sheets have many more unknowns than their cells' corners if they are expected to have
-/// this many times as many. The expected number of an ordinary surface is a few per cent off.
+/// Threads that are thinner than a cell have more than this many times as many cells as expected.
 constexpr double kMuchMore = 1.5;
+
+/// Few surfaces have more fragments for each triangle at the right depth. Those that have are
+/// clipped twice.
+constexpr double kFewFragments = 32;
 
 /// A grid expresses no wave shorter than two cells.
 constexpr double kCellsPerDetail = 2;
@@ -40,100 +41,42 @@ constexpr double kAlmost = 0.99;
 /// four times as many unknowns.
 constexpr int kMostDeeper = 2;
 
-/// Returns the depth at which a surface of this area is expected to have as many unknowns as
-/// vertices. The area says little about a surface much thinner than its box, so at least the area
-/// of a flat square is assumed.
-int expected_depth(const SurfaceView& mesh, const Grid& cube, std::int64_t vertices) {
-    const double area = std::max(1.0, surface_area(mesh) / (cube.cell_size * cube.cell_size));
-    const double depth = 0.5 * std::log2(static_cast<double>(vertices) / (kUnknownsPerArea * area));
-    return static_cast<int>(std::lround(depth));
+/// Returns the expected number of unknowns on a grid, with separate sheets, without those that each
+/// part of the surface has at any depth: they say nothing of the grid. Where these alone would be
+/// more than the vertices, the parts are single triangles, and their rims say nothing either.
+double expected_unknowns(SurfaceSize size, const Grid& grid) {
+    constexpr double unknowns_of_any_part = 8;
+    if (unknowns_of_any_part * size.characteristic > size.vertices) size.rim = 0;
+    size.characteristic = 0;
+    return expected_counts(size, grid, {}).unknowns;
 }
 
-/// Returns the ancestors of sorted cells `levels` levels up, increasing, each once.
-std::vector<MortonCode> ancestors(const std::vector<MortonCode>& cells, int levels) {
-    const auto ancestor = [&](MortonCode cell) { return cell >> (3U * unsigned(levels)); };
-    return parallel_collect_if<MortonCode>(static_cast<std::int64_t>(cells.size()),
-                                           runs_by(cells, ancestor),
-                                           [&](std::int64_t i) { return ancestor(cells[i]); });
+/// Returns the number of cells at a depth, at most that of the clipping.
+std::int64_t count_cells(const ClippedSurface& surface, int depth) {
+    const unsigned bits = 3 * static_cast<unsigned>(surface.grid.depth - depth);
+    const auto cell = [bits](const FragmentEntry& fragment) { return fragment.cell >> bits; };
+    return parallel_count(static_cast<std::int64_t>(surface.fragments.size()),
+                          runs_by(surface.fragments, cell));
 }
 
-/// Returns the number of different corners of cells.
-std::int64_t count_corners(const std::vector<MortonCode>& cells) {
-    RawVector<MortonCode> corners(8 * cells.size());
-    parallel_for_rows(static_cast<std::int64_t>(cells.size()), [&](std::int32_t i) {
-        const Cell cell = cell_at(cells[i]);
-        for (int corner = 0; corner < 8; ++corner) {
-            corners[8 * std::int64_t{i} + corner] = morton_code(corner_of(cell, corner));
-        }
-    });
-    const auto code = [](MortonCode corner) { return corner; };
-    sort_by(corners, code);
-    return parallel_count(static_cast<std::int64_t>(corners.size()), runs_by(corners, code));
+/// Returns the depth, 1 to `most`, for which unknowns(depth), an increasing number, is nearest to
+/// `wanted`.
+template <class Unknowns>
+int nearest_depth(const Unknowns& unknowns, double wanted, int most) {
+    const auto distance = [&](int depth) { return std::abs(unknowns(depth) - wanted); };
+    int nearest = 1;
+    while (nearest < most && distance(nearest + 1) <= distance(nearest)) ++nearest;
+    return nearest;
 }
 
-/// Clips a mesh and counts its unknowns at several depths.
-class UnknownCounter {
-public:
-    UnknownCounter(const SurfaceView& mesh, const Grid& cube, const MemoryCheck& memory, int depth)
-        : mesh_(mesh), cube_(cube), memory_(memory) {
-        clip(depth);
-    }
-
-    /// Clips again only for a depth greater than that of the last clipping: the cells of a coarser
-    /// grid are ancestors of those of a finer one.
-    std::int64_t unknowns_at(int depth) {
-        if (depth > clipped_->grid.depth) clip(depth);
-        const std::int64_t corners = count_corners(ancestors(cells_, clipped_->grid.depth - depth));
-        const double separate = memory_.separate_unknowns(depth);
-        return separate > kMuchMore * static_cast<double>(corners)
-                   ? static_cast<std::int64_t>(separate)
-                   : corners;
-    }
-
-    ClippedSurface take(int depth) && {
-        if (depth != clipped_->grid.depth) clip(depth);
-        return std::move(*clipped_);
-    }
-
-private:
-    void clip(int depth) {
-        memory_.before_clipping(depth);
-        clipped_.reset();  // two clipped surfaces at once would set the peak of memory use
-        clipped_.emplace(clip_to_grid(mesh_, with_depth(cube_, depth)));
-        cells_ = occupied_cells(clipped_->fragments);
-    }
-
-    const SurfaceView& mesh_;
-    const Grid& cube_;
-    const MemoryCheck& memory_;
-    std::optional<ClippedSurface> clipped_;
-    std::vector<MortonCode> cells_;
-};
-
-/// Returns the depth whose number of unknowns is nearest to `vertices`, starting the search at
-/// `first_depth`.
-int choose_depth(UnknownCounter& counter, int first_depth, std::int64_t vertices) {
-    constexpr std::int64_t not_counted = -1;
-    std::int64_t finer = not_counted;
-    int depth = first_depth;
-    std::int64_t unknowns = counter.unknowns_at(depth);
-    while (unknowns >= vertices && depth > 1) {
-        finer = unknowns;
-        unknowns = counter.unknowns_at(--depth);
-    }
-    while (unknowns < vertices && depth < kMaximumDepth) {
-        if (finer == not_counted) {
-            // The next depth has at least twice as many unknowns, so it would be farther off.
-            if (3 * unknowns >= 2 * vertices) return depth;
-            finer = counter.unknowns_at(depth + 1);
-        }
-        if (finer >= vertices) {
-            return vertices - unknowns <= finer - vertices ? depth : depth + 1;
-        }
-        ++depth;
-        unknowns = finer;
-        finer = not_counted;
-    }
+/// Returns the greatest depth with few fragments.
+int deepest_with_few_fragments(const SurfaceSize& size, const Grid& cube) {
+    int depth = 1;
+    const auto has_few = [&](int deeper) {
+        return expected_counts(size, with_depth(cube, deeper), {}).fragments <=
+               kFewFragments * size.triangles;
+    };
+    while (depth < kMaximumDepth && has_few(depth + 1)) ++depth;
     return depth;
 }
 
@@ -151,19 +94,33 @@ int resolving_depth(const SurfaceView& mesh, const Grid& grid, const FlowParamet
     return static_cast<int>(std::clamp(std::ceil(std::log2(cells)), 1.0, double{kMaximumDepth}));
 }
 
-ClippedSurface clip_at_automatic_depth(const SurfaceView& mesh, const Grid& cube,
-                                       std::int64_t vertices, int least_depth,
+ClippedSurface clip_at_automatic_depth(const Domain& domain, const SurfaceSize& size,
+                                       const Grid& cube, int least_depth,
                                        const MemoryCheck& memory) {
-    if (!has_area(mesh, cube)) return clip_to_grid(mesh, with_depth(cube, 1));
-    // The search starts one depth below the expected one, but the mesh is clipped at the expected
-    // one, since that is most often the result.
-    const int expected = expected_depth(mesh, cube, vertices);
-    UnknownCounter counter(mesh, cube, memory, std::clamp(expected, 1, kMaximumDepth));
-    const int least = choose_depth(counter, std::clamp(expected - 1, 1, kMaximumDepth), vertices);
-    int depth = std::clamp(least_depth, least, std::min(least + kMostDeeper, kMaximumDepth));
-    while (depth > least && !memory.fits(depth)) --depth;
-    enter_setup_phase(kClipTriangles);
-    return std::move(counter).take(depth);
+    const auto expected = [&](int depth) {
+        return expected_unknowns(size, with_depth(cube, depth));
+    };
+    const auto clip = [&](int balanced) {
+        int depth =
+            std::clamp(least_depth, balanced, std::min(balanced + kMostDeeper, kMaximumDepth));
+        while (depth > balanced && !memory.fits(depth)) --depth;
+        memory.before_clipping(depth);
+        return clip_to_grid(domain.surface(), with_depth(cube, depth));
+    };
+    const auto vertices = static_cast<double>(count_vertices(domain.topology()));
+    int balanced = size.shadows > 0 ? nearest_depth(expected, vertices, kMaximumDepth) : 1;
+    const int first = std::min(balanced, deepest_with_few_fragments(size, cube));
+    std::optional<ClippedSurface> surface(clip(first));
+    const auto counted = [&](int depth) {
+        return kUnknownsPerCell * static_cast<double>(count_cells(*surface, depth));
+    };
+    if (counted(first) > kMuchMore * expected(first))
+        balanced = nearest_depth(counted, vertices, first);
+    if (balanced != first) {
+        surface.reset();  // two clipped surfaces at once would set the peak of memory use
+        surface.emplace(clip(balanced));
+    }
+    return *std::move(surface);
 }
 
 }  // namespace tracked_mcf

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <cstdint>
-
 #include "filter_tracked_mcf/core/cells/fragments.h"
 #include "filter_tracked_mcf/core/cells/grid.h"
 #include "filter_tracked_mcf/core/flow_parameters.h"
 #include "filter_tracked_mcf/core/memory/memory_check.h"
+#include "filter_tracked_mcf/core/memory/memory_estimate.h"
+#include "filter_tracked_mcf/core/mesh/domain.h"
 #include "filter_tracked_mcf/core/triangle_mesh.h"
 
 namespace tracked_mcf {
@@ -17,16 +17,13 @@ namespace tracked_mcf {
 /// size: its caller knows the grid.
 int resolving_depth(const SurfaceView& mesh, const Grid& grid, const FlowParameters& parameters);
 
-/// Clips the mesh to `cube` (a grid of depth 0) at the depth, 1 to kMaximumDepth, whose number of
-/// unknowns is nearest to `vertices`. If that depth is less than `least_depth`, the depth is up to
-/// two greater, as far as the flow fits into the memory. It is 1 if all triangles are degenerate.
-///
-/// The unknowns without separate sheets are counted, at the depths that can decide, assuming that
-/// each depth has at least twice as many as the one before. MemoryCheck::separate_unknowns()
-/// replaces the count where it is much larger. Throws what clip_to_grid throws, and NotEnoughMemory
-/// if clipping does not fit.
-ClippedSurface clip_at_automatic_depth(const SurfaceView& mesh, const Grid& cube,
-                                       std::int64_t vertices, int least_depth,
+/// Clips the domain's surface, of this size, to `cube` (a grid of depth 0) at the depth, 1 to
+/// kMaximumDepth, whose expected number of unknowns is nearest to the number of vertices. It is
+/// less where threads thinner than a cell have many more. If that depth is less than `least_depth`,
+/// the depth is up to two greater, as far as the flow fits into the memory. It is 1 if no triangle
+/// has an area. Throws what clip_to_grid throws, and NotEnoughMemory if clipping does not fit.
+ClippedSurface clip_at_automatic_depth(const Domain& domain, const SurfaceSize& size,
+                                       const Grid& cube, int least_depth,
                                        const MemoryCheck& memory);
 
 }  // namespace tracked_mcf

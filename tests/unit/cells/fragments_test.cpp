@@ -73,26 +73,11 @@ TEST(Fragments, OfDegenerateTrianglesCarryNoAreaButTheirCorners) {
     EXPECT_EQ(corners, 7U);
 }
 
-TEST(Fragments, OccupiedCellsAreTheirCellsOnce) {
-    const ClippedSurface surface = clipped(shapes::bumpy_sphere(8), 4);
-    std::vector<MortonCode> expected;
-    for (const FragmentEntry& fragment : surface.fragments) expected.push_back(fragment.cell);
-    expected.erase(std::unique(expected.begin(), expected.end()), expected.end());
-    EXPECT_EQ(occupied_cells(surface.fragments), expected);
-}
-
 TEST(GridMesh, PutsAFaceIntoTheGridPlaneThatItMissesByRounding) {
     TriangleMesh mesh = shapes::square(2);
     for (Eigen::Vector3d& p : mesh.positions) p[2] = 0.5 + 1e-12 * p[0];
     const GridMesh in_grid = to_grid(mesh, {Eigen::Vector3d::Zero(), 0.25, 2});
     for (const Eigen::Vector3d& p : in_grid.positions) EXPECT_EQ(p[2], 2);
-}
-
-TEST(HasArea, IsFalseForNeedlesOnly) {
-    TriangleMesh mesh{{{0, 0, 0}, {1, 0, 0}, {0.5, 0, 0}, {0.5, 0.1, 0}}, {{0, 1, 2}}};
-    EXPECT_FALSE(has_area(mesh, enclosing_grid(mesh, 0)));
-    mesh.triangles.push_back({0, 1, 3});
-    EXPECT_TRUE(has_area(mesh, enclosing_grid(mesh, 0)));
 }
 
 }  // namespace

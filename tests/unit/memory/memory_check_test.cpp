@@ -9,7 +9,7 @@
 
 #include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/memory/process_memory.h"
-#include "filter_tracked_mcf/core/octree/automatic_depth.h"
+#include "tests/support/elements.h"
 #include "tests/unit/flows.h"
 
 namespace tracked_mcf {
@@ -69,9 +69,8 @@ TEST_F(CheckOfASphere, ClippingNeedsLess) {
 }
 
 TEST_F(CheckOfASphere, RefusesToClipAtTheAutomaticDepth) {
-    const Grid cube = enclosing_grid(mesh_, 0);
-    EXPECT_NO_THROW(clip_at_automatic_depth(mesh_, cube, 4002, 0, with(0)));
-    EXPECT_THROW(clip_at_automatic_depth(mesh_, cube, 4002, 0, with(1000)), NotEnoughMemory);
+    EXPECT_NO_THROW(automatic_depth(mesh_));
+    EXPECT_THROW(automatic_depth(mesh_, 0, 1000), NotEnoughMemory);
 }
 
 TEST(AvailableMemory, IsKnown) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <random>
+#include <utility>
 
 #include "tests/support/elements.h"
 #include "tests/support/shapes.h"
@@ -27,12 +28,17 @@ TEST(AutomaticDepth, OfAStackIsThatOfItsSheet) {
     const TriangleMesh sheet = shapes::square(9);
     const TriangleMesh stack = shapes::stack(sheet, 50, 1e-6);
     EXPECT_EQ(automatic_depth(stack), automatic_depth(sheet));
-    EXPECT_GT(automatic_depth(stack, false), automatic_depth(sheet));
 }
 
 TEST(AutomaticDepth, OfSeparateTrianglesDoesNotCountTheirSheets) {
     const TriangleMesh triangles = shapes::separate_triangles(5000);
-    EXPECT_EQ(automatic_depth(triangles), automatic_depth(triangles, false));
+    const std::int32_t unknowns =
+        build_tracked_elements(triangles, enclosing_grid(triangles, automatic_depth(triangles)),
+                               Cubature::ThreePoints, false)
+            .finest()
+            .unknown_count();
+    EXPECT_GT(unknowns, 15000 / 3);
+    EXPECT_LT(unknowns, 15000 * 3);
 }
 
 TEST(AutomaticDepth, EndsForNeedlesAndIsOneForDegenerateTriangles) {
@@ -47,7 +53,7 @@ TEST(AutomaticDepth, EndsForNeedlesAndIsOneForDegenerateTriangles) {
         }
     }
     lines.positions.back() = lines.positions.front();
-    EXPECT_LE(automatic_depth(needles), kMaximumDepth);
+    EXPECT_LE(automatic_depth(needles), 8);
     EXPECT_EQ(automatic_depth(lines), 1);
 }
 
@@ -106,25 +112,38 @@ TEST(AutomaticDepth, IsUpToTwoGreaterForFineDetail) {
     const TriangleMesh mesh = shapes::bumpy_sphere(20);
     const int balanced = automatic_depth(mesh);
     for (const int more : {-1, 0, 1, 2}) {
-        EXPECT_EQ(automatic_depth(mesh, true, balanced + more), balanced + std::max(0, more));
+        EXPECT_EQ(automatic_depth(mesh, balanced + more), balanced + std::max(0, more));
     }
-    EXPECT_EQ(automatic_depth(mesh, true, balanced + 3), balanced + 2);
+    EXPECT_EQ(automatic_depth(mesh, balanced + 3), balanced + 2);
 }
 
 TEST(AutomaticDepth, IsNotGreaterThanWhatFits) {
     const TriangleMesh mesh = shapes::bumpy_sphere(20);
     const int balanced = automatic_depth(mesh);
-    const Grid cube = enclosing_grid(mesh, 0);
-    const auto depth_with = [&](std::int64_t available) {
-        const MemoryCheck memory(size_of(Domain(mesh, BoundaryCondition::Free)), cube, {},
-                                 available);
-        const auto vertices = static_cast<std::int64_t>(mesh.positions.size());
-        return clip_at_automatic_depth(mesh, cube, vertices, balanced + 2, memory).grid.depth;
-    };
-    const MemoryCheck unlimited(size_of(Domain(mesh, BoundaryCondition::Free)), cube, {}, 0);
+    const MemoryCheck unlimited(size_of(Domain(mesh, BoundaryCondition::Free)),
+                                enclosing_grid(mesh, 0), {}, 0);
     const auto bytes = static_cast<std::int64_t>(unlimited.flow_bytes(balanced + 1));
-    EXPECT_EQ(depth_with(bytes + 1), balanced + 1);
-    EXPECT_EQ(depth_with(bytes - 1), balanced);
+    EXPECT_EQ(automatic_depth(mesh, balanced + 2, bytes + 1), balanced + 1);
+    EXPECT_EQ(automatic_depth(mesh, balanced + 2, bytes - 1), balanced);
+}
+
+TEST(AutomaticDepth, OfThreadsThinnerThanACellCountsTheCellsAlongThem) {
+    TriangleMesh threads;
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> coordinate(-1, 1);
+    for (int i = 0; i < 200; ++i) {
+        const auto vector = [&] {
+            return Eigen::Vector3d(coordinate(random), coordinate(random), coordinate(random));
+        };
+        TriangleMesh thread = shapes::geodesic_sphere(2);
+        const Eigen::Vector3d along = vector().normalized(), at = vector();
+        for (Eigen::Vector3d& p : thread.positions) p = at + p[0] * along + 1e-6 * p;
+        threads = shapes::merged(std::move(threads), thread);
+    }
+    const auto vertices = static_cast<std::int32_t>(threads.positions.size());
+    const std::int32_t unknowns =
+        elements_at(threads, automatic_depth(threads)).finest().unknown_count();
+    EXPECT_LT(unknowns, 10 * vertices);
 }
 
 TEST(AutomaticDepth, RemovesNearlyAsMuchNoiseAsTwoDepthsMore) {
