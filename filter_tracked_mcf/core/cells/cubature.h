@@ -42,15 +42,16 @@ template <class Visit>
 void for_each_node(const Polygon& polygon, const std::array<Eigen::Vector3d, 3>& triangle,
                    const std::vector<CubatureNode>& rule, Visit&& visit) {
     const int apex = polygon.size > 3 ? fan_apex(polygon, triangle) : 0;
-    const auto point = [&](int i) -> const Eigen::Vector3d& {
-        return polygon.points[(apex + i) % polygon.size];
-    };
+    const Eigen::Vector3d& first = polygon.points[apex];
+    int last = polygon.next(apex);
     for (int i = 2; i < polygon.size; ++i) {
-        const double area = 0.5 * twice_vector_area(point(0), point(i - 1), point(i)).norm();
+        const Eigen::Vector3d& second = polygon.points[last];
+        last = polygon.next(last);
+        const Eigen::Vector3d& third = polygon.points[last];
+        const double area = 0.5 * twice_vector_area(first, second, third).norm();
         for (const CubatureNode& node : rule) {
-            visit(WeightedPoint{node.barycentric[0] * point(0) +
-                                    node.barycentric[1] * point(i - 1) +
-                                    node.barycentric[2] * point(i),
+            visit(WeightedPoint{node.barycentric[0] * first + node.barycentric[1] * second +
+                                    node.barycentric[2] * third,
                                 node.weight * area});
         }
     }
