@@ -144,20 +144,37 @@ Points face_normals(const Points& positions, const Polygons& polygons) {
 /// `normals`, unless empty; a zero normal keeps the old one.
 void write_rows(std::ostream& out, const PlyElement& element, const Points* positions,
                 const Points& normals) {
+    struct Source {
+        bool is_double;
+        int coordinate, normal;  ///< or -1
+    };
+    std::vector<Source> sources;
+    for (const PlyProperty& property : element.properties) {
+        const bool is_number = !property.is_list();
+        sources.push_back({is_number && written_type(element, property) == PlyType::Double,
+                           positions ? index_in(kCoordinates, property.name) : -1,
+                           normals.empty() ? -1 : index_in(kNormal, property.name)});
+    }
+    std::string block;  // a stream takes a few large blocks much faster than many small ones
+    constexpr std::size_t block_size = 1 << 16;
     const auto write_field = [&](std::size_t row, const PlyProperty& property,
                                  std::string_view bytes) {
-        if (property.is_list() || written_type(element, property) != PlyType::Double) {
-            out << bytes;
-            return;
+        const Source& source =
+            sources[static_cast<std::size_t>(&property - element.properties.data())];
+        if (source.is_double) {
+            double number = number_at(bytes.data(), property.type);
+            if (source.coordinate >= 0) number = (*positions)[row][source.coordinate];
+            if (source.normal >= 0 && !normals[row].isZero(0)) number = normals[row][source.normal];
+            block += as_bytes(number);
+        } else {
+            block += bytes;
         }
-        double number = number_at(bytes.data(), property.type);
-        const int coordinate = positions ? index_in(kCoordinates, property.name) : -1;
-        const int normal = normals.empty() ? -1 : index_in(kNormal, property.name);
-        if (coordinate >= 0) number = (*positions)[row][coordinate];
-        if (normal >= 0 && !normals[row].isZero(0)) number = normals[row][normal];
-        out << as_bytes(number);
+        if (block.size() < block_size) return;
+        out << block;
+        block.clear();
     };
     element.for_each_field(write_field);
+    out << block;
 }
 
 }  // namespace

@@ -76,15 +76,16 @@ public:
     std::string_view word() {
         constexpr std::string_view blanks = " \t\r\n\f\v";
         rest_.remove_prefix(std::min(rest_.find_first_not_of(blanks), rest_.size()));
-        return bytes(std::min(rest_.find_first_of(blanks), rest_.size()));
+        return bytes(1, std::min(rest_.find_first_of(blanks), rest_.size()));
     }
 
-    std::string_view bytes(std::size_t count) {
-        if (count > rest_.size() || rest_.empty()) {
+    /// Returns `count` times `size` bytes.
+    std::string_view bytes(std::size_t count, std::size_t size) {
+        if (rest_.empty() || size > rest_.size() / count) {
             throw UnreadableFile("it ends before all that its header announces; it is truncated");
         }
-        const std::string_view result = rest_.substr(0, count);
-        rest_.remove_prefix(count);
+        const std::string_view result = rest_.substr(0, count * size);
+        rest_.remove_prefix(result.size());
         return result;
     }
 
@@ -94,33 +95,47 @@ private:
 
 enum class Encoding { Ascii, LittleEndian, BigEndian };
 
-/// Appends the next number of the file to `bytes`.
-void read_number(Content& content, Encoding encoding, PlyType type, std::string& bytes) {
-    if (encoding == Encoding::Ascii) return append_text(content.word(), type, bytes);
-    bytes.append(content.bytes(size_of(type)));
-    if (encoding == Encoding::BigEndian) {
-        std::reverse(bytes.end() - static_cast<std::ptrdiff_t>(size_of(type)), bytes.end());
+/// Appends the next `count` numbers of the file to `bytes`.
+void read_numbers(Content& content, Encoding encoding, PlyType type, std::size_t count,
+                  std::string& bytes) {
+    const std::size_t size = size_of(type);
+    if (encoding == Encoding::LittleEndian) {
+        bytes.append(content.bytes(count, size));
+        return;
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+        if (encoding == Encoding::Ascii) {
+            append_text(content.word(), type, bytes);
+        } else {
+            bytes.append(content.bytes(1, size));
+            std::reverse(bytes.end() - static_cast<std::ptrdiff_t>(size), bytes.end());
+        }
     }
 }
 
 void read_list(Content& content, Encoding encoding, const PlyProperty& list, std::string& bytes) {
     const std::size_t begin = bytes.size();
-    read_number(content, encoding, list.count_type, bytes);
+    read_numbers(content, encoding, list.count_type, 1, bytes);
     if (number_at(bytes.data() + begin, list.count_type) < 0) {
         throw UnreadableFile("a list " + list.name + " has a negative length");
     }
     const std::size_t length = list_length(list, bytes.data() + begin);
-    for (std::size_t i = 0; i < length; ++i) read_number(content, encoding, list.type, bytes);
+    if (length > 0) read_numbers(content, encoding, list.type, length, bytes);
 }
 
 void read_rows(Content& content, Encoding encoding, PlyElement& element) {
-    if (element.properties.empty()) return;
+    if (element.properties.empty() || element.count == 0) return;
+    if (const std::size_t size = element.row_size();
+        size > 0 && encoding == Encoding::LittleEndian) {
+        element.rows = content.bytes(element.count, size);
+        return;
+    }
     for (std::size_t row = 0; row < element.count; ++row) {
         for (const PlyProperty& property : element.properties) {
             if (property.is_list()) {
                 read_list(content, encoding, property, element.rows);
             } else {
-                read_number(content, encoding, property.type, element.rows);
+                read_numbers(content, encoding, property.type, 1, element.rows);
             }
         }
     }
@@ -220,6 +235,15 @@ double number_at(const char* bytes, PlyType type) {
 
 const PlyProperty* PlyElement::find(std::string_view property_name) const {
     return find_by_name(properties, property_name);
+}
+
+std::size_t PlyElement::row_size() const {
+    std::size_t size = 0;
+    for (const PlyProperty& property : properties) {
+        if (property.is_list()) return 0;
+        size += size_of(property.type);
+    }
+    return size;
 }
 
 std::vector<double> PlyElement::numbers(std::string_view property_name) const {
