@@ -7,17 +7,16 @@ namespace tracked_mcf {
 
 namespace {
 
-/// Returns the point where the segment from a to b crosses a plane; a and b are on opposite sides.
-/// The formula always starts at the lower point, so the result has the same bits on either side
-/// of the plane, and for both triangles that share the edge.
-inline Eigen::Vector3d cut(const Eigen::Vector3d& a, const Eigen::Vector3d& b, int axis,
-                           double plane) {
+/// Adds the point where the segment from a to b crosses a plane; a and b are on opposite sides. The
+/// formula always starts at the lower point, so the result has the same bits on either side of the
+/// plane, and for both triangles that share the edge.
+inline void add_cut(const Eigen::Vector3d& a, const Eigen::Vector3d& b, int axis, double plane,
+                    int on_edge, Polygon& part) {
     const Eigen::Vector3d& below = a[axis] < b[axis] ? a : b;
     const Eigen::Vector3d& above = a[axis] < b[axis] ? b : a;
     const double fraction = (plane - below[axis]) / (above[axis] - below[axis]);
-    Eigen::Vector3d point = below + fraction * (above - below);
-    point[axis] = plane;
-    return point;
+    part.add(below + fraction * (above - below), Polygon::kNone, on_edge);
+    part.points[part.size - 1][axis] = plane;
 }
 
 }  // namespace
@@ -40,26 +39,35 @@ Polygon whole_triangle(const std::array<Eigen::Vector3d, 3>& corners) {
 /// polygon's own points. Points in a plane are never cut again.
 void cut_to_slab(const Polygon& polygon, int axis, std::int32_t slab, Polygon& part) {
     const double lower = slab, upper = slab + 1.0;
+    // -1 below the slab, 0 in it, 1 above
+    const auto side_of = [&](double height) {
+        return static_cast<int>(height > upper) - static_cast<int>(height < lower);
+    };
+    const auto plane_of = [&](int side) { return side < 0 ? lower : upper; };
     part.size = 0;
+    double here = polygon.points[0][axis];
+    int side = side_of(here);
     for (int i = 0; i < polygon.size; ++i) {
         const Eigen::Vector3d& point = polygon.points[i];
         const Eigen::Vector3d& next = polygon.points[polygon.next(i)];
-        const double here = point[axis], there = next[axis];
+        const double there = next[axis];
+        const int next_side = side_of(there);
+        const bool enters = side != 0 && side != next_side && there != plane_of(side);
+        const bool leaves = next_side != 0 && side != next_side;
+        const bool leaves_from_plane = leaves && here == plane_of(next_side);
         // The side that follows a point where the polygon leaves the slab lies in a plane.
-        if (here >= lower && here <= upper) {
-            const bool leaves =
-                (here == lower && there < lower) || (here == upper && there > upper);
-            part.add(point, polygon.corner[i], leaves ? Polygon::kNone : polygon.edge[i]);
+        if (side == 0) {
+            part.add(point, polygon.corner[i],
+                     leaves_from_plane ? Polygon::kNone : polygon.edge[i]);
         }
-        const auto add_cut = [&](double plane, bool leaves) {
-            if ((here < plane && plane < there) || (there < plane && plane < here)) {
-                part.add(cut(point, next, axis, plane), Polygon::kNone,
-                         leaves ? Polygon::kNone : polygon.edge[i]);
-            }
-        };
-        const bool rises = here < there;
-        add_cut(rises ? lower : upper, false);
-        add_cut(rises ? upper : lower, true);
+        if (enters) {
+            add_cut(point, next, axis, plane_of(side), polygon.edge[i], part);
+        }
+        if (leaves && !leaves_from_plane) {
+            add_cut(point, next, axis, plane_of(next_side), Polygon::kNone, part);
+        }
+        here = there;
+        side = next_side;
     }
 }
 
