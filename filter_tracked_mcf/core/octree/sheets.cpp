@@ -104,18 +104,19 @@ private:
             if (other == LastFragments::kNone) return;
             if (sheets_.unite(other - begin, fragment - begin)) --sheet_count;
         };
-        for (std::int32_t i = begin; i < end; ++i) {
-            if (sheet_count == 1) return true;
-            const FragmentEntry& fragment = fragments_[i];
-            const Triangle& vertices = topology_.triangles[fragment.triangle];
-            const auto& edges = topology_.edges[fragment.triangle];
+        // Most cells are one sheet by their vertices alone.
+        for (std::int32_t i = begin; i < end && sheet_count > 1; ++i) {
+            const Triangle& vertices = topology_.triangles[fragments_[i].triangle];
             for (int k = 0; k < 3; ++k) {
-                const auto vertex = static_cast<std::uint32_t>(vertices[k]);
-                const auto edge = static_cast<std::uint32_t>(edges[k]);
-                if (has_bit(fragment.corners, k)) join(vertex, i);
-                if (has_bit(fragment.edges, k) && edges[k] != MeshTopology::kNoEdge) {
-                    join(kEdge | edge, i);
-                }
+                if (has_bit(fragments_[i].corners, k))
+                    join(static_cast<std::uint32_t>(vertices[k]), i);
+            }
+        }
+        for (std::int32_t i = begin; i < end && sheet_count > 1; ++i) {
+            const auto& edges = topology_.edges[fragments_[i].triangle];
+            for (int k = 0; k < 3; ++k) {
+                if (has_bit(fragments_[i].edges, k) && edges[k] != MeshTopology::kNoEdge)
+                    join(kEdge | static_cast<std::uint32_t>(edges[k]), i);
             }
         }
         return sheet_count == 1;
