@@ -14,12 +14,12 @@ struct SetupPhase {
 // The phases in order. A flow skips those that its parameters do not need.
 inline constexpr SetupPhase kCheckMesh = {0, "Checking the mesh"};
 inline constexpr SetupPhase kFindEdges = {0.01, "Finding the edges"};
-inline constexpr SetupPhase kMeasureSurface = {0.10, "Measuring the surface"};
-inline constexpr SetupPhase kChooseGrid = {0.12, "Choosing the grid"};
-inline constexpr SetupPhase kClipTriangles = {0.31, "Clipping triangles to cells"};
-inline constexpr SetupPhase kBuildOctree = {0.33, "Building the octree"};
-inline constexpr SetupPhase kSampleSurface = {0.52, "Sampling the surface"};
-inline constexpr SetupPhase kPrepareSolver = {0.77, "Preparing the solver"};
+inline constexpr SetupPhase kMeasureSurface = {0.20, "Measuring the surface"};
+inline constexpr SetupPhase kChooseGrid = {0.20, "Choosing the grid"};
+inline constexpr SetupPhase kClipTriangles = {0.25, "Clipping triangles to cells"};
+inline constexpr SetupPhase kBuildOctree = {0.42, "Building the octree"};
+inline constexpr SetupPhase kSampleSurface = {0.60, "Sampling the surface"};
+inline constexpr SetupPhase kPrepareSolver = {0.89, "Preparing the solver"};
 
 /// Enters a phase as enter_phase() does. The innermost span is the whole set-up.
 inline void enter_setup_phase(const SetupPhase& phase) {
