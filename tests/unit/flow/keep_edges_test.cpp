@@ -58,6 +58,19 @@ TEST(KeepEdges, HardlyMovesACleanCube) {
     EXPECT_LT(rms_to_cube(evolved(cube, keeping(25))), 0.02 * kEdge);
 }
 
+// The step for so much noise would move this surface, which has none, by twice the noise.
+TEST(KeepEdges, AFirstStepThatRemovesDetailIsMadeAgainShorter) {
+    TriangleMesh bumps = shapes::geodesic_sphere(16);
+    for (Eigen::Vector3d& p : bumps.positions) p *= 1 + 0.06 * (16 * p).array().sin().prod();
+    FlowParameters p;
+    p.keep_edges = 25;
+    p.order = 2;
+    p.iterations = 1;
+    const FlowReport report = evolve(bumps, p);
+    EXPECT_GT(report.noise, 0.02 * report.detail_size);
+    EXPECT_LT(report.rms_displacement, 1.3 * report.noise);
+}
+
 // With 170 degrees, an edge of 90 is 0.7 detail sizes far to cross.
 TEST(KeepEdges, ALargeAngleKeepsLittle) {
     const TriangleMesh cube = shapes::box(kQuads, {1, 1, 1});
