@@ -47,12 +47,13 @@ Flow::Start Flow::start(const Domain& domain, const FlowParameters& parameters,
     const MemoryCheck memory = check_of(size, cube, parameters);
     const int resolving = resolving_depth(domain.surface(), cube, parameters);
     enter_setup_phase(kClipTriangles);
-    // Depth 0 asks for the automatic depth.
-    if (cube.depth > 0) memory.before_flow(cube.depth);
-    ClippedSurface surface = cube.depth > 0
-                                 ? clip_to_grid(domain.surface(), cube)
-                                 : clip_at_automatic_depth(domain, size, cube, resolving, memory);
-    memory.before_flow(surface.grid.depth);
+    const auto clip = [&] {
+        // Depth 0 asks for the automatic depth.
+        if (cube.depth == 0) return clip_at_automatic_depth(domain, size, cube, resolving, memory);
+        memory.before_flow(cube.depth);
+        return clip_to_grid(domain.surface(), cube);
+    };
+    ClippedSurface surface = clip();
     const double bytes = memory.flow_bytes(surface.grid.depth);
     return {std::move(surface), bytes, resolving};
 }

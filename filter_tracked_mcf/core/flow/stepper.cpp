@@ -166,7 +166,7 @@ bool Stepper::shortens_steps(const FlowState& to) {
         movements[i] = static_cast<float>(
             std::sqrt(density) * evaluate_vertex(elements_, to.displacement, vertex).norm());
     });
-    return edge_metric_->shorten_steps(deviation_of_most(movements));
+    return edge_metric_->shorten_steps(robust_deviation(movements));
 }
 
 void Stepper::predict(const std::vector<Scaling>& scalings, const Coefficients& displacement) {

@@ -127,7 +127,7 @@ std::vector<double> along_normals(const std::vector<Eigen::Vector3d>& vectors,
     return components;
 }
 
-double deviation_of_most(RawVector<float>& magnitudes) {
+double robust_deviation(RawVector<float>& magnitudes) {
     constexpr double normal_median = 0.6745;  // for a standard deviation of 1
     const auto begin = std::partition(magnitudes.begin(), magnitudes.end(),
                                       [](float magnitude) { return magnitude == kNoMagnitude; });

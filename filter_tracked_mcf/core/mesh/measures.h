@@ -60,13 +60,13 @@ double swept_volume_rate(const std::array<Eigen::Vector3d, 3>& initial,
 std::vector<double> along_normals(const std::vector<Eigen::Vector3d>& vectors,
                                   const TriangleMesh& mesh, const Selection& selection = {});
 
-/// A magnitude that does not count.
+/// robust_deviation() ignores this magnitude.
 inline constexpr float kNoMagnitude = -1;
 
-/// Returns the standard deviation of the numbers that have these magnitudes, if most of them are
-/// normally distributed with mean 0: their median, scaled. Few other numbers count little. Returns
-/// 0 if no magnitude counts. Changes the order of the magnitudes.
-double deviation_of_most(RawVector<float>& magnitudes);
+/// Returns the normalised median absolute deviation from 0: the standard deviation of numbers with
+/// these magnitudes if most of them are normally distributed with mean 0. Outliers hardly change
+/// it. Returns 0 if there are no magnitudes. Changes their order.
+double robust_deviation(RawVector<float>& magnitudes);
 
 /// Returns the positions of a triangle's corners.
 inline std::array<Eigen::Vector3d, 3> corners_of(const std::vector<Eigen::Vector3d>& positions,

@@ -224,7 +224,7 @@ double NormalSmoother::noise(const std::vector<Eigen::Vector3d>& positions) {
         heights[vertex] = std::abs(from_mean(residual_, vertex).dot(averages_[vertex])) *
                           static_cast<float>(std::sqrt(vertex_density(vertex)));
     });
-    return deviation_of_most(heights) / kNoiseGain;
+    return robust_deviation(heights) / kNoiseGain;
 }
 
 void NormalSmoother::assemble(const std::vector<Eigen::Vector3d>& positions, double step_size,

@@ -14,14 +14,14 @@ namespace tracked_mcf {
 
 namespace {
 
-/// Unknowns of a surface for each of its cells.
+/// A surface has about this many unknowns for each of its cells.
 constexpr double kUnknownsPerCell = 2;
 
-/// Threads that are thinner than a cell have more than this many times as many cells as expected.
+/// A surface with threads thinner than a cell has more than this many times the expected cells.
 constexpr double kMuchMore = 1.5;
 
-/// Few surfaces have more fragments for each triangle at the right depth. Those that have are
-/// clipped twice.
+/// A surface is clipped first at a depth with at most this many fragments for each triangle. Few
+/// surfaces have more at their own depth.
 constexpr double kFewFragments = 32;
 
 /// A grid expresses no wave shorter than two cells.
@@ -41,12 +41,12 @@ constexpr double kAlmost = 0.99;
 /// four times as many unknowns.
 constexpr int kMostDeeper = 2;
 
-/// Returns the expected number of unknowns on a grid, with separate sheets, without those that each
-/// part of the surface has at any depth: they say nothing of the grid. Where these alone would be
-/// more than the vertices, the parts are single triangles, and their rims say nothing either.
+/// Returns the expected number of unknowns on a grid, with separate sheets. It leaves out the eight
+/// unknowns that each connected component has at any depth. If these alone outnumber the vertices,
+/// the components are single triangles, and it leaves out the unknowns along their rims, too.
 double expected_unknowns(SurfaceSize size, const Grid& grid) {
-    constexpr double unknowns_of_any_part = 8;
-    if (unknowns_of_any_part * size.characteristic > size.vertices) size.rim = 0;
+    constexpr double unknowns_of_any_component = 8;
+    if (unknowns_of_any_component * size.characteristic > size.vertices) size.rim = 0;
     size.characteristic = 0;
     return expected_counts(size, grid, {}).unknowns;
 }
@@ -120,6 +120,7 @@ ClippedSurface clip_at_automatic_depth(const Domain& domain, const SurfaceSize& 
         surface.reset();  // two clipped surfaces at once would set the peak of memory use
         surface.emplace(clip(balanced));
     }
+    memory.before_flow(surface->grid.depth);
     return *std::move(surface);
 }
 

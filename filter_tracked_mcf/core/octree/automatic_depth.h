@@ -21,7 +21,7 @@ int resolving_depth(const SurfaceView& mesh, const Grid& grid, const FlowParamet
 /// kMaximumDepth, whose expected number of unknowns is nearest to the number of vertices. It is
 /// less where threads thinner than a cell have many more. If that depth is less than `least_depth`,
 /// the depth is up to two greater, as far as the flow fits into the memory. It is 1 if no triangle
-/// has an area. Throws what clip_to_grid throws, and NotEnoughMemory if clipping does not fit.
+/// has an area. Throws what clip_to_grid throws, and NotEnoughMemory if the flow does not fit.
 ClippedSurface clip_at_automatic_depth(const Domain& domain, const SurfaceSize& size,
                                        const Grid& cube, int least_depth,
                                        const MemoryCheck& memory);

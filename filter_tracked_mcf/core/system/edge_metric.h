@@ -42,7 +42,7 @@ public:
 
     /// Makes the step factor smaller if the first step has moved most vertices by more than the
     /// noise explains: it has removed detail (the discrepancy principle, Morozov 1966). `movement`
-    /// is the deviation_of_most() of the vertices' movements, grid units. Returns whether it did.
+    /// is the robust_deviation() of the vertices' movements, grid units. Returns whether it did.
     bool shorten_steps(double movement);
 
     /// Smooths the normals of the surface with this displacement, in grid units, and sets the
