@@ -23,7 +23,8 @@ struct BytesPer {
 };
 
 // tests/unit/memory/calibrate.cpp measures the peaks of many flows and fits these numbers to them.
-// Run it again after a change of the data that a flow keeps.
+// Run it again after a change of the data that a flow keeps. The bytes of a converged flow itself
+// are those of the smallest flows, one triangle and coarse spheres.
 constexpr BytesPer kClipping = {0.9e6, 40, 56, 0, 0, 0};
 constexpr BytesPer kConverged = {1.3e6, 75, 40, 11, 12, 865};
 constexpr BytesPer kOneWCycle = {1.8e6, 75, 36, 10.5, 150, 770};
