@@ -31,9 +31,11 @@ enum class Preserve {
 
 /// The quadrature rule on each split triangle (section 4.2, Figure 8).
 enum class Cubature {
-    OnePoint,     ///< the centroid, exact to degree 1; inaccurate, for comparison only
-    ThreePoints,  ///< the paper's rule, exact to degree 2
-    Degree6       ///< 12 points, exact to degree 6, which the mass matrix needs; for validation
+    OnePoint,  ///< the centroid, exact to degree 1; inaccurate, for comparison only
+    /// The paper's rule, exact to degree 2. If the solver converges, fragments of up to half a cell
+    /// have three points as a whole, also exact to degree 2 (cells/cubature.h).
+    ThreePoints,
+    Degree6  ///< 12 points, exact to degree 6, which the mass matrix needs; for validation
 };
 
 /// How each step's linear system is solved.

@@ -155,8 +155,10 @@ const std::vector<Parameter>& parameter_table() {
          "With --method paper: W-cycles of multigrid in each step, 1 to 1000. The paper uses "
          "one. More solve the equations more exactly, and the time grows in proportion."},
         {choice<&P::cubature>({{"", "1"}, {"", "3"}, {"", "12"}}), "cubature", "",
-         "Samples on each split triangle: 3 as in the paper. Take 1, which is inaccurate, or 12, "
-         "which is slow and exact to degree 6, only to compare."},
+         "Samples on each split triangle: 3 as in the paper, or 3 on a whole fragment of up to "
+         "half "
+         "a cell unless --method paper is given. Take 1, which is inaccurate, or 12, which is slow "
+         "and exact to degree 6, only to compare."},
         {integer<&P::threads>(0, 1024, ", where 0 takes all that OpenMP offers"), "threads", "",
          "Threads, up to 1024; 0 takes all that OpenMP offers (OMP_NUM_THREADS is respected). The "
          "result does not depend on it; only processors with other vector instructions round "

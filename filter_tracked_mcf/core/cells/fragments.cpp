@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "filter_tracked_mcf/core/cells/clip.h"
+#include "filter_tracked_mcf/core/cells/cubature.h"
 #include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/mesh/measures.h"
 #include "filter_tracked_mcf/core/parallel/parallel.h"
@@ -52,8 +53,9 @@ void add_fragments(const std::array<Eigen::Vector3d, 3>& corners, std::int32_t t
         fragment.cell = morton_code(cell) & kCellBits;
         fragment.split_triangles =
             degenerate ? 0U : static_cast<unsigned>(std::max(polygon.size - 2, 0)) & kFlagBits;
-        fragment.corners = corners_of(polygon) & kFlagBits;
-        fragment.edges = edges_of(polygon) & kFlagBits;
+        fragment.is_small = !degenerate && polygon.size > 3 && is_small(polygon) ? 1U : 0U;
+        fragment.corners = corners_of(polygon) & kAllCorners;
+        fragment.edges = edges_of(polygon) & kAllCorners;
         fragment.triangle = triangle;
         fragments.push_back(fragment);
         pacer.did(kItemsPerFragment);

@@ -40,8 +40,9 @@ inline constexpr double kDegenerate = 1e-12;
 struct FragmentEntry {
     MortonCode cell : 40;
     std::uint64_t split_triangles : 8;  ///< triangles in the polygon's fan; 0 if degenerate
-    std::uint64_t corners : 8;          ///< bit i: corner i of the triangle lies in the cell
-    std::uint64_t edges : 8;            ///< bit i: more than a point of side i of the triangle does
+    std::uint64_t is_small : 8;         ///< whether it has a fan, and is small (cubature.h)
+    std::uint64_t corners : 4;          ///< bit i: corner i of the triangle lies in the cell
+    std::uint64_t edges : 4;            ///< bit i: more than a point of side i of the triangle does
     std::int32_t triangle;
     std::int32_t index_by_triangle;  ///< index of the fragment when sorted by triangle
 };

@@ -38,12 +38,13 @@ void claim(std::atomic<std::int32_t>& vertex, std::int32_t element) {
 class ElementBuilder {
 public:
     ElementBuilder(TrackedElements& elements, const Domain& domain, const GridMesh& mesh,
-                   const RawVector<FragmentEntry>& entries, const std::vector<CubatureNode>& rule)
+                   const RawVector<FragmentEntry>& entries, const FlowParameters& parameters)
         : elements_(elements),
           domain_(domain),
           mesh_(mesh),
           entries_(entries),
-          rule_(rule),
+          rule_(cubature_rule(parameters.cubature)),
+          some_whole_(samples_small_fragments_whole(parameters)),
           claims_(mesh.positions.size()) {
         parallel_for_rows(static_cast<std::int64_t>(claims_.size()), [&](std::int32_t vertex) {
             claims_[vertex].store(kUnclaimed, std::memory_order_relaxed);
@@ -63,26 +64,35 @@ public:
     }
 
 private:
-    /// Allocates the samples. The number of an element's split triangles tells how many it has.
+    bool is_sampled_whole(const FragmentEntry& entry) const {
+        return some_whole_ && entry.is_small != 0;
+    }
+
+    std::int64_t sample_count(const FragmentEntry& entry) const {
+        const std::int64_t triangles = is_sampled_whole(entry) ? 1 : entry.split_triangles;
+        return static_cast<std::int64_t>(rule_.size()) * triangles;
+    }
+
     void allocate() {
         const std::int32_t element_count = elements_.finest().element_count();
         const auto entry_count = static_cast<std::int64_t>(entries_.size());
-        const auto samples_per_triangle = static_cast<std::int64_t>(rule_.size());
-        const auto sample_count = [&](std::int64_t element) {
-            std::int64_t split_triangles = 0;
+        const auto samples_of = [&](std::int64_t element) {
+            std::int64_t samples = 0;
             for (std::int64_t i = elements_.fragment_begin[element];
                  i < elements_.fragment_begin[element + 1]; ++i) {
-                split_triangles += static_cast<std::int64_t>(entries_[i].split_triangles);
+                samples += sample_count(entries_[i]);
             }
-            return samples_per_triangle * split_triangles;
+            return samples;
         };
-        parallel_prefix_sum(element_count, sample_count, elements_.sample_begin);
-        const std::int64_t samples = elements_.sample_begin.back();
-        elements_.split_triangle_count = samples / samples_per_triangle;
+        parallel_prefix_sum(element_count, samples_of, elements_.sample_begin);
+        const auto split_triangles = chunk_sums<std::int64_t>(
+            entry_count, [&](std::int64_t i) { return entries_[i].split_triangles; });
+        elements_.split_triangle_count =
+            std::accumulate(split_triangles.begin(), split_triangles.end(), std::int64_t{0});
         elements_.fragment_count = parallel_count(
             entry_count, [&](std::int64_t i) { return entries_[i].split_triangles > 0; });
         elements_.fragments.resize(entries_.size());
-        elements_.samples.resize(samples);
+        elements_.samples.resize(elements_.sample_begin.back());
         elements_.meets_constrained_edge.assign(elements_.finest().cells.size(), 0);
     }
 
@@ -104,9 +114,14 @@ private:
                                         ? whole_triangle(corners)
                                         : clip_to_cell(corners, cell);
             const std::int64_t first_sample = next_sample;
-            for_each_node(polygon, corners, rule_, [&](const WeightedPoint& node) {
+            const auto add = [&](const WeightedPoint& node) {
                 elements_.samples.set(next_sample++, node.point - cell.cast<double>(), node.weight);
-            });
+            };
+            if (is_sampled_whole(entries_[i])) {
+                for (const WeightedPoint& node : nodes_of_whole(polygon, corners)) add(node);
+            } else {
+                for_each_node(polygon, corners, rule_, add);
+            }
             const Eigen::Vector3f normal =
                 twice_vector_area(corners[0], corners[1], corners[2]).normalized().cast<float>();
             elements_.fragments[i] = {{normal[0], normal[1], normal[2]},
@@ -141,6 +156,7 @@ private:
     const GridMesh& mesh_;
     const RawVector<FragmentEntry>& entries_;
     const std::vector<CubatureNode>& rule_;
+    const bool some_whole_;
     Claims claims_;
 };
 
@@ -212,9 +228,7 @@ TrackedElements build_tracked_elements(const Domain& domain, ClippedSurface surf
                  parameters.separate_sheets);
     elements.components = components_of(elements.levels);
     enter_setup_phase(kSampleSurface);
-    ElementBuilder(elements, domain, surface.mesh, surface.fragments,
-                   cubature_rule(parameters.cubature))
-        .build();
+    ElementBuilder(elements, domain, surface.mesh, surface.fragments, parameters).build();
     if (parameters.keep_edges > 0) {
         elements.fragment_triangle.resize(surface.fragments.size());
         parallel_for_rows(static_cast<std::int64_t>(surface.fragments.size()), [&](std::int32_t i) {

@@ -100,6 +100,17 @@ void set_topology(const Domain& domain, SurfaceSize& size) {
     size.characteristic = vertices - edges[0] + std::min(faces, 2 * edges[0] / 3);
 }
 
+/// Returns the share of the split triangles, beside one of each fragment, that fragments of more
+/// than half a cell have: none where triangles are smaller than a cell, most where they are large
+/// in both directions, and 0.6 where they are long and thin. The formula agrees within 10 % with
+/// the samples of scans at depths 4 to 9.
+double share_of_large(double triangles, double extents, double shadows) {
+    const double crossings = extents + shadows;
+    if (crossings <= triangles) return 0;
+    const double wide = shadows / (shadows + extents / 7);
+    return (1 - triangles / crossings) * (0.6 + 0.4 * wide);
+}
+
 struct LevelCounts {
     double elements, unknowns;
 };
@@ -175,7 +186,10 @@ ExpectedCounts expected_counts(const SurfaceSize& size, const Grid& grid,
         // crossing of an edge and a plane, and four for each crossing of the triangle and a line. A
         // polygon has two split triangles less than corners.
         counts.fragments = size.triangles + extents + shadows;
-        counts.samples = (size.triangles + 2 * extents + 2 * shadows) *
+        const double large = samples_small_fragments_whole(parameters)
+                                 ? share_of_large(size.triangles, extents, shadows)
+                                 : 1;
+        counts.samples = (counts.fragments + large * (extents + shadows)) *
                          static_cast<double>(cubature_rule(parameters.cubature).size());
         const LevelCounts level =
             level_counts(size, cell, depth, counts.fragments, parameters.separate_sheets);
