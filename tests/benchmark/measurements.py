@@ -15,6 +15,9 @@ IC, MIC, CGAL = "IC(0)-CG", "modified IC(0)-CG", "CGAL"
 BASELINE_INSTRUCTIONS = "ours, baseline instructions"
 OTHER_BINARY = "ours, other binary"
 TRIAD = "triad"
+# Of ours, then of PyMeshLab.
+WHOLE_JOBS = ("ours, default parameters", "ours, ten steps of 1e-5", "MeshLab's Taubin",
+              "MeshLab's Laplacian")
 
 
 @dataclasses.dataclass(frozen=True)

@@ -2,7 +2,8 @@
 """Makes the results page, tables and verdicts, from the measurements alone."""
 
 import machine
-from measurements import (BASELINE_INSTRUCTIONS, CGAL, IC, MIC, OTHER_BINARY, OURS, REBUILT, TRIAD)
+from measurements import (BASELINE_INSTRUCTIONS, CGAL, IC, MIC, OTHER_BINARY, OURS, REBUILT, TRIAD,
+                          WHOLE_JOBS)
 
 PROTOTYPE_NANOSECONDS = 41  # for the assembly of a sample
 
@@ -57,6 +58,7 @@ class Page:
         self._scale()
         self._floors()
         self._other_meshes()
+        self._whole_jobs()
         self._tuning()
         return "\n".join(self._lines)
 
@@ -352,7 +354,7 @@ class Page:
             if mesh == "" or mesh.startswith("sphere"):
                 continue
             for step_size in self._step_sizes:
-                for peer in (OURS, IC):
+                for peer in (OURS, IC, MIC):
                     case = {"peer": peer, "mesh": mesh, "step_size": step_size}
                     cpu = self._of.median("step_cpu_seconds", **case)
                     if cpu is not None:
@@ -363,3 +365,15 @@ class Page:
                             digits(self._of.median("unknowns", **case)),
                             digits(self._of.median("peak_memory_bytes", **case) / 1e6, "MB")])
         self._table(["mesh", "δ", "peer", "step", "iterations", "set-up", "unknowns", "memory"], rows)
+
+    def _whole_jobs(self):
+        self._title("Whole jobs", "A mesh is read, smoothed and written, with the default parameters and all "
+                    "processors. MeshLab's filters are those of the official PyMeshLab.")
+        rows = []
+        for job in WHOLE_JOBS:
+            for mesh in self._of.meshes(peer=job):
+                case = {"peer": job, "mesh": mesh}
+                rows.append([job, mesh, digits(self._of.median("whole_job_seconds", **case)),
+                             digits(self._of.median("whole_job_cpu_seconds", **case)),
+                             digits(self._of.median("peak_memory_bytes", **case) / 1e6, "MB")])
+        self._table(["job", "mesh", "wall seconds", "processor seconds", "memory"], rows)

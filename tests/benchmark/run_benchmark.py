@@ -14,7 +14,7 @@ import shutil
 import sys
 
 from measurements import (BASELINE_INSTRUCTIONS, CGAL, IC, MIC, OTHER_BINARY, OURS, REBUILT, TRIAD,
-                          Case, Measurements)
+                          WHOLE_JOBS, Case, Measurements)
 from results_page import Page
 
 TOP = pathlib.Path(__file__).resolve().parents[2]
@@ -23,6 +23,7 @@ MIDDLE = 5e-4
 STEPS = 10  # the default of a flow
 NOISE = 0.2  # in mean edge lengths
 LARGE_SCAN = "bunny_scan_871k"
+PYMESHLAB_FILTERS = ("apply_coord_taubin_smoothing", "apply_coord_laplacian_smoothing")
 
 
 def options():
@@ -110,6 +111,7 @@ class Benchmark:
         measurements.run(triads + self._compared(), self._repetitions)
         measurements.run(self._tunings() + self._cgal() + self._rebuilt() + self._accuracy(), 1)
         measurements.run(self._other_meshes() + self._scale(), 1)
+        measurements.run(self._whole_jobs(), self._repetitions)
 
     def _compared(self):
         mesh = sphere(self._frequency)
@@ -173,11 +175,35 @@ class Benchmark:
             step_sizes = [MIDDLE] if self._arguments.quick else STEP_SIZES
             for step_size in step_sizes:
                 cases.append(ours(mesh, name, step_size, steps=2))
-                cases.append(baseline(mesh, name, step_size, steps=2))
+                cases += [baseline(mesh, name, step_size, steps=2, peer=peer) for peer in (IC, MIC)]
             for depth in depths:
                 cases.append(ours(mesh, f"{name}, depth {depth}", MIDDLE, steps=2,
                                   more=("--depth", depth)))
         return cases
+
+    def _whole_jobs(self):
+        """Returns jobs from file to file, with all processors."""
+        mesh, name = self._job_mesh()
+        if mesh is None:
+            return []
+        script = pathlib.Path(__file__).parent / "whole_job.py"
+        tool = self._arguments.build / "filter_tracked_mcf" / "tool" / "tracked_mcf"
+        written = self._output / f"job{mesh.suffix}"
+        ours_too = (tool, mesh, written, "--quiet")
+        jobs = [(WHOLE_JOBS[0], sys.executable, ours_too),
+                (WHOLE_JOBS[1], sys.executable, (*ours_too, "--step-size", 1e-5, "--iterations", 10))]
+        python = self._arguments.build / "pymeshlab" / "bin" / "python"
+        if python.exists():
+            jobs += [(job, python, ("pymeshlab", words, mesh, written))
+                     for job, words in zip(WHOLE_JOBS[2:], PYMESHLAB_FILTERS)]
+        return [Case(job, name, words=(script, *words), program=program) for job, program, words in jobs]
+
+    def _job_mesh(self):
+        """Returns the largest scan's file and name, or None."""
+        if self._arguments.meshes and not self._arguments.quick:
+            return unpacked(self._arguments.meshes / f"{LARGE_SCAN}.ply.xz", self._output), LARGE_SCAN
+        armadillo = self._arguments.build / "cgal-meshes" / "armadillo.off"
+        return (armadillo, "armadillo") if armadillo.exists() else (None, "")
 
     def _files(self):
         """Returns names for the driver and for tables, and depths besides the automatic one."""
