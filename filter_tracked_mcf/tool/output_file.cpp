@@ -56,8 +56,13 @@ OutputFile::OutputFile(const fs::path& path) {
     std::error_code error;
     const fs::file_status status = fs::status(path, error);
     if (fs::is_directory(status)) fail(path, "it is a folder; add a file name");
+    if (fs::is_fifo(status)) {
+        path_ = path;
+        is_pipe_ = true;
+        return;  // opening it would wait for a reader
+    }
     if (fs::exists(status)) {
-        if (!fs::is_regular_file(status)) fail(path, "it is not a regular file");
+        if (!fs::is_regular_file(status)) fail(path, "it is neither a regular file nor a pipe");
         errno = 0;
         if (!std::ofstream(path, std::ios::app)) fail(path, reason_of_stream());
     }
@@ -71,6 +76,14 @@ OutputFile::OutputFile(const fs::path& path) {
 }
 
 void OutputFile::write(const std::function<void(std::ostream&)>& write_content) {
+    if (is_pipe_) {
+        errno = 0;
+        std::ofstream pipe(path_, std::ios::binary);
+        write_content(pipe);
+        pipe.close();
+        if (!pipe) fail(path_, reason_of_stream());
+        return;
+    }
     TemporaryFile& file = temporary_.emplace(path_);
     std::error_code ignored;
     const fs::file_status old = fs::status(path_, ignored);
@@ -84,6 +97,7 @@ void OutputFile::write(const std::function<void(std::ostream&)>& write_content) 
 }
 
 void OutputFile::commit() {
+    if (is_pipe_) return;
     std::error_code error;
     fs::rename(temporary_->path, path_, error);
     if (error) fail(path_, error.message());

@@ -19,15 +19,15 @@ std::filesystem::path follow_links(const std::filesystem::path& path, std::error
 /// its final path, and commit() renames it. Until then, and if anything fails, an old file stays as
 /// it was.
 ///
-/// A new version of an old file has its mode. Symbolic links are followed, also those that lead to
-/// no file yet.
+/// A pipe is written as it is. A new version of an old file has its mode. Symbolic links are
+/// followed, also those that lead to no file yet.
 class OutputFile {
 public:
     /// Throws UnwritableFile if `path` cannot be written. Creates no file.
     explicit OutputFile(const std::filesystem::path& path);
 
-    /// Writes the temporary file. Throws UnwritableFile. The destructor removes what was not
-    /// committed.
+    /// Writes the temporary file, or the pipe. Throws UnwritableFile. The destructor removes what
+    /// was not committed.
     void write(const std::function<void(std::ostream&)>& write_content);
 
     /// Makes the written file the final one. Throws UnwritableFile.
@@ -45,6 +45,7 @@ private:
     };
 
     std::filesystem::path path_;
+    bool is_pipe_ = false;
     std::optional<TemporaryFile> temporary_;
 };
 

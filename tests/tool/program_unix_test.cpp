@@ -50,6 +50,17 @@ TEST_F(ProgramOnUnix, PipesAreReadInEveryFormat) {
     EXPECT_THAT(result.errors, HasSubstr("/dev/stdin: the extension tells the format"));
 }
 
+TEST_F(ProgramOnUnix, PipesAreWrittenInEveryFormat) {
+    for (const std::string extension : {"ply", "obj", "off", "stl"}) {
+        const std::string file = "b." + extension, pipe = "out." + extension;
+        std::filesystem::create_symlink("/dev/stdout", folder_ / pipe);
+        ASSERT_EQ(run("a.off " + file + " --depth 3").exit_code, 0);
+        const ProgramRun result = run("a.off " + pipe + " --depth 3 --quiet | cat >piped");
+        EXPECT_EQ(read_file(folder_ / "piped"), read_file(folder_ / file)) << extension;
+        EXPECT_TRUE(std::filesystem::is_symlink(folder_ / pipe));
+    }
+}
+
 TEST_F(ProgramOnUnix, AFullStandardOutputExitsWith3) {
     for (const char* arguments : {"--help", "--version", "a.off b.ply --depth 3"}) {
         const ProgramRun result = run(std::string(arguments) + " >/dev/full");
