@@ -2,6 +2,7 @@
 #include "filter_tracked_mcf/parameters/flow_warnings.h"
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 namespace tracked_mcf {
@@ -78,9 +79,11 @@ std::string unresolved_detail(const FlowReport& report) {
 /// A step that removes more of the area than this has changed more than noise.
 constexpr double kLargeLoss = 0.1;
 
-/// Empty unless a step removed much of the area.
+/// Empty unless a step removed much of the area, though the shape was to be kept: waves as long as
+/// the grid are all of it.
 std::string sudden_loss(const FlowReport& report) {
-    if (report.stop == Stop::Vanished) return {};
+    const double grid = std::ldexp(report.cell_size, report.depth);
+    if (report.stop == Stop::Vanished || report.detail_size > grid) return {};
     for (std::size_t i = 0; i < report.steps.size(); ++i) {
         const double before = report.steps[i].area;
         const double after =

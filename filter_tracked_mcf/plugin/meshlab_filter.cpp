@@ -83,7 +83,9 @@ public:
     Run() {
         if (runs) {
             throw Error(
-                "The filter is already running. Wait until it is done, then apply it again.");
+                "The filter is already running. It goes on when this message is closed: apply the "
+                "filter "
+                "again when it is done.");
         }
         runs = true;
     }

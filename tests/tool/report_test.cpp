@@ -227,6 +227,13 @@ TEST(Warnings, NameTheFirstStepThatRemovedMuchOfTheArea) {
             "size, or a greater order to keep the shape."});
     report.steps[2].area = 45.5;
     EXPECT_EQ(warnings({}, report).at(0).substr(0, 28), "Step 2 removed 50 % of the a");
+
+    report.depth = 6;
+    report.cell_size = 1;
+    report.detail_size = 60;
+    EXPECT_EQ(warnings({}, report).size(), 1U);
+    report.detail_size = 70;
+    EXPECT_TRUE(warnings({}, report).empty()) << "the detail is all of the shape";
 }
 
 TEST(Warnings, SayThatTheFlowStopped) {
