@@ -6,14 +6,9 @@
 #include <vector>
 
 #include "filter_tracked_mcf/core/flow_parameters.h"
+#include "filter_tracked_mcf/parameters/length.h"
 
 namespace tracked_mcf {
-
-/// A length in units of the mesh, or in per cent of the diagonal of its bounding box.
-struct Length {
-    double value = 0;
-    bool in_per_cent = false;
-};
 
 /// What a call of the program asks for.
 struct CommandLine {

@@ -2,7 +2,6 @@
 /// The command-line program: reads a mesh, lets it flow and writes it. `tracked_mcf --help`
 /// explains it.
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <iostream>
 #include <memory>
@@ -10,6 +9,7 @@
 #include <optional>
 
 #include "filter_tracked_mcf/core/evolve.h"
+#include "filter_tracked_mcf/parameters/length.h"
 #include "filter_tracked_mcf/tool/command_line.h"
 #include "filter_tracked_mcf/tool/file_error.h"
 #include "filter_tracked_mcf/tool/interrupts.h"
@@ -24,14 +24,6 @@ namespace {
 using namespace tracked_mcf;
 
 enum ExitCode { Done = 0, BadMesh = 1, BadUsage = 2, Unwritable = 3 };
-
-/// Returns the length in units of the mesh.
-double in_mesh_units(const Length& length, const TriangleMesh& mesh) {
-    if (!length.in_per_cent) return length.value;
-    Eigen::AlignedBox3d box;
-    for (const Eigen::Vector3d& position : mesh.positions) box.extend(position);
-    return mesh.positions.empty() ? 0 : 0.01 * length.value * box.diagonal().norm();
-}
 
 /// Shows a progress bar on a terminal. An interrupt cancels the flow and wipes the bar.
 FlowReport evolve_with_progress(TriangleMesh& mesh, const Selection& selection,

@@ -9,9 +9,7 @@
 
 namespace tracked_mcf {
 
-/// Returns the version, file names, parameters, every member of the flow's report, and all warnings
-/// as indented JSON, under their names in the code. The stabilisation is the one used. W-cycles
-/// have no tolerance: error_estimate and reached_tolerance of their steps are null.
+/// Returns the version, file names and report_values() as indented JSON.
 std::string report_json(const CommandLine& line, const FlowReport& report,
                         const std::vector<std::string>& warnings);
 

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "filter_tracked_mcf/parameters/report_values.h"
+
+#include <algorithm>
+
+#include "filter_tracked_mcf/core/parameter_table.h"
+#include "filter_tracked_mcf/parameters/flow_warnings.h"
+
+namespace tracked_mcf {
+
+namespace {
+
+ReportValue integer(std::int64_t number) {
+    return {number};
+}
+
+ReportValue unless(bool unknown, ReportValue value) {
+    return unknown ? ReportValue() : value;
+}
+
+/// Returns the name of a choice, or its number if that is its name.
+ReportValue choice_value(const std::string& name) {
+    const bool is_number = std::all_of(name.begin(), name.end(),
+                                       [](char letter) { return letter >= '0' && letter <= '9'; });
+    if (is_number) return integer(std::stoi(name));
+    return {name};
+}
+
+ReportValue parameter_value(const Parameter& parameter, const FlowParameters& parameters) {
+    const ParameterValue value = parameter.get(parameters);
+    if (parameter.type == Parameter::Type::Choice) {
+        return choice_value(parameter.choices.at(std::get<int>(value)).name);
+    }
+    if (const int* number = std::get_if<int>(&value)) return integer(*number);
+    if (const bool* is_on = std::get_if<bool>(&value)) return {*is_on};
+    return {std::get<double>(value)};
+}
+
+ReportValue stop_name(Stop stop) {
+    const auto name = [stop]() -> const char* {
+        if (stop == Stop::Vanished) return "vanished";
+        if (stop == Stop::Pinched) return "pinched";
+        if (stop == Stop::StepFailed) return "step failed";
+        if (stop == Stop::NotPreserved) return "volume not preserved";
+        return stop == Stop::NothingMoves ? "nothing moves" : "none";
+    };
+    return {std::string(name())};
+}
+
+ReportValue step_values(const StepReport& step, Solver solver) {
+    const bool no_tolerance = solver != Solver::Converged;
+    return {ReportObject{{"assemble_seconds", {step.assemble_seconds}},
+                         {"solve_seconds", {step.solve_seconds}},
+                         {"residual_before", {step.residual_before}},
+                         {"residual_after", {step.residual_after}},
+                         {"solver_iterations", integer(step.solver_iterations)},
+                         {"error_estimate", unless(no_tolerance, {step.error_estimate})},
+                         {"reached_tolerance", unless(no_tolerance, {step.reached_tolerance})},
+                         {"area", {step.area}},
+                         {"collapsed_samples", {step.collapsed_samples}}}};
+}
+
+}  // namespace
+
+ReportObject report_values(const FlowParameters& parameters, const ReportValue& selected,
+                           const FlowReport& report, const std::vector<std::string>& warnings) {
+    ReportObject of_parameters;
+    for (const Parameter& parameter : parameter_table()) {
+        const bool is_selected = parameter.type == Parameter::Type::Selected;
+        of_parameters.emplace_back(parameter.name,
+                                   is_selected ? selected : parameter_value(parameter, parameters));
+    }
+    ReportList steps, texts;
+    for (const StepReport& step : report.steps)
+        steps.push_back(step_values(step, parameters.solver));
+    for (const std::string& warning : warnings) texts.push_back({warning});
+    return {{"parameters", {of_parameters}},
+            {"vertices", {report.vertices}},
+            {"triangles", {report.triangles}},
+            {"degenerate_triangles", {report.degenerate_triangles}},
+            {"boundary_edges", {report.boundary_edges}},
+            {"constrained_vertices", {report.constrained_vertices}},
+            {"detail_size", {report.detail_size}},
+            {"step_size", {report.step_size}},
+            {"normal_length", {report.normal_length}},
+            {"edge_share", {report.edge_share}},
+            {"noise", {report.noise}},
+            {"depth", integer(report.depth)},
+            {"cell_size", {report.cell_size}},
+            {"cells", {report.cells}},
+            {"elements", {report.elements}},
+            {"unknowns", {report.unknowns}},
+            {"constrained_unknowns", {report.constrained_unknowns}},
+            {"fragments", {report.fragments}},
+            {"split_triangles", {report.split_triangles}},
+            {"samples", {report.samples}},
+            {"area_before", {report.area_before}},
+            {"area_after", {report.area_after}},
+            {"volume_change", unless(!report.oriented_consistently, {report.volume_change})},
+            {"largest_displacement", {report.largest_displacement}},
+            {"rms_displacement", {report.rms_displacement}},
+            {"setup_seconds", {report.setup_seconds}},
+            {"steps", {steps}},
+            {"converged", {converged(report)}},
+            {"stop", stop_name(report.stop)},
+            {"warnings", {texts}},
+            {"estimated_memory_bytes", {report.estimated_memory_bytes}},
+            {"peak_memory_bytes", {report.peak_memory_bytes}}};
+}
+
+}  // namespace tracked_mcf

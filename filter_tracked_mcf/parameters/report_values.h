@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "filter_tracked_mcf/core/flow_parameters.h"
+#include "filter_tracked_mcf/core/flow_report.h"
+
+namespace tracked_mcf {
+
+struct ReportValue;
+using ReportList = std::vector<ReportValue>;
+using ReportObject = std::vector<std::pair<std::string, ReportValue>>;
+
+/// A value of a report in any notation: JSON and Python have all these types. std::monostate is
+/// null.
+struct ReportValue {
+    std::variant<std::monostate, bool, std::int64_t, double, std::string, ReportList, ReportObject>
+        value;
+};
+
+/// Returns the parameters, the members of the flow's report but for the quality, and the warnings,
+/// under their names in the code. `selected` is the value of the parameter of that name. The
+/// stabilisation is the one used. W-cycles have no tolerance: error_estimate and reached_tolerance
+/// of their steps are null.
+ReportObject report_values(const FlowParameters& parameters, const ReportValue& selected,
+                           const FlowReport& report, const std::vector<std::string>& warnings);
+
+}  // namespace tracked_mcf
