@@ -143,16 +143,16 @@ const std::vector<Parameter>& parameter_table() {
          "Shared cells: close parts stick together. Paper: also one W-cycle a step, only to "
          "compare."},
         {access<&P::tolerance>(Type::Real, {0, 1, ", such as 1e-3", true}), "tolerance", "",
-         "Except with --method paper: a step is solved when the error estimate, relative to the "
+         "Except with method paper: a step is solved when the error estimate, relative to the "
          "step in the energy norm, is at most this number; greater than 0, less than 1. A smaller "
          "one takes more iterations. With the default, the grid's own error is larger."},
         {stabilization(), "stabilization", "",
          "Weight of the volume stabilisation, without unit, 0 to 1000. The stabilisation lets the "
          "solver converge; a much larger weight slows the surface down. 0 is the paper's system, "
-         "for which the solver takes more iterations and may stop short. With --method paper it "
+         "for which the solver takes more iterations and may stop short. With method paper it "
          "is 0 unless given."},
         {integer<&P::cycles>(1, 1000), "cycles", "",
-         "With --method paper: W-cycles of multigrid in each step, 1 to 1000. The paper uses "
+         "With method paper: W-cycles of multigrid in each step, 1 to 1000. The paper uses "
          "one. More solve the equations more exactly, and the time grows in proportion."},
         {choice<&P::cubature>({{"", "1"}, {"", "3"}, {"", "12"}}), "cubature", "",
          "Samples on each split triangle: 3 as in the paper, or 3 on a whole fragment of up to "
