@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The extension module of the Python package tracked_mcf.
+
+#include <nanobind/nanobind.h>
+#include <nanobind/ndarray.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/string_view.h>
+
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "filter_tracked_mcf/core/errors.h"
+#include "filter_tracked_mcf/core/evolve.h"
+#include "filter_tracked_mcf/parameters/flow_warnings.h"
+#include "filter_tracked_mcf/parameters/report_values.h"
+#include "filter_tracked_mcf/python/parameters.h"
+
+namespace tracked_mcf {
+
+namespace nb = nanobind;
+using namespace nb::literals;
+
+namespace {
+
+const char* const kAdvice = "Give a larger tolerance or a smaller detail_size.";
+
+nb::module_ numpy() {
+    return nb::module_::import_("numpy");
+}
+
+/// Returns the array's shape and type in words, to say what is wrong with it.
+std::string description(const char* name, const nb::object& array) {
+    const nb::object shape = array.attr("shape"), type = array.attr("dtype");
+    return std::string(name) + " has the shape " + nb::str(shape).c_str() + " and the type " +
+           nb::str(type).c_str();
+}
+
+bool has_kind(nb::handle array, const char* kinds) {
+    const auto kind = nb::cast<std::string>(array.attr("dtype").attr("kind"));
+    return std::strchr(kinds, kind[0]) != nullptr;
+}
+
+/// Returns `given` as an array with three columns of numbers of these kinds.
+nb::object three_columns(const char* name, nb::handle given, const char* kinds,
+                         const char* wanted) {
+    nb::object array = numpy().attr("asarray")(given);
+    const nb::object shape = array.attr("shape");
+    if (nb::len(shape) != 2 || nb::cast<std::int64_t>(shape[1]) != 3 || !has_kind(array, kinds))
+        throw InvalidMesh(description(name, array) + "; give " + wanted + ".");
+    return array;
+}
+
+/// Copies the rows of an array with three columns, whose memory may have any order.
+template <class Number, class Row>
+std::vector<Row> rows_of(nb::handle array, const char* type) {
+    static_assert(sizeof(Row) == 3 * sizeof(Number));
+    using Array = nb::ndarray<const Number, nb::shape<-1, 3>, nb::c_contig, nb::device::cpu>;
+    const auto numbers = nb::cast<Array>(numpy().attr("ascontiguousarray")(array, type));
+    std::vector<Row> rows(numbers.shape(0));
+    if (!rows.empty()) std::memcpy(rows[0].data(), numbers.data(), rows.size() * sizeof(Row));
+    return rows;
+}
+
+void check_indices(nb::handle faces, std::int64_t vertices) {
+    if (nb::cast<std::int64_t>(faces.attr("size")) == 0) return;
+    for (const char* extreme : {"min", "max"}) {
+        const nb::object index = nb::int_(faces.attr(extreme)());
+        if (index >= nb::int_(0) && index < nb::int_(vertices)) continue;
+        throw InvalidMesh(std::string("faces refers to vertex ") + nb::str(index).c_str() +
+                          ", which does not exist: vertices has " + std::to_string(vertices) +
+                          " rows, counted from 0.");
+    }
+}
+
+TriangleMesh mesh_of(nb::handle vertices, nb::handle faces) {
+    const nb::object positions = three_columns(
+        "vertices", vertices, "fiu", "an array of shape (n, 3) of real numbers, a row per vertex");
+    const nb::object triangles = three_columns(
+        "faces", faces, "iu",
+        "an array of shape (m, 3) of integers, a triangle per row; split larger faces first");
+    TriangleMesh mesh;
+    mesh.positions = rows_of<double, Eigen::Vector3d>(positions, "float64");
+    check_indices(triangles, static_cast<std::int64_t>(mesh.positions.size()));
+    mesh.triangles = rows_of<std::int32_t, Triangle>(triangles, "int32");
+    return mesh;
+}
+
+Selection selection_of(nb::handle given, const TriangleMesh& mesh) {
+    if (given.is_none()) return {};
+    const nb::object array = numpy().attr("asarray")(given);
+    const std::size_t faces = mesh.triangles.size();
+    if (!has_kind(array, "b") || !array.attr("shape").equal(nb::make_tuple(faces))) {
+        throw InvalidParameter(description("selected", array) +
+                               "; give an array of bools, one for each of the " +
+                               std::to_string(faces) + " faces.");
+    }
+    const auto flags = nb::cast<nb::ndarray<const std::uint8_t, nb::ndim<1>, nb::c_contig>>(
+        numpy().attr("ascontiguousarray")(array, "uint8"));
+    return {flags.data(), flags.data() + faces};
+}
+
+/// Moves numbers into an array of this shape, without a copy.
+template <class Vector>
+nb::object array_of(Vector&& values, std::initializer_list<std::size_t> shape) {
+    auto* const kept = new Vector(std::move(values));
+    const nb::capsule owner(kept, [](void* held) noexcept { delete static_cast<Vector*>(held); });
+    auto* const numbers = reinterpret_cast<double*>(kept->data());
+    return nb::cast(nb::ndarray<nb::numpy, double>(numbers, shape, owner));
+}
+
+nb::object as_python(const ReportValue& value);
+
+nb::object as_python(std::monostate) {
+    return nb::none();
+}
+
+template <class Scalar>
+nb::object as_python(const Scalar& scalar) {
+    return nb::cast(scalar);
+}
+
+nb::object as_python(const ReportList& list) {
+    nb::list values;
+    for (const ReportValue& value : list) values.append(as_python(value));
+    return values;
+}
+
+nb::object as_python(const ReportObject& object) {
+    nb::dict values;
+    for (const auto& [name, value] : object) values[name.c_str()] = as_python(value);
+    return values;
+}
+
+nb::object as_python(const ReportValue& value) {
+    return std::visit([](const auto& held) { return as_python(held); }, value.value);
+}
+
+/// Runs signal handlers, of which Ctrl-C's raises KeyboardInterrupt, then calls the user's
+/// function.
+Progress progress_by(const nb::object& callback) {
+    return [&callback](double fraction, std::string_view phase) {
+        const nb::gil_scoped_acquire acquired;
+        if (PyErr_CheckSignals() != 0) throw nb::python_error();
+        if (callback.is_none()) return true;
+        const nb::object answer = callback(fraction, phase);
+        return answer.is_none() || nb::cast<bool>(nb::bool_(answer));
+    };
+}
+
+void warn(const std::vector<std::string>& warnings) {
+    const nb::object category = nb::module_::import_("tracked_mcf").attr("FlowWarning");
+    for (const std::string& warning : warnings) {
+        if (PyErr_WarnEx(category.ptr(), warning.c_str(), 1) != 0) throw nb::python_error();
+    }
+}
+
+nb::tuple smooth(nb::handle vertices, nb::handle faces, nb::handle selected,
+                 const nb::object& progress, const nb::kwargs& given) {
+    TriangleMesh mesh = mesh_of(vertices, faces);
+    const Selection selection = selection_of(selected, mesh);
+    const FlowParameters parameters = flow_parameters(given, mesh);
+    FlowReport report;
+    {
+        const nb::gil_scoped_release released;
+        report = evolve(mesh, selection, parameters, progress_by(progress));
+    }
+    const std::vector<std::string> warnings = flow_warnings(parameters, report, kAdvice);
+
+    nb::dict values;
+    values["version"] = TRACKED_MCF_VERSION;
+    values.update(nb::borrow<nb::dict>(
+        as_python(report_values(parameters, {!selection.empty()}, report, warnings))));
+    if (!report.quality.empty()) {
+        const std::size_t count = report.quality.size();
+        values["quality"] = array_of(std::move(report.quality), {count});
+    }
+    const std::size_t count = mesh.positions.size();
+    nb::object moved = array_of(std::move(mesh.positions), {count, 3});
+    const nb::object single = numpy().attr("float32");
+    if (numpy().attr("asarray")(vertices).attr("dtype").equal(single))
+        moved = moved.attr("astype")(single);
+    warn(warnings);
+    return nb::make_tuple(moved, values);
+}
+
+double default_detail_size_of(nb::handle vertices, nb::handle faces, nb::handle selected) {
+    const TriangleMesh mesh = mesh_of(vertices, faces);
+    validate(mesh);
+    return default_detail_size(mesh, selection_of(selected, mesh));
+}
+
+/// Raises the error's class of the package, which Python code defines.
+void translate(const std::exception_ptr& exception, void*) {
+    const auto raise = [](const char* name, const Error& error) {
+        PyErr_SetString(nb::module_::import_("tracked_mcf").attr(name).ptr(), error.what());
+    };
+    try {
+        std::rethrow_exception(exception);
+    } catch (const InvalidMesh& error) {
+        raise("InvalidMesh", error);
+    } catch (const InvalidParameter& error) {
+        raise("InvalidParameter", error);
+    } catch (const NotEnoughMemory& error) {
+        raise("NotEnoughMemory", error);
+    } catch (const Cancelled& error) {
+        raise("Cancelled", error);
+    } catch (const Error& error) {
+        raise("Error", error);
+    }
+}
+
+const char* const kSummary =
+    "Smooths a triangle mesh by mean-curvature flow. Returns new vertices and a report.\n\n"
+    "vertices has the shape (n, 3), in any unit of length. faces has the shape (m, 3): integers "
+    "that\n"
+    "count vertices from 0. The given arrays never change.\n\n"
+    "Parameters:\n";
+
+const char* const kRest =
+    "    progress: Callable[[float, str], object] | None = None\n"
+    "        Called about 20 times a second with the fraction done and the phase. False cancels.\n"
+    "\n"
+    "Returns an array of shape (n, 3), of float32 if vertices are float32, else of float64, and a\n"
+    "dictionary: sizes, times, residuals, displacements, the change of area and volume, and the "
+    "list\n"
+    "warnings; the program's page tells what each key means. With a quality, the array \"quality\" "
+    "of\n"
+    "shape (n,) is in it, too. Each warning is also a FlowWarning.\n"
+    "\n"
+    "Raises InvalidMesh, InvalidParameter, NotEnoughMemory, or Cancelled, which all are Errors;\n"
+    "TypeError for unknown parameters and values of a wrong type; and what progress raises. "
+    "Ctrl-C\n"
+    "stops the flow with KeyboardInterrupt. Other threads of Python run meanwhile.";
+
+const char* const kDefaultDetailSize =
+    "Returns the detail_size that smooth() takes by default, 2.5 mean edge lengths of the faces "
+    "that\n"
+    "move, in units of the mesh.";
+
+}  // namespace
+
+}  // namespace tracked_mcf
+
+NB_MODULE(_core, module) {
+    using namespace tracked_mcf;
+    module.attr("version") = TRACKED_MCF_VERSION;
+    nb::register_exception_translator(translate);
+    module.def("smooth", smooth, "vertices"_a, "faces"_a, nb::kw_only(), "selected"_a = nb::none(),
+               "progress"_a = nb::none(), "parameters"_a, nb::sig(signature_of_smooth().c_str()),
+               (kSummary + help_of_parameters() + kRest).c_str());
+    module.def("default_detail_size", default_detail_size_of, "vertices"_a, "faces"_a,
+               nb::kw_only(), "selected"_a = nb::none(),
+               nb::sig("def default_detail_size(vertices: numpy.typing.ArrayLike, faces: "
+                       "numpy.typing.ArrayLike, *, selected: numpy.typing.ArrayLike | None = None) "
+                       "-> float"),
+               kDefaultDetailSize);
+}
