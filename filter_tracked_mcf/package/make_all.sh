@@ -27,7 +27,7 @@ make_one() { # RELEASE SCALAR CMAKE_ARGUMENT...
     made+=("$(basename "$build"/package/*.tar.gz)")
     if [ "$2" = double ]; then
         cmake --build "$build" --target wheel
-        cp "$build"/tracked_mcf-*.whl "$destination/"
+        cp "$build"/pymeshlab_tracked_mcf-*.whl "$destination/"
     fi
 }
 made=()
@@ -43,4 +43,4 @@ for archive in "${made[@]}"; do
     tar -xOzf "$destination/$archive" "${archive%.tar.gz}/INSTALL.txt" |
         sed -n '/^What is needed/,$p' | grep '^    '
 done
-stat -c '%n: %s bytes' "$destination"/tracked_mcf-*.whl
+stat -c '%n: %s bytes' "$destination"/pymeshlab_tracked_mcf-*.whl

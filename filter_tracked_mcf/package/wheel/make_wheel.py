@@ -15,7 +15,7 @@ import subprocess
 import sys
 import zipfile
 
-NAME = "tracked_mcf"
+NAME = "pymeshlab_tracked_mcf"
 
 
 def platform(plugin, processor):
@@ -40,7 +40,7 @@ def main(module, version, release, processor, destination, *licences):
     licences = [pathlib.Path(licence) for licence in licences]
     files.update((f"{info}/licenses/{licence.name}", licence.read_bytes()) for licence in licences)
     files[f"{info}/METADATA"] = (
-        f"Metadata-Version: 2.4\nName: {NAME}\nVersion: {version}\n"
+        f"Metadata-Version: 2.4\nName: {NAME.replace('_', '-')}\nVersion: {version}\n"
         f"Summary: Mean-curvature flow of triangle meshes in PyMeshLab {release}\n"
         "License-Expression: GPL-3.0-or-later\n" +
         "".join(f"License-File: {licence.name}\n" for licence in licences) +

@@ -161,7 +161,7 @@ def main(build, single_precision_plugin, tool, readme, work, *meshes):
     shutil.rmtree(work, ignore_errors=True)
     work.mkdir(parents=True)
     subprocess.run(["cmake", "--build", build, "--target", "wheel"], check=True)
-    [wheel] = build.glob("tracked_mcf-*.whl")
+    [wheel] = build.glob("pymeshlab_tracked_mcf-*.whl")
     files = check_files(pathlib.Path(shutil.copy(wheel, work)), build)
     print_needs(files / MODULE / PLUGIN)
     python = install(wheel, work / "environment")
