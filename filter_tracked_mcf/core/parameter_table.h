@@ -26,7 +26,7 @@ struct Range {
 /// A value of a choice.
 struct NamedChoice {
     std::string label;  ///< in a dialog and in PyMeshLab, such as "Locked cells (paper)"
-    std::string name;   ///< on the command line, such as "locked-cells"
+    std::string name;   ///< on the command line, in Python and reports, such as "locked-cells"
 };
 
 /// The member of FlowParameters that a parameter sets.
@@ -50,10 +50,11 @@ struct ParameterMember {
 /// One parameter of a flow, and how hosts offer it.
 ///
 /// To add a parameter, add a member to FlowParameters and a row to the table. Dialog, scripts,
-/// PyMeshLab, the program's options, help and report, and validate() follow the row.
+/// PyMeshLab, the Python package, the program's options, help and report, and validate() follow the
+/// row.
 struct Parameter : ParameterMember {
     std::string name;  ///< in scripts and reports; with dashes, the program's option; never changes
-    std::string label;  ///< in a dialog; empty if only the program offers the parameter
+    std::string label;  ///< in a dialog; empty if MeshLab does not offer the parameter
     std::string help;   ///< its meaning, its unit, and advice
 };
 

@@ -14,7 +14,7 @@ ReportValue integer(std::int64_t number) {
     return {number};
 }
 
-ReportValue unless(bool unknown, ReportValue value) {
+ReportValue unless(bool unknown, const ReportValue& value) {
     return unknown ? ReportValue() : value;
 }
 

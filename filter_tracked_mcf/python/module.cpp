@@ -103,8 +103,9 @@ Selection selection_of(nb::handle given, const TriangleMesh& mesh) {
 }
 
 /// Moves numbers into an array of this shape, without a copy.
-template <class Vector>
-nb::object array_of(Vector&& values, std::initializer_list<std::size_t> shape) {
+template <class Number>
+nb::object array_of(std::vector<Number>&& values, std::initializer_list<std::size_t> shape) {
+    using Vector = std::vector<Number>;
     auto* const kept = new Vector(std::move(values));
     const nb::capsule owner(kept, [](void* held) noexcept { delete static_cast<Vector*>(held); });
     auto* const numbers = reinterpret_cast<double*>(kept->data());
