@@ -6,6 +6,7 @@
 #   program      building the command-line program, too
 #   plugin       building the MeshLab plugin, too, and MeshLab itself
 #   package      packing it for Debian or for Python, too
+#   python       building the Python package for NumPy arrays
 #   demo         running the plugin without a screen and drawing pictures of surfaces
 #   tests        building and running all tests
 #   experiments  building and running tests/experiments
@@ -27,6 +28,7 @@ packages_of() {
         plugin) echo "$(packages_of program)" meshlab "$(libraries_recommended_by meshlab)" \
             qtbase5-dev libqt5opengl5-dev libglew-dev libglu1-mesa-dev ;;
         package) echo "$(packages_of plugin)" dpkg-dev file help2man python3 ;;
+        python) echo "$(packages_of core)" python3-dev python3-venv ;;
         demo) echo "$(packages_of plugin)" xvfb xauth python3-vtk9 python3-numpy ;;
         tests) echo "$(packages_of package)" libgtest-dev libgmock-dev libboost-dev \
             xvfb xauth xdotool imagemagick python3 python3-matplotlib debootstrap ;;

@@ -259,7 +259,8 @@ def check_fork(mesh):
 def check_script(plugin, tool, page, mesh, work):
     """The result of the page's script must be that of the tool with the script's detail size."""
     text = pathlib.Path(page).read_text(encoding="utf-8")
-    script = text.split("```python\n")[1].split("```")[0]
+    blocks = [block.split("```")[0] for block in text.split("```python\n")[1:]]
+    [script] = [block for block in blocks if "pymeshlab" in block]
     for name in ("libfilter_tracked_mcf.so", "smooth.ply"):
         (work / name).unlink(missing_ok=True)
     if plugin.endswith(".so"):

@@ -1,0 +1,441 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Tests the Python package tracked_mcf, and compares it with the program: arrays_test.py TOOL MESH.off README
+
+Ends with 77, which tells CTest that the test was skipped, where the package is not installed.
+"""
+
+import _thread
+import ast
+import json
+import multiprocessing
+import multiprocessing.pool
+import pathlib
+import pickle
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import unittest
+import warnings
+
+try:
+    import numpy
+    import tracked_mcf
+except ImportError as error:
+    print(f"skipped: {sys.executable}: {error}; external/python_package.sh installs the package")
+    sys.exit(77)
+
+HERE = pathlib.Path(__file__).resolve().parent
+COARSE = {"depth": 5, "detail_size": 0.2}
+
+# A parameter, as a keyword and as the program's option. All other tests have the default of most.
+RUNS = [
+    ("detail_size", 0.3, "0.3"),
+    ("detail_size", "20%", "20%"),
+    ("keep_edges", 25, "25"),
+    ("local_detail_size", True, None),
+    ("iterations", 5, "5"),
+    ("order", 2, "2"),
+    ("preserve", "volume", "volume"),
+    ("boundary", "free", "free"),
+    ("boundary", "locked-cells", "locked-cells"),
+    ("quality", "displacement", "displacement"),
+    ("step_size", 1e-3, "1e-3"),
+    ("absolute", numpy.True_, None),
+    ("depth", numpy.int64(4), "4"),
+    ("flow", "conformalized", "conformalized"),
+    ("method", "paper", "paper"),
+    ("tolerance", 1e-5, "1e-5"),
+    ("stabilization", 1, "1"),
+    ("cycles", 2, "2"),
+    ("cubature", 12, "12"),
+    ("threads", 1, "1"),
+]
+# A parameter has no effect, and so is not tested, without these.
+WITH = {"absolute": {"step_size": 1e-3}, "cycles": {"method": "paper"}}
+
+Error = tracked_mcf.Error
+InvalidMesh, InvalidParameter = tracked_mcf.InvalidMesh, tracked_mcf.InvalidParameter
+
+# Refused keywords, and words of the message.
+WRONG = [
+    ({"detial_size": 1}, TypeError, "no parameter 'detial_size'; the parameters are detail_size, keep"),
+    ({"order": 5}, InvalidParameter, "order is 5; give 1 to 4"),
+    ({"order": 2.0}, TypeError, "order is 2.0; give an integer"),
+    ({"iterations": 10**30}, InvalidParameter, "give 1 to 1000000"),
+    ({"iterations": -10**30}, InvalidParameter, "give 1 to 1000000"),
+    ({"keep_edges": "25"}, TypeError, "keep_edges is '25'; give a number"),
+    ({"keep_edges": numpy.nan}, InvalidParameter, "keep_edges is nan"),
+    ({"absolute": 1}, TypeError, "absolute is 1; give True or False"),
+    ({"preserve": "volum"}, InvalidParameter, "give one of 'none', 'area', 'volume'"),
+    ({"preserve": 1}, InvalidParameter, "preserve is 1"),
+    ({"cubature": "3"}, InvalidParameter, "give one of 1, 3, 12"),
+    ({"detail_size": "1"}, InvalidParameter, "such as '1%'"),
+    ({"detail_size": "one%"}, InvalidParameter, "such as '1%'"),
+    ({"detail_size": "%"}, InvalidParameter, "such as '1%'"),
+    ({"detail_size": "-1%"}, InvalidParameter, "detail_size is -1; give 0 or more"),
+    ({"detail_size": []}, TypeError, "detail_size is []"),
+    ({"flow": "conformalized", "keep_edges": 25}, InvalidParameter, "keep_edges"),
+    ({"preserve": "area"}, InvalidParameter, "Preserving the area"),
+    ({"selected": [0, 1]}, InvalidParameter, "the type int64; give an array of bools"),
+    ({"selected": [True]}, InvalidParameter, "one for each of the 3042 faces"),
+    ({"selected": numpy.zeros(3042, bool)}, InvalidMesh, "No face is selected"),
+    ({"progress": 1}, TypeError, "not callable"),
+]
+
+
+def bumpy_bowl(seed=1, side=40):
+    """Returns the vertices and faces of an open surface with noise."""
+    ticks = numpy.linspace(-1, 1, side)
+    x, y = (axis.ravel() for axis in numpy.meshgrid(ticks, ticks))
+    noise = numpy.random.default_rng(seed).normal(scale=0.01, size=x.size)
+    corner = numpy.arange(side * side).reshape(side, side)
+    a, b, c, d = (part.ravel() for part in (corner[:-1, :-1], corner[:-1, 1:], corner[1:, 1:],
+                                            corner[1:, :-1]))
+    return (numpy.stack([x, y, (x * x + y * y) / 2 + noise], axis=1),
+            numpy.concatenate([numpy.stack([a, b, c], axis=1), numpy.stack([a, c, d], axis=1)]))
+
+
+VERTICES, FACES = bumpy_bowl()
+
+
+def smooth(vertices=VERTICES, faces=FACES, **parameters):
+    return tracked_mcf.smooth(vertices, faces, **{**COARSE, **parameters})
+
+
+def smoothed_bowl(seed):
+    return smooth(*bumpy_bowl(seed))[0].tobytes()
+
+
+def refuse_bowl(_):
+    smooth(order=5)
+
+
+def write_ply(path, vertices, faces, selected):
+    """Writes the flag of each face as its property s."""
+    header = ["ply", "format ascii 1.0", f"element vertex {len(vertices)}",
+              *(f"property double {axis}" for axis in "xyz"), f"element face {len(faces)}",
+              "property list uchar int vertex_indices", "property uchar s", "end_header"]
+    rows = [" ".join(map(repr, vertex)) for vertex in vertices.tolist()]
+    rows += [f"3 {a} {b} {c} {flag:d}" for (a, b, c), flag in zip(faces.tolist(), selected)]
+    path.write_text("\n".join([*header, *rows, ""]), encoding="ascii")
+
+
+def read_off(path):
+    words = pathlib.Path(path).read_text(encoding="ascii").split()
+    count, faces = int(words[1]), int(words[2])
+    vertices = numpy.array(words[4:4 + 3 * count], float).reshape(count, 3)
+    rows = numpy.array(words[4 + 3 * count:4 + 3 * count + 4 * faces], int).reshape(faces, 4)
+    return vertices, rows[:, 1:]
+
+
+def read_vertices(path):
+    """Returns the bytes of the positions in a PLY file of the program, and the qualities or None."""
+    header, _, data = path.read_bytes().partition(b"end_header\n")
+    lines = header.decode().splitlines()
+    first = next(i for i, line in enumerate(lines) if line.startswith("element vertex"))
+    columns = []
+    for line in lines[first + 1:]:
+        if not line.startswith("property"):
+            break
+        columns.append(line.split())
+    types = {"double": "<f8", "float": "<f4"}
+    kind = numpy.dtype([(name, types[type_name]) for _, type_name, name in columns])
+    rows = numpy.frombuffer(data, kind, count=int(lines[first].split()[2]))
+    positions = numpy.stack([rows[axis] for axis in "xyz"], axis=1)
+    return positions.tobytes(), rows["quality"] if "quality" in kind.names else None
+
+
+class WithFolder(unittest.TestCase):
+    """Tests that run the program."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def program(self, mesh, *options):
+        """Returns the bytes of the vertices, the qualities and the report."""
+        command = [TOOL, mesh, self.folder / "out.ply", "--quiet", "--report", self.folder / "out.json"]
+        subprocess.run([*command, *options], check=True)
+        report = json.loads((self.folder / "out.json").read_text(encoding="utf-8"))
+        return *read_vertices(self.folder / "out.ply"), report
+
+
+class Program(WithFolder):
+    def options(self, parameters):
+        for name, value in parameters.items():
+            yield "--" + name.replace("_", "-")
+            if value is not None:
+                yield str(value)
+
+    def test_each_parameter_gives_the_bits_of_the_program(self):
+        mesh = self.folder / "bowl.ply"
+        write_ply(mesh, VERTICES, FACES, numpy.ones(len(FACES), bool))
+        plain = smooth()[0].tobytes()
+        for name, value, option in RUNS:
+            with self.subTest(name, value=value), warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                others = WITH.get(name, {})
+                vertices, report = smooth(**{**others, name: value})
+                expected, quality, reported = self.program(
+                    mesh, *self.options({**COARSE, **others, name: option}))
+                self.assertEqual(vertices.tobytes(), expected)
+                if name not in ("quality", "threads"):
+                    self.assertNotEqual(expected, plain, "the parameter has no effect")
+                if quality is not None:
+                    self.assertEqual(report.pop("quality").tobytes(), quality.tobytes())
+                self.compare_reports(report, reported)
+
+    def compare_reports(self, report, reported):
+        """Times and memory differ from run to run."""
+        for values in (report, reported, *report["steps"], *reported["steps"]):
+            for name in [name for name in values if name.endswith(("_seconds", "_bytes"))]:
+                self.assertGreaterEqual(values.pop(name), 0)
+        for name in ("program", "input", "output"):
+            reported.pop(name)
+        self.assertIs(report["parameters"].pop("selected"), False)
+        self.assertIsNone(reported["parameters"].pop("selected"))
+        # The advice of the last warning names options of the host.
+        self.assertEqual(len(report.pop("warnings")), len(reported.pop("warnings")))
+        self.assertEqual(report, reported)
+
+    def test_all_parameters_are_compared(self):
+        names = set(smooth()[1]["parameters"])
+        self.assertEqual(names, {name for name, _, _ in RUNS} | {"selected"})
+
+    def test_defaults_on_a_real_mesh(self):
+        vertices, faces = read_off(MESH)
+        moved, report = tracked_mcf.smooth(vertices, faces)
+        expected, _, reported = self.program(MESH)
+        self.assertEqual(moved.tobytes(), expected)
+        self.assertEqual(report["detail_size"], reported["detail_size"])
+        # The report's is that of the step size, so it is rounded.
+        ratio = tracked_mcf.default_detail_size(vertices, faces) / report["detail_size"]
+        self.assertAlmostEqual(ratio, 1, delta=1e-14)
+
+    def test_selection(self):
+        selected = VERTICES[FACES].mean(axis=1)[:, 0] > 0
+        write_ply(self.folder / "bowl.ply", VERTICES, FACES, selected)
+        vertices, report = smooth(selected=selected)
+        expected, _, _ = self.program(self.folder / "bowl.ply", *self.options({**COARSE, "selected": "s"}))
+        self.assertEqual(vertices.tobytes(), expected)
+        self.assertIs(report["parameters"]["selected"], True)
+        still = numpy.unique(FACES[~selected])
+        self.assertEqual(vertices[still].tobytes(), VERTICES[still].tobytes())
+        self.assertTrue((vertices != VERTICES).any())
+
+    def test_version(self):
+        said = subprocess.run([TOOL, "--version"], check=True, capture_output=True, text=True).stdout
+        self.assertEqual(said, f"tracked_mcf {tracked_mcf.__version__}\n")
+        self.assertEqual(smooth()[1]["version"], tracked_mcf.__version__)
+
+
+class Arrays(unittest.TestCase):
+    def test_layouts_and_types(self):
+        expected = smooth()[0]
+        self.assertEqual((expected.dtype, expected.shape), (float, VERTICES.shape))
+        self.assertTrue(expected.flags.writeable)
+        wide = numpy.zeros((len(VERTICES), 6))
+        wide[:, ::2] = VERTICES
+        for vertices in (VERTICES.tolist(), numpy.asfortranarray(VERTICES), wide[:, ::2],
+                         VERTICES.astype(">f8"), VERTICES[::-1][::-1]):
+            self.assertEqual(smooth(vertices)[0].tobytes(), expected.tobytes())
+        for faces in (FACES.tolist(), numpy.asfortranarray(FACES), FACES.astype("u2"), FACES.astype("u8"),
+                      FACES.astype(">i4")):
+            self.assertEqual(smooth(faces=faces)[0].tobytes(), expected.tobytes())
+
+    def test_single_precision_stays(self):
+        single = VERTICES.astype("f4")
+        moved = smooth(single)[0]
+        self.assertEqual(moved.dtype, numpy.float32)
+        self.assertEqual(moved.tobytes(), smooth(single.astype(float))[0].astype("f4").tobytes())
+
+    def test_given_arrays_never_change(self):
+        vertices, faces, selected = VERTICES.copy(), FACES.copy(), numpy.ones(len(FACES), bool)
+        for array in (vertices, faces, selected):
+            array.flags.writeable = False
+        moved = smooth(vertices, faces, selected=selected)[0]
+        self.assertFalse(numpy.shares_memory(moved, vertices))
+        self.assertEqual(vertices.tobytes() + faces.tobytes(), VERTICES.tobytes() + FACES.tobytes())
+
+    def test_results_outlive_each_other(self):
+        vertices, report = smooth(quality="displacement")
+        quality = report.pop("quality")
+        copies = vertices.copy(), quality.copy()
+        del report
+        smooth(quality="displacement")
+        self.assertEqual(vertices.tobytes(), copies[0].tobytes())
+        self.assertEqual(quality.tobytes(), copies[1].tobytes())
+        self.assertEqual(quality.shape, (len(VERTICES),))
+
+    def test_refused_arrays(self):
+        far = FACES.astype("u8")
+        far[-1, -1] = 2**63
+        for vertices, faces, words in (
+                (VERTICES[:, :2], FACES, "vertices has the shape (1600, 2) and the type float64"),
+                (VERTICES[0], FACES, "shape (3,)"),
+                (VERTICES + 1j, FACES, "type complex128"),
+                (VERTICES.astype(str), FACES, "give an array of shape (n, 3) of real numbers"),
+                (numpy.where(VERTICES > 0.99, numpy.nan, VERTICES), FACES, "not a finite number"),
+                ([], [], "shape (0,)"),
+                (VERTICES, FACES[:0], "The mesh has no faces"),
+                (VERTICES, FACES[:, [0, 1, 2, 2]], "split larger faces first"),
+                (VERTICES, FACES.astype(float), "faces has the shape (3042, 3) and the type float64"),
+                (VERTICES, FACES - 1, "vertex -1, which does not exist"),
+                (VERTICES, FACES + 1, "vertex 1600, which does not exist: vertices has 1600 rows"),
+                (VERTICES, FACES + 2**32, "vertex 4294967296, which does not exist"),
+                (VERTICES, far, "vertex 9223372036854775808, which does not exist")):
+            with self.subTest(words), self.assertRaises(InvalidMesh) as raised:
+                smooth(vertices, faces)
+            self.assertIn(words, str(raised.exception))
+
+    def test_refused_parameters(self):
+        for parameters, kind, words in WRONG:
+            with self.subTest(**parameters), self.assertRaises(kind) as raised:
+                smooth(**parameters)
+            self.assertIs(type(raised.exception), kind)
+            self.assertIn(words, str(raised.exception))
+
+
+class Errors(unittest.TestCase):
+    def test_classes(self):
+        for kind, builtin in ((InvalidMesh, ValueError), (InvalidParameter, ValueError),
+                              (tracked_mcf.NotEnoughMemory, MemoryError), (tracked_mcf.Cancelled, Error)):
+            self.assertTrue(issubclass(kind, (Error,)) and issubclass(kind, builtin))
+            copy = pickle.loads(pickle.dumps(kind("text")))
+            self.assertEqual((type(copy), str(copy)), (kind, "text"))
+
+    @unittest.skipUnless(sys.platform == "linux", "limits memory")
+    def test_not_enough_memory(self):
+        script = ("import resource, tracked_mcf, arrays_test\n"
+                  "limit = 1 << 30\n"
+                  "resource.setrlimit(resource.RLIMIT_DATA, (limit, limit))\n"
+                  "try: arrays_test.smooth(depth=11)\n"
+                  "except tracked_mcf.NotEnoughMemory as error: print(error)")
+        said = subprocess.run([sys.executable, "-c", script], cwd=HERE, check=True, capture_output=True,
+                              text=True).stdout
+        self.assertIn("Choose depth", said)
+
+    def test_warnings(self):
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            _, report = smooth(depth=2, detail_size=0.01)
+        self.assertEqual([str(warning.message) for warning in caught], report["warnings"])
+        self.assertIn("The cells of depth 2 ", report["warnings"][0])
+        self.assertIs(caught[0].category, tracked_mcf.FlowWarning)
+        self.assertTrue(issubclass(tracked_mcf.FlowWarning, UserWarning))
+        self.assertEqual(caught[0].filename, __file__)
+        with warnings.catch_warnings(), self.assertRaises(tracked_mcf.FlowWarning):
+            warnings.simplefilter("error")
+            smooth(depth=2, detail_size=0.01)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            self.assertEqual(smooth()[1]["warnings"], [])
+
+
+class Progress(unittest.TestCase):
+    def test_fractions_and_phases(self):
+        calls = []
+        smooth(progress=lambda fraction, phase: calls.append((fraction, phase)))
+        fractions = [fraction for fraction, _ in calls]
+        self.assertEqual(fractions, sorted(fractions))
+        self.assertEqual(fractions[-1], 1)
+        self.assertIn("Step 2 of 3", [phase for _, phase in calls])
+
+    def test_false_cancels(self):
+        for no in (False, numpy.False_):
+            calls = []
+            with self.assertRaises(tracked_mcf.Cancelled):
+                smooth(progress=lambda *call: (calls.append(call), no)[1])
+            self.assertEqual(len(calls), 1)
+        smooth(progress=lambda *_: True)
+
+    def test_exceptions_propagate(self):
+        class Unknown(Exception):
+            pass
+
+        error = Unknown()
+
+        def fail(*_):
+            raise error
+
+        with self.assertRaises(Unknown) as raised:
+            smooth(progress=fail)
+        self.assertIs(raised.exception, error)
+
+    def test_interrupt(self):
+        """Without progress: Python itself looks for interrupts when it runs a function."""
+        script = ("import _thread, threading, arrays_test\n"
+                  "threading.Timer(0.3, _thread.interrupt_main).start()\n"
+                  "try: arrays_test.smooth(depth=7, iterations=100000)\n"
+                  "except KeyboardInterrupt: print('interrupted')")
+        said = subprocess.run([sys.executable, "-c", script], cwd=HERE, check=True, capture_output=True,
+                              text=True, timeout=60).stdout
+        self.assertEqual(said, "interrupted\n")
+
+    def test_other_threads_run(self):
+        ticks, done = [0], threading.Event()
+
+        def tick():
+            while not done.wait(0.001):
+                ticks[0] += 1
+
+        thread = threading.Thread(target=tick)
+        thread.start()
+        before, start = ticks[0], time.monotonic()
+        smooth(iterations=300)
+        per_second = (ticks[0] - before) / (time.monotonic() - start)
+        done.set()
+        thread.join()
+        self.assertGreater(per_second, 50)
+
+
+class Processes(unittest.TestCase):
+    def setUp(self):
+        self.expected = [smoothed_bowl(seed) for seed in range(10)]  # uses OpenMP's threads before fork
+
+    @unittest.skipUnless("fork" in multiprocessing.get_all_start_methods(), "needs fork")
+    def test_forked_processes(self):
+        with multiprocessing.get_context("fork").Pool(2) as pool:
+            self.assertEqual(pool.map_async(smoothed_bowl, range(10)).get(timeout=120), self.expected)
+            with self.assertRaises(InvalidParameter):
+                pool.map_async(refuse_bowl, [0]).get(timeout=120)
+
+    def test_threads(self):
+        with multiprocessing.pool.ThreadPool(2) as pool:
+            self.assertEqual(pool.map_async(smoothed_bowl, range(10)).get(timeout=120), self.expected)
+
+
+class Documents(WithFolder):
+    def test_stub_and_docstring_name_all_parameters(self):
+        folder = pathlib.Path(tracked_mcf.__file__).parent
+        self.assertTrue((folder / "py.typed").exists())
+        stub = ast.parse((folder / "_core.pyi").read_text(encoding="utf-8"))
+        [function] = [node for node in stub.body if getattr(node, "name", "") == "smooth"]
+        names = [argument.arg for argument in function.args.kwonlyargs]
+        self.assertEqual(names, [*smooth()[1]["parameters"], "progress"])
+        for name in names:
+            self.assertIn(f"\n    {name}: ", tracked_mcf.smooth.__doc__)
+        self.assertIn("preserve: Literal['none', 'area', 'volume'] = 'none'", tracked_mcf.smooth.__doc__)
+
+    def test_readme(self):
+        """The README's script does what the program does."""
+        try:
+            import trimesh
+        except ImportError:
+            self.skipTest("needs trimesh")
+        blocks = pathlib.Path(README).read_text(encoding="utf-8").split("```python\n")[1:]
+        [script] = [block.split("```")[0] for block in blocks if "trimesh" in block]
+        trimesh.Trimesh(VERTICES, FACES, process=False).export(self.folder / "scan.ply")
+        subprocess.run([sys.executable, "-c", script], cwd=self.folder, check=True)
+        expected, _, _ = self.program(self.folder / "scan.ply", "--detail-size", "0.5%", "--order", "2")
+        written = numpy.frombuffer(expected, "<f8").astype("<f4")  # as trimesh does
+        self.assertEqual(read_vertices(self.folder / "smooth.ply")[0], written.tobytes())
+
+
+if __name__ == "__main__":
+    TOOL, MESH, README = sys.argv[1:]
+    unittest.main(argv=sys.argv[:1], verbosity=2)
