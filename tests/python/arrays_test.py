@@ -7,6 +7,7 @@ Ends with 77, which tells CTest that the test was skipped, where the package is 
 
 import _thread
 import ast
+import importlib.metadata
 import json
 import multiprocessing
 import multiprocessing.pool
@@ -231,6 +232,7 @@ class Program(WithFolder):
         said = subprocess.run([TOOL, "--version"], check=True, capture_output=True, text=True).stdout
         self.assertEqual(said, f"tracked_mcf {tracked_mcf.__version__}\n")
         self.assertEqual(smooth()[1]["version"], tracked_mcf.__version__)
+        self.assertEqual(importlib.metadata.version("tracked-mcf"), tracked_mcf.__version__)
 
 
 class Arrays(unittest.TestCase):
