@@ -3,8 +3,9 @@
 # Makes archives of the program for other systems than this one: make_programs.sh DESTINATION [SYSTEM]...
 #
 # The systems are macos-arm64 and macos-x86_64 (macOS 13 or later), linux-x86_64 and linux-arm64 (glibc 2.28 or
-# later), all by Zig and without OpenMP, and windows-x86_64 by MinGW-w64; by default all of them. Nobody has run the
-# programs for macOS yet, and their archives say so. Build folders stay in build/programs for the next time.
+# later), all by Zig, and windows-x86_64 by MinGW-w64; by default all of them. Those by Zig use one thread, and on
+# x86-64 its plain instructions. Nobody has run the programs for macOS yet, and their archives say so. Build folders
+# stay in build/programs for the next time.
 set -euo pipefail
 
 destination=$(realpath -m "${1:?usage: make_programs.sh DESTINATION [SYSTEM]...}")
