@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# README's second command: installs what is needed, builds everything into build/, and runs all tests:
+# README's test command: installs what is needed, builds everything into build/, and runs all tests:
 # run.sh [-DOPTION=VALUE]... [ARGUMENT]...
 #
 # Options go to CMake, arguments to ctest, such as -L unit. -DTRACKED_MCF_OTHER_HOSTS=ON adds the

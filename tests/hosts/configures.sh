@@ -37,5 +37,6 @@ ln -s "$sources" "$folder"
 configure -DMESHLAB_SOURCE_DIR= || fail "does not find the sources in $folder"
 rm "$folder"
 configure "-DMESHLAB_SOURCE_DIR=$sources" || fail "does not find the sources that it was given"
-[ ! -e "$work/calls.txt" ] || fail "configuring ran: $(cat "$work/calls.txt")"
+# The version counts the clone's commits.
+if grep -vE '^git -C [^ ]+ (log|rev-list) ' "$work/calls.txt"; then fail "configuring ran something that may fetch"; fi
 echo "configuring ran nothing that fetches"

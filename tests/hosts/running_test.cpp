@@ -62,7 +62,7 @@ TEST_P(Running, AnotherRunIsRefusedAndTheFirstGoesOn) {
         const host::Outcome inner = filter().apply(document, parameters, process_events);
         EXPECT_FALSE(inner.succeeded);
         EXPECT_TRUE(contains(inner.message, "already running")) << inner.message;
-        EXPECT_TRUE(contains(inner.message, "Wait until")) << inner.message;
+        EXPECT_TRUE(contains(inner.message, "goes on when")) << inner.message;
         EXPECT_EQ(position_bits(layer), before);
         EXPECT_TRUE(Belongings(layer) == belongings);
     })) << outcome.message;

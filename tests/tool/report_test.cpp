@@ -264,7 +264,7 @@ TEST(Report, HoldsEveryWarningThatIsPrinted) {
     write_file(folder / "a.obj",
                "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvt 0 0\n"
                "f 1/1 3/1 2/1\nf 1/1 2/1 4/1\nf 1/1 4/1 3/1\nf 2/1 3/1 4/1\n");
-    const ProgramRun run = run_program(folder, "a.obj b.ply --detail-size 100% --report r.json");
+    const ProgramRun run = run_program(folder, "a.obj b.ply --detail-size 50% --report r.json");
     ASSERT_EQ(run.exit_code, 0) << run.errors;
     const Json warnings = Json::parse(read_file(folder / "r.json"))["warnings"];
     ASSERT_EQ(warnings.size(), 2u) << run.errors;
