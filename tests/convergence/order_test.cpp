@@ -7,6 +7,7 @@
 
 #include "filter_tracked_mcf/core/evolve.h"
 #include "tests/support/shapes.h"
+#include "tests/support/surface_distance.h"
 
 namespace tracked_mcf {
 namespace {
@@ -23,15 +24,6 @@ TriangleMesh flowed(TriangleMesh mesh, int depth) {
     return mesh;
 }
 
-/// Returns the root mean square distance between vertices of the same index.
-double distance(const TriangleMesh& a, const TriangleMesh& b) {
-    double sum = 0;
-    for (std::size_t i = 0; i < a.positions.size(); ++i) {
-        sum += (a.positions[i] - b.positions[i]).squaredNorm();
-    }
-    return std::sqrt(sum / static_cast<double>(a.positions.size()));
-}
-
 // Compares depths on the same mesh, so that the mesh's own error cancels. Its triangles are smaller
 // than the smallest cells. It is not a sphere, because any grid represents a sphere's displacement.
 TEST(Order, IsTwoInTheCellSize) {
@@ -40,7 +32,7 @@ TEST(Order, IsTwoInTheCellSize) {
     double first = 0, last = 0;
     for (const int depth : {5, 6, 7, 8}) {
         TriangleMesh fine = flowed(mesh, depth);
-        last = distance(coarse, fine);
+        last = rms_distance(coarse, fine);
         if (first == 0) first = last;
         std::printf("depth %d to %d: %.3g\n", depth - 1, depth, last);
         coarse = std::move(fine);

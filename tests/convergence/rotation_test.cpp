@@ -6,6 +6,7 @@
 #include "filter_tracked_mcf/core/cells/grid.h"
 #include "filter_tracked_mcf/core/evolve.h"
 #include "tests/support/shapes.h"
+#include "tests/support/surface_distance.h"
 
 namespace tracked_mcf {
 namespace {
@@ -23,13 +24,8 @@ double disagreement(const TriangleMesh& mesh, const Eigen::Affine3d& turn, int d
         evolve(m, parameters);
         return m;
     };
-    const TriangleMesh a = flowed(shapes::transformed(mesh, turn));
-    const TriangleMesh b = shapes::transformed(flowed(mesh), turn);
-    double sum = 0;
-    for (std::size_t i = 0; i < a.positions.size(); ++i) {
-        sum += (a.positions[i] - b.positions[i]).squaredNorm();
-    }
-    return std::sqrt(sum / static_cast<double>(a.positions.size()));
+    return rms_distance(flowed(shapes::transformed(mesh, turn)),
+                        shapes::transformed(flowed(mesh), turn));
 }
 
 TEST(Rotation, CommutesToTheDiscretisationError) {

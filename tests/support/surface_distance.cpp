@@ -87,6 +87,14 @@ double worst_distance(const TriangleMesh& a, const TriangleMesh& b) {
     return worst;
 }
 
+double rms_distance(const TriangleMesh& a, const TriangleMesh& b) {
+    double squares = 0;
+    for (std::size_t i = 0; i < a.positions.size(); ++i) {
+        squares += (a.positions[i] - b.positions[i]).squaredNorm();
+    }
+    return std::sqrt(squares / static_cast<double>(a.positions.size()));
+}
+
 double diagonal(const TriangleMesh& mesh) {
     Eigen::AlignedBox3d box;
     for (const Triangle& t : mesh.triangles) {

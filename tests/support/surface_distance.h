@@ -29,6 +29,9 @@ std::vector<std::uint8_t> vertices_around(const TriangleMesh& mesh,
 /// Returns the largest distance between a vertex and the same vertex of the other mesh.
 double worst_distance(const TriangleMesh& a, const TriangleMesh& b);
 
+/// Returns the root mean square distance between a vertex and the same vertex of the other mesh.
+double rms_distance(const TriangleMesh& a, const TriangleMesh& b);
+
 /// Returns the diagonal of the bounding box of the vertices that triangles use.
 double diagonal(const TriangleMesh& mesh);
 

@@ -14,6 +14,7 @@
 #include "filter_tracked_mcf/core/parallel/progress_meter.h"
 #include "filter_tracked_mcf/core/solver/conjugate_gradients.h"
 #include "tests/support/shapes.h"
+#include "tests/support/surface_distance.h"
 #include "tests/unit/flows.h"
 
 namespace tracked_mcf {
@@ -28,15 +29,6 @@ TEST(Evolve, ThePapersSolverSamplesEachSplitTriangle) {
     papers.solver = Solver::OneWCycle;
     const FlowReport report = evolve(mesh, papers);
     EXPECT_EQ(report.samples, 3 * report.split_triangles);
-}
-
-/// Returns the RMS distance between the vertices of two meshes.
-double rms_distance(const TriangleMesh& a, const TriangleMesh& b) {
-    double squares = 0;
-    for (std::size_t i = 0; i < a.positions.size(); ++i) {
-        squares += (a.positions[i] - b.positions[i]).squaredNorm();
-    }
-    return std::sqrt(squares / static_cast<double>(a.positions.size()));
 }
 
 TEST(Evolve, SmallFragmentsAreSampledAccurately) {

@@ -46,9 +46,8 @@ Nodes degree_6() {
 /// Squared distances that differ by less count as equal, so that rounding does not choose the fan.
 constexpr double kTie = 1e-9;
 
-/// Largest extent of a small polygon, in cells. With half a cell, the flow's error against 12 nodes
-/// is up to 1.2 times that of three nodes for each triangle of the fan, on scans; with a whole
-/// cell, six times.
+/// Largest extent of a small polygon, in cells. Larger polygons need the nodes of their fan: the
+/// functions and their gradients change too much over half a cell for a rule of degree 2.
 constexpr double kSmall = 0.5;
 
 /// The integrals over a polygon of 1, q and q qᵀ, where q are coordinates in its plane.

@@ -18,7 +18,8 @@ namespace {
 
 // Masks of FragmentEntry's bit-fields.
 constexpr std::uint64_t kCellBits = (std::uint64_t{1} << 40U) - 1;
-constexpr unsigned kFlagBits = 0xff;
+constexpr unsigned kCountBits = 0xff;
+constexpr unsigned kFlagBits = 0xf;
 
 Eigen::Vector3d rounded(const Eigen::Vector3d& position) {
     constexpr double steps_per_cell = 0x1p30;
@@ -52,10 +53,10 @@ void add_fragments(const std::array<Eigen::Vector3d, 3>& corners, std::int32_t t
         FragmentEntry fragment{};
         fragment.cell = morton_code(cell) & kCellBits;
         fragment.split_triangles =
-            degenerate ? 0U : static_cast<unsigned>(std::max(polygon.size - 2, 0)) & kFlagBits;
+            degenerate ? 0U : static_cast<unsigned>(std::max(polygon.size - 2, 0)) & kCountBits;
         fragment.is_small = !degenerate && polygon.size > 3 && is_small(polygon) ? 1U : 0U;
-        fragment.corners = corners_of(polygon) & kAllCorners;
-        fragment.edges = edges_of(polygon) & kAllCorners;
+        fragment.corners = corners_of(polygon) & kFlagBits;
+        fragment.edges = edges_of(polygon) & kFlagBits;
         fragment.triangle = triangle;
         fragments.push_back(fragment);
         pacer.did(kItemsPerFragment);
