@@ -26,7 +26,7 @@ constexpr int kLastRing = 6;
 /// Returns each vertex's distance from the boundary in edges, at most kLastRing.
 std::vector<int> rings_of(const TriangleMesh& mesh) {
     const MeshTopology topology = topology_of(mesh);
-    const std::vector<std::uint8_t> boundary = boundary_edges(topology);
+    const std::vector<std::uint8_t>& boundary = topology.boundary;
     std::vector<int> rings(mesh.positions.size(), kLastRing);
     for (std::size_t t = 0; t < boundary.size(); ++t) {
         for (int i = 0; i < 3; ++i) {

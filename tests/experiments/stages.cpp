@@ -86,7 +86,7 @@ Eigen::AlignedBox3d bounding_box(const TriangleMesh& mesh) {
 
 /// Returns the bounding box of the boundary, empty for a closed mesh.
 Eigen::AlignedBox3d bounding_box_of_boundary(const TriangleMesh& mesh) {
-    const std::vector<std::uint8_t> sides = boundary_edges(topology_of(mesh));
+    const std::vector<std::uint8_t> sides = topology_of(mesh).boundary;
     Eigen::AlignedBox3d box;
     for (std::size_t i = 0; i < sides.size(); ++i) {
         for (int side = 0; side < 3; ++side) {

@@ -73,7 +73,7 @@ Element element_of(const TriangleMesh& mesh, const Triangle& t, double step_size
 std::vector<std::uint8_t> boundary_vertices(const TriangleMesh& mesh) {
     const MeshTopology topology = topology_of(mesh);
     std::vector<std::uint8_t> on_boundary(mesh.positions.size());
-    const std::vector<std::uint8_t> edges = boundary_edges(topology);
+    const std::vector<std::uint8_t>& edges = topology.boundary;
     for (std::size_t t = 0; t < edges.size(); ++t) {
         for (int i = 0; i < 3; ++i) {
             if (!has_bit(edges[t], i)) continue;

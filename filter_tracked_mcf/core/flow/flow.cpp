@@ -83,7 +83,7 @@ void Flow::fill_report(const Domain& domain) {
     report_.unselected_triangles =
         static_cast<std::int64_t>(domain.mesh().triangles.size()) - report_.triangles;
     report_.degenerate_triangles = elements.degenerate_triangle_count;
-    report_.oriented_consistently = is_oriented_consistently(domain.topology());
+    report_.oriented_consistently = domain.topology().is_oriented_consistently();
     report_.boundary_edges = domain.boundary_edge_count();
     report_.constrained_vertices = elements.constrained_vertex_count;
     report_.depth = elements.grid.depth;

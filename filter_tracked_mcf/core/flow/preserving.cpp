@@ -41,7 +41,7 @@ void check_no_constraints(const Domain& domain, const char* what) {
 }
 
 void check_oriented(const Domain& domain) {
-    if (is_oriented_consistently(domain.topology())) return;
+    if (domain.topology().is_oriented_consistently()) return;
     throw InvalidMesh(
         "The volume cannot be preserved because the faces are not oriented consistently: some "
         "neighbours disagree about which side is inside. Re-orient all faces coherently first, or "
@@ -57,7 +57,7 @@ void check_encloses_volume(const Domain& domain) {
             " edges have only one face. Close the holes first, or preserve the "
             "area.");
     }
-    if (!bounds_volume(domain.topology()) ||
+    if (!domain.topology().bounds_volume() ||
         std::abs(enclosed_volume(domain.mesh())) <=
             kFlat * std::pow(surface_area(domain.mesh()), 1.5)) {
         throw InvalidMesh(

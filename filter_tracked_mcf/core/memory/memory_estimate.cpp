@@ -57,7 +57,7 @@ using Edges = Eigen::Vector2d;
 Edges edges_of(const Domain& domain) {
     const MeshTopology& topology = domain.topology();
     const std::vector<Eigen::Vector3d>& positions = domain.surface().positions;
-    // 0 at the edges of unselected triangles. All triangles of an edge store the same number.
+    // All triangles of an edge store the same number.
     std::vector<std::atomic<double>> extents(static_cast<std::size_t>(topology.edge_count));
     parallel_for_rows(static_cast<std::int64_t>(topology.edges.size()), [&](std::int32_t triangle) {
         const Triangle& t = topology.triangles[triangle];

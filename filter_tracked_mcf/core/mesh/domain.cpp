@@ -46,13 +46,18 @@ Items selected_of(const Items& items, const Selection& selection) {
     return selected;
 }
 
-/// Returns, per edge of the mesh, whether an unselected triangle has it.
-Marks edges_of_unselected(const MeshTopology& topology, const Selection& selection) {
-    Marks marked(topology.edge_count);
+/// Returns, per triangle, flags of the sides with an unselected triangle.
+std::vector<std::uint8_t> sides_of_unselected(const MeshTopology& topology,
+                                              const Selection& selection) {
+    Marks unselected(topology.edge_count);
     for_each_edge(topology, [&](std::int32_t triangle, int /*side*/, std::int32_t edge) {
-        if (selection[triangle] == 0) marked.set(edge);
+        if (selection[triangle] == 0) unselected.set(edge);
     });
-    return marked;
+    std::vector<std::uint8_t> sides(selection.size(), 0);
+    for_each_edge(topology, [&](std::int32_t triangle, int side, std::int32_t edge) {
+        if (unselected[edge]) sides[triangle] |= static_cast<std::uint8_t>(1 << side);
+    });
+    return sides;
 }
 
 std::int64_t count_flags(const std::vector<std::uint8_t>& sides) {
@@ -85,18 +90,21 @@ Domain::Domain(const TriangleMesh& mesh, const Selection& selection, BoundaryCon
     : mesh_(mesh) {
     check_selection(mesh, selection);
     topology_ = topology_of(mesh);
-    constrained_edges_ = boundary_edges(topology_);
-    Marks seam(0);
+    std::vector<std::uint8_t> boundary_sides = topology_.boundary;
+    constrained_edges_.assign(topology_.triangles.size(), 0);
     if (!selection.empty()) {
-        seam = edges_of_unselected(topology_, selection);
+        boundary_sides = selected_of(boundary_sides, selection);
+        constrained_edges_ = selected_of(sides_of_unselected(topology_, selection), selection);
         restrict_to(selection);
     }
-    boundary_edge_count_ = count_flags(constrained_edges_);
-    if (boundary == BoundaryCondition::Free)
-        constrained_edges_.assign(constrained_edges_.size(), 0);
+    boundary_edge_count_ = count_flags(boundary_sides);
+    if (boundary != BoundaryCondition::Free) {
+        for (std::size_t i = 0; i < boundary_sides.size(); ++i)
+            constrained_edges_[i] |= boundary_sides[i];
+    }
 
-    if (!selection.empty()) constrain_edges([&](std::int32_t edge) { return seam[edge]; });
-    const std::vector<std::uint8_t> slivers = find_slivers(surface());
+    std::vector<std::uint8_t> slivers;
+    if (any_set(constrained_edges_)) slivers = find_slivers(surface());
     const bool any_slivers = any_set(slivers);
     if (any_slivers) constrain_across_slivers(slivers);
     constrain_vertices(selection);
@@ -107,8 +115,7 @@ void Domain::restrict_to(const Selection& selection) {
     selected_triangles_ = selected_of(mesh_.triangles, selection);
     topology_.referenced = referenced_vertices(surface());
     topology_.triangles = selected_of(topology_.triangles, selection);
-    topology_.edges = selected_of(topology_.edges, selection);
-    constrained_edges_ = selected_of(constrained_edges_, selection);
+    find_edges(topology_);
 }
 
 /// A sliver's edges lie on each other: if one of them is constrained, all of them are. Chains of

@@ -32,8 +32,8 @@ public:
     SurfaceView surface() const {
         return {mesh_.positions, selected_triangles_ ? *selected_triangles_ : mesh_.triangles};
     }
-    /// Returns the connectivity of the surface. Vertices and edges have the numbers of the whole
-    /// mesh.
+    /// Returns the connectivity of the surface by itself, so the seam is part of its boundary.
+    /// Vertices have the numbers of the whole mesh.
     const MeshTopology& topology() const { return topology_; }
 
     /// Returns flags, per triangle of the surface, of its constrained sides. Slivers (triangles

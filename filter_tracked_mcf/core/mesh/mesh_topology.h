@@ -27,6 +27,17 @@ struct MeshTopology {
     RawVector<std::array<std::int32_t, 3>> edges;
     /// Edges are numbered in the order of their smaller vertex, then of their larger one.
     std::int32_t edge_count = 0;
+    /// Per triangle: flags of the sides on the boundary. A side is on the boundary if no other
+    /// triangle has its edge. Copies of a triangle count as one triangle. Triangles with two equal
+    /// vertices do not count: they have no boundary sides and close no boundary.
+    std::vector<std::uint8_t> boundary;
+    /// How many times more often the triangles of an edge pass along it in one direction than in
+    /// the other, at most. If it is 0, the volume inside the surface is well defined; if it is 1 or
+    /// less, the surface has two sides.
+    std::int32_t imbalance = 0;
+
+    bool bounds_volume() const { return imbalance == 0; }
+    bool is_oriented_consistently() const { return imbalance <= 1; }
 };
 
 /// Calls visit(triangle, side, edge) for all sides that are edges, in parallel for the triangles.
@@ -50,20 +61,10 @@ constexpr bool has_bit(std::uint64_t flags, int i) {
 /// more than 2147483647 edges.
 MeshTopology topology_of(const TriangleMesh& mesh);
 
+/// Sets what depends on `triangles`: edges, boundary, imbalance. Throws as topology_of() does.
+void find_edges(MeshTopology& topology);
+
 /// Returns the number of different referenced vertices.
 std::int64_t count_vertices(const MeshTopology& topology);
-
-/// Returns, per triangle, flags of the sides on the boundary. A side is on the boundary if no other
-/// triangle has its edge. Copies of a triangle count as one triangle. Triangles with two equal
-/// vertices do not count: they have no boundary sides and close no boundary.
-std::vector<std::uint8_t> boundary_edges(const MeshTopology& topology);
-
-/// Returns whether the triangles of every edge pass along it as often in one direction as in the
-/// other, but for one triangle at most. The surface has two sides if they do.
-bool is_oriented_consistently(const MeshTopology& topology);
-
-/// Returns whether the triangles of every edge pass along it exactly as often in one direction as
-/// in the other. The volume inside the surface is well defined if they do.
-bool bounds_volume(const MeshTopology& topology);
 
 }  // namespace tracked_mcf

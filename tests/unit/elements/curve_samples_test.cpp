@@ -29,7 +29,7 @@ Eigen::Vector3d position(const TrackedElements& elements, const CurveSample& sam
 
 /// Length of the boundary, edge by edge.
 double boundary_length(const TriangleMesh& mesh) {
-    const std::vector<std::uint8_t> boundary = boundary_edges(topology_of(mesh));
+    const std::vector<std::uint8_t> boundary = topology_of(mesh).boundary;
     double length = 0;
     for (std::size_t triangle = 0; triangle < boundary.size(); ++triangle) {
         const Triangle& t = mesh.triangles[triangle];

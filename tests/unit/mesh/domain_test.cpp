@@ -106,7 +106,7 @@ TEST(Domain, AVertexThatTouchesAnUnselectedTriangleIsConstrained) {
 
 /// Adds to every boundary edge a triangle without area: the edge's ends and its midpoint.
 TriangleMesh with_slivers_on_the_boundary(TriangleMesh mesh) {
-    const std::vector<std::uint8_t> boundary = boundary_edges(topology_of(mesh));
+    const std::vector<std::uint8_t> boundary = topology_of(mesh).boundary;
     for (std::size_t t = 0; t < boundary.size(); ++t) {
         for (int side = 0; side < 3; ++side) {
             if (!has_bit(boundary[t], side)) continue;

@@ -14,7 +14,7 @@ namespace {
 
 int count_boundary(const TriangleMesh& mesh) {
     int count = 0;
-    for (const std::uint8_t flags : boundary_edges(topology_of(mesh))) {
+    for (const std::uint8_t flags : topology_of(mesh).boundary) {
         for (int side = 0; side < 3; ++side) count += has_bit(flags, side) ? 1 : 0;
     }
     return count;
@@ -23,7 +23,7 @@ int count_boundary(const TriangleMesh& mesh) {
 /// Returns the number of closed curves that make up the boundary.
 std::size_t count_boundary_curves(const TriangleMesh& mesh) {
     const MeshTopology topology = topology_of(mesh);
-    const std::vector<std::uint8_t> boundary = boundary_edges(topology);
+    const std::vector<std::uint8_t>& boundary = topology.boundary;
     DisjointSets vertices(static_cast<std::int32_t>(topology.welded.size()));
     std::vector<std::int32_t> on_boundary;
     for (std::size_t triangle = 0; triangle < boundary.size(); ++triangle) {
@@ -115,11 +115,11 @@ TEST(BoundaryEdges, OfAMoebiusBandAreOneCurveAndOfATubeTwo) {
 }
 
 bool oriented(const TriangleMesh& mesh) {
-    return is_oriented_consistently(topology_of(mesh));
+    return topology_of(mesh).is_oriented_consistently();
 }
 
 bool bounds(const TriangleMesh& mesh) {
-    return bounds_volume(topology_of(mesh));
+    return topology_of(mesh).bounds_volume();
 }
 
 TEST(Orientation, OfClosedSurfaces) {
