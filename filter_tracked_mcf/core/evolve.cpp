@@ -34,8 +34,6 @@ constexpr double kGrowth = 1e-3;
 /// Sets the flow up; returns it in place, since it cannot be moved.
 Flow set_up(const TriangleMesh& mesh, const Selection& selection, FlowParameters parameters) {
     const ProgressSpan span(0, progress_before(0, parameters.iterations));
-    enter_setup_phase(kCheckMesh);
-    validate(mesh);
     enter_setup_phase(kFindEdges);
     const Domain domain(mesh, selection, parameters.boundary);
     enter_setup_phase(kMeasureSurface);
@@ -46,17 +44,6 @@ Flow set_up(const TriangleMesh& mesh, const Selection& selection, FlowParameters
         parameters.separate_sheets = false;
     }
     return Flow(domain, parameters);
-}
-
-/// Makes all steps, or fewer if nothing is left to do.
-void make_steps(Flow& flow, int iterations, const char* note) {
-    for (int step = 0; step < iterations; ++step) {
-        const ProgressSpan span(progress_before(step, iterations),
-                                progress_before(step + 1, iterations));
-        enter_phase(
-            0, "Step " + std::to_string(step + 1) + " of " + std::to_string(iterations) + note);
-        if (!flow.step()) return;
-    }
 }
 
 /// Positions to which a flow has moved the mesh, and the area of the triangles that flow.
@@ -72,15 +59,39 @@ Moved moved_by(const Flow& flow, const TriangleMesh& mesh, const Selection& sele
     return moved;
 }
 
+/// A mesh and what is to be done with it.
+struct Task {
+    const TriangleMesh& mesh;
+    const Selection& selection;
+    const FlowParameters& parameters;
+    const StepObserver& on_step;
+};
+
+/// Makes all steps, or fewer if nothing is left to do. `note` follows the name of each step for the
+/// user.
+void make_steps(Flow& flow, const Task& task, const char* note) {
+    const int iterations = task.parameters.iterations;
+    for (int step = 0; step < iterations; ++step) {
+        const ProgressSpan span(progress_before(step, iterations),
+                                progress_before(step + 1, iterations));
+        enter_phase(
+            0, "Step " + std::to_string(step + 1) + " of " + std::to_string(iterations) + note);
+        if (!flow.step()) return;
+        if (!task.on_step) continue;
+        std::vector<Eigen::Vector3d> positions = task.mesh.positions;
+        flow.move_vertices(positions);
+        task.on_step(step + 1, positions);
+    }
+}
+
 /// Makes all steps. If the last one has made the surface vanish, which the flow itself would notice
-/// only in the next step, takes it back. `note` follows the name of each step for the user.
-Moved flow_through(Flow& flow, const FlowParameters& parameters, const TriangleMesh& mesh,
-                   const Selection& selection, double area_before, const char* note = "") {
-    make_steps(flow, parameters.iterations, note);
-    Moved moved = moved_by(flow, mesh, selection);
+/// only in the next step, takes it back.
+Moved flow_through(Flow& flow, const Task& task, double area_before, const char* note = "") {
+    make_steps(flow, task, note);
+    Moved moved = moved_by(flow, task.mesh, task.selection);
     if (flow.report().stop == Stop::None && moved.area <= kVanishedArea * area_before) {
         flow.end_before_last_step(Stop::Vanished);
-        moved = moved_by(flow, mesh, selection);
+        moved = moved_by(flow, task.mesh, task.selection);
     }
     return moved;
 }
@@ -126,6 +137,12 @@ std::vector<double> measure_quality(Quality quality, Flow& flow, const TriangleM
     return along_normals(vectors, {after, before.triangles}, selection);
 }
 
+std::int64_t count_moving(const TriangleMesh& mesh, const Selection& selection) {
+    const auto all = static_cast<std::int64_t>(mesh.triangles.size());
+    if (selection.empty()) return all;
+    return all - std::count(selection.begin(), selection.end(), 0);
+}
+
 /// Returns whether a mean-curvature flow has made the area grow, which the exact one does not. The
 /// tolerance is relative to the displacement of the whole surface, so the grid may displace parts
 /// that are much thinner than its cells by more than their width.
@@ -151,26 +168,30 @@ double default_detail_size(const TriangleMesh& mesh, const Selection& selection)
     return kDefaultDetailInEdges * mean_edge_length(mesh, selection);
 }
 
-FlowReport evolve(TriangleMesh& mesh, const Selection& selection, const FlowParameters& parameters,
-                  const Progress& progress) {
+FlowReport evolve(TriangleMesh& mesh, const Selection& selected, const FlowParameters& parameters,
+                  const Progress& progress, const StepObserver& on_step) {
     std::optional<ProgressMeter> meter;
     if (progress) meter.emplace(progress);
     validate(parameters);
     const ThreadCountScope threads(parameters.threads);
     const std::int64_t memory_before = resident_memory_bytes();
     const Stopwatch setup;
+    enter_setup_phase(kCheckMesh);
+    validate(mesh);
+    check_selection(mesh, selected);
+    const Selection selection = without_held(mesh, selected);
     Flow flow = set_up(mesh, selection, parameters);
     const double setup_seconds = setup.seconds();
 
     const double area_before = surface_area(mesh, selection);
-    Moved after = flow_through(flow, parameters, mesh, selection, area_before);
+    const Task task{mesh, selection, parameters, on_step};
+    Moved after = flow_through(flow, task, area_before);
     std::vector<StepReport> discarded;
     if (parameters.tolerance > kCarefulTolerance &&
         area_has_grown(parameters, area_before, after.area)) {
         discarded = flow.report().steps;
         flow.restart_with_care();
-        after =
-            flow_through(flow, parameters, mesh, selection, area_before, ", again with more care");
+        after = flow_through(flow, task, area_before, ", again with more care");
     }
 
     enter_phase(progress_before(parameters.iterations, parameters.iterations),
@@ -178,6 +199,8 @@ FlowReport evolve(TriangleMesh& mesh, const Selection& selection, const FlowPara
     FlowReport report = flow.report();
     add_effort(discarded, report.steps);
     report.setup_seconds = setup_seconds;
+    report.held_triangles = count_moving(mesh, selected) - report.triangles;
+    report.unselected_triangles -= report.held_triangles;
     report.area_before = area_before;
     report.area_after = after.area;
     compare(mesh, after.positions, selection, report);

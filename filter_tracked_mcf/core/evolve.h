@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <Eigen/Core>
+#include <functional>
+#include <vector>
+
 #include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/flow_parameters.h"
 #include "filter_tracked_mcf/core/flow_report.h"
@@ -8,6 +12,14 @@
 #include "filter_tracked_mcf/core/triangle_mesh.h"
 
 namespace tracked_mcf {
+
+/// A callback that receives, after each step, its number, counted from 1, and the positions of all
+/// vertices. An exception of the callback leaves evolve() unchanged.
+///
+/// The numbers may begin again: a flow whose area has grown, which rounding can cause, is made
+/// again with more care. They may exceed FlowReport::steps by 1: a last step that has made the
+/// surface vanish is taken back.
+using StepObserver = std::function<void(int step, const std::vector<Eigen::Vector3d>& positions)>;
 
 /// Smooths `mesh`, or only its selected triangles, by mean-curvature flow with tracked octree
 /// finite elements. This is the only call that a host makes.
@@ -20,7 +32,7 @@ namespace tracked_mcf {
 /// Throws InvalidMesh, InvalidParameter, NotEnoughMemory or Cancelled (errors.h)
 /// and leaves the mesh unchanged.
 FlowReport evolve(TriangleMesh& mesh, const Selection& selection, const FlowParameters& parameters,
-                  const Progress& progress = {});
+                  const Progress& progress = {}, const StepObserver& on_step = {});
 
 /// Returns the detail size that a flow of these triangles takes by default, see
 /// FlowParameters::detail_size.

@@ -47,8 +47,9 @@ ParameterMember choice(std::vector<NamedChoice> choices) {
     return result;
 }
 
-ParameterMember selected() {
-    return {Type::Selected,
+/// No member of FlowParameters.
+ParameterMember of_host(Type type) {
+    return {type,
             [](const P&) -> ParameterValue { return false; },
             [](P&, const ParameterValue&) {},
             {0, 1, ""},
@@ -115,9 +116,12 @@ const std::vector<Parameter>& parameter_table() {
          "boundary", "Boundary",
          "Of an open mesh. Locked: its vertices stay. Locked cells: all in its grid cells stays. "
          "Free: openings shrink."},
-        {selected(), "selected", "Affect only selected faces",
+        {of_host(Type::Selected), "selected", "Affect only selected faces",
          "Vertices of other faces stay. Select a little more than needed, because the seam cannot "
          "move."},
+        {of_host(Type::Strength), "strength", "Strength from vertex quality",
+         "A number from 0 to 1 at each vertex multiplies the length. Where it is 0, the vertex "
+         "stays."},
         {choice<&P::quality>({{"Kept", "none"},
                               {"Displacement", "displacement"},
                               {"Mean curvature", "mean-curvature"}}),

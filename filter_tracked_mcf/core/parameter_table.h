@@ -34,6 +34,7 @@ struct ParameterMember {
     enum class Type {
         Switch,    ///< bool, off by default; in the program a flag
         Selected,  ///< bool; no member, because hosts select the faces that flow
+        Strength,  ///< bool; no member, because hosts give each vertex its strength
         Integer,
         Real,
         Length,  ///< double, in units of the mesh; hosts also take per cent of the box's diagonal

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "filter_tracked_mcf/core/triangle_mesh.h"
 
+#include <algorithm>
 #include <limits>
 #include <string>
 
@@ -21,6 +22,12 @@ void check_triangle(const TriangleMesh& mesh, const Triangle& triangle) {
                               " has a coordinate that is not a finite number; remove or repair it "
                               "first.");
         }
+        if (mesh.strength.empty()) continue;
+        const double strength = mesh.strength[vertex];
+        if (!(strength >= 0 && strength <= 1)) {
+            throw InvalidMesh("The strength of vertex " + std::to_string(vertex) + " is " +
+                              std::to_string(strength) + "; give numbers from 0 to 1.");
+        }
     }
 }
 
@@ -37,7 +44,29 @@ void validate(const TriangleMesh& mesh) {
         throw InvalidMesh(
             "The mesh has more than 2147483647 vertices or faces; simplify it first.");
     }
+    if (!mesh.strength.empty() && mesh.strength.size() != mesh.positions.size()) {
+        throw InvalidMesh("There are " + std::to_string(mesh.strength.size()) +
+                          " strengths for the " + std::to_string(mesh.positions.size()) +
+                          " vertices; give one for each.");
+    }
     for (const Triangle& triangle : mesh.triangles) check_triangle(mesh, triangle);
+}
+
+Selection without_held(const TriangleMesh& mesh, const Selection& selection) {
+    if (mesh.strength.empty()) return selection;
+    Selection moving = selection;
+    moving.resize(mesh.triangles.size(), selection.empty() ? 1 : 0);
+    for (std::size_t i = 0; i < moving.size(); ++i) {
+        const Triangle& t = mesh.triangles[i];
+        if (std::all_of(t.begin(), t.end(), [&](auto v) { return mesh.strength[v] == 0; }))
+            moving[i] = 0;
+    }
+    if (std::count(moving.begin(), moving.end(), 0) == static_cast<std::ptrdiff_t>(moving.size())) {
+        throw InvalidMesh(
+            "Nothing can move: the strength is 0 at all vertices of the faces that "
+            "may.");
+    }
+    return moving;
 }
 
 }  // namespace tracked_mcf

@@ -77,6 +77,17 @@ bool has_selected_faces(const VcgMesh& mesh) {
                        [](const auto& face) { return !face.IsD() && face.IsS(); });
 }
 
+/// Returns the quality of each vertex that is not deleted.
+template <class VcgMesh>
+std::vector<double> vertex_quality(const VcgMesh& mesh) {
+    std::vector<double> result;
+    result.reserve(mesh.vert.size());
+    for (const auto& vertex : mesh.vert) {
+        if (!vertex.IsD()) result.push_back(static_cast<double>(vertex.cQ()));
+    }
+    return result;
+}
+
 /// Gives the vertices of `mesh` the positions of `moved`, which to_triangle_mesh made from it.
 /// Deleted vertices keep their positions; a vertex that has not moved keeps its bits. The caller
 /// updates normals and bounding box. Throws InvalidMesh if the number of vertices has changed.

@@ -127,8 +127,12 @@ std::string changes(const FlowReport& report) {
     text.precision(3);
     if (report.steps.empty()) text << "Nothing has moved. ";
     if (report.unselected_triangles > 0) {
-        text << "Only the " << report.triangles << " selected of "
-             << report.triangles + report.unselected_triangles << " faces may move. ";
+        text << "Only the " << report.triangles + report.held_triangles << " selected of "
+             << report.triangles + report.held_triangles + report.unselected_triangles
+             << " faces may move. ";
+    }
+    if (report.held_triangles > 0) {
+        text << report.held_triangles << " faces stay, because their vertices have strength 0. ";
     }
     if (report.steps.empty()) return text.str().substr(0, text.str().size() - 1);
     if (report.normal_length > 0) {

@@ -63,12 +63,16 @@ ReportValue step_values(const StepReport& step, Solver solver) {
 }  // namespace
 
 ReportObject report_values(const FlowParameters& parameters, const ReportValue& selected,
-                           const FlowReport& report, const std::vector<std::string>& warnings) {
+                           const ReportValue& strength, const FlowReport& report,
+                           const std::vector<std::string>& warnings) {
     ReportObject of_parameters;
     for (const Parameter& parameter : parameter_table()) {
-        const bool is_selected = parameter.type == Parameter::Type::Selected;
-        of_parameters.emplace_back(parameter.name,
-                                   is_selected ? selected : parameter_value(parameter, parameters));
+        const auto value = [&] {
+            if (parameter.type == Parameter::Type::Selected) return selected;
+            if (parameter.type == Parameter::Type::Strength) return strength;
+            return parameter_value(parameter, parameters);
+        };
+        of_parameters.emplace_back(parameter.name, value());
     }
     ReportList steps, texts;
     for (const StepReport& step : report.steps)

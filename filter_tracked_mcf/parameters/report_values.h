@@ -24,10 +24,11 @@ struct ReportValue {
 };
 
 /// Returns the parameters, the members of the flow's report but for the quality, and the warnings,
-/// under their names in the code. `selected` is the value of the parameter of that name. The
+/// under their names in the code. `selected` and `strength` are the parameters of these names. The
 /// stabilisation is the one used. W-cycles have no tolerance: error_estimate and reached_tolerance
 /// of their steps are null.
 ReportObject report_values(const FlowParameters& parameters, const ReportValue& selected,
-                           const FlowReport& report, const std::vector<std::string>& warnings);
+                           const ReportValue& strength, const FlowReport& report,
+                           const std::vector<std::string>& warnings);
 
 }  // namespace tracked_mcf

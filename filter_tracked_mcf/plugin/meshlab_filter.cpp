@@ -35,6 +35,7 @@ void add(RichParameterList& list, const Parameter& parameter, const MeshModel* l
     const auto add_rich = [&list](const auto& rich_parameter) { list.addParam(rich_parameter); };
     switch (parameter.type) {
         case Parameter::Type::Switch:
+        case Parameter::Type::Strength:
             return add_rich(RichBool(name, std::get<bool>(value), label, help));
         case Parameter::Type::Selected: {
             const bool some = layer != nullptr && has_selected_faces(layer->cm);
@@ -131,15 +132,23 @@ FilterOutcome smooth_current_layer(MeshDocument& document, const RichParameterLi
         MeshModel* const layer = document.mm();
         if (layer == nullptr) throw InvalidMesh("There is no layer to smooth; open a mesh first.");
         FlowParameters flow;
-        bool selected_only = false;
+        LayerInput from_layer;
         for (const Parameter& parameter : parameter_table()) {
             if (parameter.label.empty()) continue;
             const ParameterValue value = read(parameters, parameter);
             parameter.set(flow, value);
-            if (parameter.type == Parameter::Type::Selected) selected_only = std::get<bool>(value);
+            if (parameter.type == Parameter::Type::Selected)
+                from_layer.selected_only = std::get<bool>(value);
+            if (parameter.type == Parameter::Type::Strength)
+                from_layer.strength_by_quality = std::get<bool>(value);
         }
-        FilterOutcome outcome = run_filter(layer->cm, flow, selected_only,
-                                           watched_progress(document, *layer, callback));
+        if (from_layer.strength_by_quality && !layer->hasDataMask(MeshModel::MM_VERTQUALITY)) {
+            throw InvalidMesh(
+                "The layer has no vertex quality to take the strength from; compute one, from 0 to "
+                "1, or switch it off.");
+        }
+        FilterOutcome outcome =
+            run_filter(layer->cm, flow, from_layer, watched_progress(document, *layer, callback));
         update_box_and_normals(*layer);
         if (flow.quality != Quality::None) {
             layer->updateDataMask(MeshModel::MM_VERTQUALITY);

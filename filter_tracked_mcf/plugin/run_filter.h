@@ -66,17 +66,24 @@ double default_detail_size_of(const VcgMesh& mesh) {
     return run_filter_detail::default_detail_size_or_zero(to_triangle_mesh(mesh), selection);
 }
 
+/// What a flow takes from a layer besides its vertices and faces.
+struct LayerInput {
+    bool selected_only = false;        ///< only the selected faces move
+    bool strength_by_quality = false;  ///< the vertices' quality is TriangleMesh::strength
+};
+
 /// Flows a mesh of any vcglib type, or its selected faces only, and returns the message for the
 /// user. It throws what the core and `progress` throw, so call it under guard(). It writes nothing
 /// but positions and, if asked for, the vertices' quality, and writes them last: a failure or a
 /// cancelled run leaves the mesh as it was. Throws InvalidMesh if `progress` has changed a position
 /// or a face: a user may apply other filters meanwhile. The host updates normals and bounding box.
 template <class VcgMesh>
-FilterOutcome run_filter(VcgMesh& mesh, const FlowParameters& parameters, bool selected_only,
+FilterOutcome run_filter(VcgMesh& mesh, const FlowParameters& parameters, const LayerInput& input,
                          const Progress& progress) {
     using namespace run_filter_detail;
-    const Selection selection = selected_only ? selected_faces(mesh) : Selection();
+    const Selection selection = input.selected_only ? selected_faces(mesh) : Selection();
     TriangleMesh moved = to_triangle_mesh(mesh);
+    if (input.strength_by_quality) moved.strength = vertex_quality(mesh);
     const std::uint64_t before = checksum(moved);
     const FlowReport report = evolve(moved, selection, parameters, progress);
     if (checksum(to_triangle_mesh(mesh)) != before) {

@@ -102,6 +102,20 @@ Selection selection_of(nb::handle given, const TriangleMesh& mesh) {
     return {flags.data(), flags.data() + faces};
 }
 
+std::vector<double> strength_of(nb::handle given, const TriangleMesh& mesh) {
+    if (given.is_none()) return {};
+    const nb::object array = numpy().attr("asarray")(given);
+    const std::size_t vertices = mesh.positions.size();
+    if (!has_kind(array, "fiu") || !array.attr("shape").equal(nb::make_tuple(vertices))) {
+        throw InvalidParameter(description("strength", array) +
+                               "; give an array of numbers from 0 to 1, one for each of the " +
+                               std::to_string(vertices) + " vertices.");
+    }
+    const auto numbers = nb::cast<nb::ndarray<const double, nb::ndim<1>, nb::c_contig>>(
+        numpy().attr("ascontiguousarray")(array, "float64"));
+    return {numbers.data(), numbers.data() + vertices};
+}
+
 /// Moves numbers into an array of this shape, without a copy.
 template <class Number>
 nb::object array_of(std::vector<Number>&& values, std::initializer_list<std::size_t> shape) {
@@ -151,40 +165,64 @@ Progress progress_by(const nb::object& callback) {
     };
 }
 
-void warn(const std::vector<std::string>& warnings) {
+void warn(nb::handle warnings) {
     const nb::object category = nb::module_::import_("tracked_mcf").attr("FlowWarning");
-    for (const std::string& warning : warnings) {
-        if (PyErr_WarnEx(category.ptr(), warning.c_str(), 1) != 0) throw nb::python_error();
+    for (const nb::handle warning : warnings) {
+        if (PyErr_WarnEx(category.ptr(), nb::cast<const char*>(warning), 1) != 0)
+            throw nb::python_error();
     }
 }
 
-nb::tuple smooth(nb::handle vertices, nb::handle faces, nb::handle selected,
-                 const nb::object& progress, const nb::kwargs& given) {
+/// Moves positions into an array of float32 if the given vertices are of float32, else of float64.
+nb::object vertices_of(std::vector<Eigen::Vector3d>&& positions, nb::handle given) {
+    const std::size_t count = positions.size();
+    nb::object moved = array_of(std::move(positions), {count, 3});
+    const nb::object single = numpy().attr("float32");
+    if (!numpy().attr("asarray")(given).attr("dtype").equal(single)) return moved;
+    return moved.attr("astype")(single);
+}
+
+StepObserver observer_by(const nb::object& on_step, nb::handle vertices) {
+    if (on_step.is_none()) return {};
+    return [&on_step, vertices](int step, const std::vector<Eigen::Vector3d>& positions) {
+        const nb::gil_scoped_acquire acquired;
+        on_step(step, vertices_of(std::vector<Eigen::Vector3d>(positions), vertices));
+    };
+}
+
+/// Calls on_step, unless it is None, with the number and the vertices of each step.
+nb::tuple smooth_observed(nb::handle vertices, nb::handle faces, const nb::object& on_step,
+                          nb::handle selected, nb::handle strength, const nb::object& progress,
+                          const nb::kwargs& given) {
     TriangleMesh mesh = mesh_of(vertices, faces);
+    mesh.strength = strength_of(strength, mesh);
     const Selection selection = selection_of(selected, mesh);
     const FlowParameters parameters = flow_parameters(given, mesh);
     FlowReport report;
     {
         const nb::gil_scoped_release released;
-        report = evolve(mesh, selection, parameters, progress_by(progress));
+        report = evolve(mesh, selection, parameters, progress_by(progress),
+                        observer_by(on_step, vertices));
     }
     const std::vector<std::string> warnings = flow_warnings(parameters, report, kAdvice);
 
     nb::dict values;
     values["version"] = TRACKED_MCF_VERSION;
-    values.update(nb::borrow<nb::dict>(
-        as_python(report_values(parameters, {!selection.empty()}, report, warnings))));
+    values.update(nb::borrow<nb::dict>(as_python(report_values(
+        parameters, {!selection.empty()}, {!mesh.strength.empty()}, report, warnings))));
     if (!report.quality.empty()) {
         const std::size_t count = report.quality.size();
         values["quality"] = array_of(std::move(report.quality), {count});
     }
-    const std::size_t count = mesh.positions.size();
-    nb::object moved = array_of(std::move(mesh.positions), {count, 3});
-    const nb::object single = numpy().attr("float32");
-    if (numpy().attr("asarray")(vertices).attr("dtype").equal(single))
-        moved = moved.attr("astype")(single);
-    warn(warnings);
-    return nb::make_tuple(moved, values);
+    return nb::make_tuple(vertices_of(std::move(mesh.positions), vertices), values);
+}
+
+nb::tuple smooth(nb::handle vertices, nb::handle faces, nb::handle selected, nb::handle strength,
+                 const nb::object& progress, const nb::kwargs& given) {
+    nb::tuple result =
+        smooth_observed(vertices, faces, nb::none(), selected, strength, progress, given);
+    warn(result[1]["warnings"]);
+    return result;
 }
 
 double default_detail_size_of(nb::handle vertices, nb::handle faces, nb::handle selected) {
@@ -250,8 +288,13 @@ NB_MODULE(_core, module) {
     module.attr("version") = TRACKED_MCF_VERSION;
     nb::register_exception_translator(translate);
     module.def("smooth", smooth, "vertices"_a, "faces"_a, nb::kw_only(), "selected"_a = nb::none(),
-               "progress"_a = nb::none(), "parameters"_a, nb::sig(signature_of_smooth().c_str()),
+               "strength"_a = nb::none(), "progress"_a = nb::none(), "parameters"_a,
+               nb::sig(signature_of_smooth().c_str()),
                (kSummary + help_of_parameters() + kRest).c_str());
+    module.def("smooth_observed", smooth_observed, "vertices"_a, "faces"_a, "on_step"_a,
+               nb::kw_only(), "selected"_a = nb::none(), "strength"_a = nb::none(),
+               "progress"_a = nb::none(), "parameters"_a,
+               "smooth() without warnings, which calls on_step(step, vertices) after each step.");
     module.def("default_detail_size", default_detail_size_of, "vertices"_a, "faces"_a,
                nb::kw_only(), "selected"_a = nb::none(),
                nb::sig("def default_detail_size(vertices: numpy.typing.ArrayLike, faces: "

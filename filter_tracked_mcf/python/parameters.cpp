@@ -112,6 +112,7 @@ std::string python_type(const Parameter& parameter) {
         case Parameter::Type::Switch:
             return "bool = " + std::visit(as_python, value);
         case Parameter::Type::Selected:
+        case Parameter::Type::Strength:
             return "numpy.typing.ArrayLike | None = None";
         case Parameter::Type::Integer:
             return "int = " + std::visit(as_python, value);
@@ -138,6 +139,7 @@ FlowParameters flow_parameters(const nb::kwargs& given, const TriangleMesh& mesh
                 set(bool_of(parameter, value));
                 break;
             case Parameter::Type::Selected:
+            case Parameter::Type::Strength:
                 break;  // an argument of its own
             case Parameter::Type::Integer:
                 set(int_of(parameter, value));
@@ -179,6 +181,7 @@ std::string help_of_parameters() {
         text += "    " + parameter.name + ": " + type + "\n        ";
         if (parameter.type == Parameter::Type::Selected)
             text += "An array of shape (m,) of bools: only these faces move. ";
+        if (parameter.type == Parameter::Type::Strength) text += "An array of shape (n,). ";
         if (parameter.type == Parameter::Type::Length)
             text += "In units of the mesh, or as '1%' of its bounding box's diagonal. ";
         text += parameter.help + "\n";

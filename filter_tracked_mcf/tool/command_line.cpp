@@ -10,6 +10,7 @@
 #include "filter_tracked_mcf/core/parameter_table.h"
 #include "filter_tracked_mcf/tool/documents/file_document.h"
 #include "filter_tracked_mcf/tool/output_file.h"
+#include "filter_tracked_mcf/tool/step_files.h"
 
 namespace tracked_mcf {
 
@@ -31,6 +32,8 @@ const std::string kProperty =
     "Only selected faces move. PROPERTY is the name of a number that the faces of a PLY file have, "
     "or else its vertices. A face is selected if its number is not 0, or if the numbers of all its "
     "vertices are not 0. 'flags' is where MeshLab saves a selection: only its bit 32 counts. ";
+
+const std::string kStrength = "PROPERTY is a number that the vertices of a PLY file have. ";
 
 const char* const kExamples =
     "Examples:\n"
@@ -114,6 +117,10 @@ void add_parameter(CLI::App& app, CommandLine& line, const Parameter& parameter)
             app.add_option(option, line.selected, help_of(kProperty + parameter.help))
                 ->type_name("PROPERTY");
             break;
+        case Parameter::Type::Strength:
+            app.add_option(option, line.strength, help_of(kStrength + parameter.help))
+                ->type_name("PROPERTY");
+            break;
         case Parameter::Type::Integer:
             app.add_option_function<int>(option, set, help)->type_name("N")->default_str(first);
             break;
@@ -167,6 +174,12 @@ void add_files(CLI::App& app, CommandLine& line) {
     add_path(app, "--report", line.report,
              help_of("Write sizes, times, residuals, error estimates and memory to a JSON file."))
         ->type_name("FILE.json");
+    app.add_option("--every", line.every,
+                   help_of("Also write the surface after every N steps, for an animation or a "
+                           "hierarchy of scales: step 10 to OUTPUT_0010.ply, with the name and the "
+                           "extension of OUTPUT."))
+        ->type_name("N")
+        ->check(CLI::PositiveNumber.description(""));
     app.add_flag("--quiet", line.quiet,
                  help_of("No summary and no progress bar; errors and warnings only."));
 }
@@ -192,8 +205,18 @@ void check_paths(const CommandLine& line) {
         throw InvalidParameter(
             "--selected needs a PLY file as INPUT: only PLY has properties to select by.");
     }
+    if (!line.strength.empty() && format_of(line.input)->parse != parse_ply) {
+        throw InvalidParameter(
+            "--strength needs a PLY file as INPUT: only PLY has numbers at vertices.");
+    }
     if (line.parameters.quality != Quality::None && format_of(line.output)->parse != parse_ply) {
         throw InvalidParameter("--quality needs a PLY file as OUTPUT: only PLY can hold it.");
+    }
+    const StepFiles steps(line.output, line.every);
+    for (const fs::path& path : {line.input, line.report}) {
+        if (!steps.includes(path)) continue;
+        throw InvalidParameter("--every would overwrite " + path.u8string() +
+                               "; give OUTPUT another name.");
     }
     if (line.report.empty()) return;
     for (const fs::path& path : {line.input, line.output}) {

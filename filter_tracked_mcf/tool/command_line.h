@@ -17,6 +17,8 @@ struct CommandLine {
     FlowParameters parameters;     ///< but for the detail size
     Length detail_size;
     std::string selected;  ///< property of INPUT that selects faces; empty for all faces
+    std::string strength;  ///< property of INPUT's vertices; empty for none
+    int every = 0;         ///< every how many steps the surface is written, too; 0 for never
     bool quiet = false;
 
     /// What --help or --version print. Unless it is empty, there is nothing else to do.

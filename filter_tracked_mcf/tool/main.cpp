@@ -17,6 +17,7 @@
 #include "filter_tracked_mcf/tool/output_file.h"
 #include "filter_tracked_mcf/tool/progress_bar.h"
 #include "filter_tracked_mcf/tool/report_json.h"
+#include "filter_tracked_mcf/tool/step_files.h"
 #include "filter_tracked_mcf/tool/system.h"
 
 namespace {
@@ -27,15 +28,17 @@ enum ExitCode { Done = 0, BadMesh = 1, BadUsage = 2, Unwritable = 3 };
 
 /// Shows a progress bar on a terminal. An interrupt cancels the flow and wipes the bar.
 FlowReport evolve_with_progress(TriangleMesh& mesh, const Selection& selection,
-                                const CommandLine& line) {
+                                const CommandLine& line, const StepObserver& on_step) {
     const InterruptHold hold;
     std::optional<ProgressBar> bar;
     if (!line.quiet && writes_to_terminal()) bar.emplace(std::cerr);
-    return evolve(mesh, selection, line.parameters,
-                  [&bar](double fraction, std::string_view phase) {
-                      if (bar) bar->show(fraction, phase);
-                      return !interrupted();
-                  });
+    return evolve(
+        mesh, selection, line.parameters,
+        [&bar](double fraction, std::string_view phase) {
+            if (bar) bar->show(fraction, phase);
+            return !interrupted();
+        },
+        on_step);
 }
 
 /// Prints one line. Messages quote files, and control characters of a damaged file must not reach
@@ -59,7 +62,18 @@ void run(CommandLine line) {
     line.parameters.detail_size = in_mesh_units(line.detail_size, mesh);
     Selection selection;
     if (!line.selected.empty()) selection = file.selection_by(line.selected);
-    const FlowReport report = evolve_with_progress(mesh, selection, line);
+    if (!line.strength.empty()) mesh.strength = file.strength_by(line.strength);
+    StepFiles step_files(line.output, line.every);
+    StepObserver on_step;
+    if (line.every > 0) {
+        on_step = [&](int step, const std::vector<Eigen::Vector3d>& positions) {
+            step_files.write(step, [&](std::ostream& out) {
+                file.write({positions, {}}, out, line.output);
+            });
+        };
+    }
+    const FlowReport report = evolve_with_progress(mesh, selection, line, on_step);
+    step_files.remove_after(static_cast<int>(report.steps.size()));
 
     file.set_quality(report.quality);
     output.write([&](std::ostream& out) { file.write(mesh, out, line.output); });

@@ -68,6 +68,16 @@ Selection MeshFile::selection_by(const std::string& name) const {
     return selection;
 }
 
+std::vector<double> MeshFile::strength_by(const std::string& name) const {
+    const PlyElement& vertices = dynamic_cast<const PlyDocument&>(*document_).vertices();
+    std::vector<double> numbers = vertices.numbers(name);
+    if (numbers.empty()) {
+        throw InvalidParameter("The vertices of " + path_.u8string() + " have no number '" + name +
+                               "'; they have: " + numbers_of(vertices) + ".");
+    }
+    return numbers;
+}
+
 void MeshFile::set_quality(const std::vector<double>& quality) {
     document_->set_quality(quality);
 }

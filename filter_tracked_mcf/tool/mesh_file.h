@@ -36,6 +36,10 @@ public:
     /// std::bad_cast for other formats.
     Selection selection_by(const std::string& name) const;
 
+    /// Returns the number `name` of each vertex of a PLY file. Throws InvalidParameter if there is
+    /// none, and std::bad_cast for other formats.
+    std::vector<double> strength_by(const std::string& name) const;
+
     /// Gives each vertex a number, which write() writes to a PLY file as the property `quality`.
     void set_quality(const std::vector<double>& quality);
 

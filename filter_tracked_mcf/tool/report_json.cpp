@@ -69,13 +69,14 @@ double total_seconds(const FlowReport& report) {
 
 std::string report_json(const CommandLine& line, const FlowReport& report,
                         const std::vector<std::string>& warnings) {
-    ReportValue selected;
+    ReportValue selected, strength;
     if (!line.selected.empty()) selected.value = line.selected;
+    if (!line.strength.empty()) strength.value = line.strength;
     Json json = {{"program", "tracked_mcf"},
                  {"version", TRACKED_MCF_VERSION},
                  {"input", line.input.u8string()},
                  {"output", line.output.u8string()}};
-    json.update(as_json(report_values(line.parameters, selected, report, warnings)));
+    json.update(as_json(report_values(line.parameters, selected, strength, report, warnings)));
     // JSON must be UTF-8; file names need not be.
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -110,6 +110,12 @@ TYPED_TEST(MeshBridge, WritesQualityPastDeletedVertices) {
     for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(this->mesh.vert[i].Q(), expected[i]);
 }
 
+TYPED_TEST(MeshBridge, ReadsQualityPastDeletedVertices) {
+    for (std::size_t i = 0; i < 5; ++i) this->mesh.vert[i].Q() = TypeParam(i) / 8;
+    TestFixture::Allocator::DeleteVertex(this->mesh, this->mesh.vert[1]);
+    EXPECT_EQ(vertex_quality(this->mesh), (std::vector<double>{0, 0.25, 0.375, 0.5}));
+}
+
 TYPED_TEST(MeshBridge, AVertexThatDidNotMoveKeepsItsBits) {
     const TypeParam nan = std::numeric_limits<TypeParam>::signaling_NaN();
     const TypeParam tiny = std::numeric_limits<TypeParam>::denorm_min();

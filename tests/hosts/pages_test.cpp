@@ -36,7 +36,9 @@ std::string default_in_words(const Parameter& parameter) {
     const ParameterValue value = parameter.get({});
     if (parameter.type == Parameter::Type::Length) return "2.5 mean edge lengths";
     if (parameter.type == Parameter::Type::Selected) return "on if faces are selected";
-    if (parameter.type == Parameter::Type::Switch) return std::get<bool>(value) ? "on" : "off";
+    const bool is_switch =
+        parameter.type == Parameter::Type::Switch || parameter.type == Parameter::Type::Strength;
+    if (is_switch) return std::get<bool>(value) ? "on" : "off";
     if (parameter.type == Parameter::Type::Choice) {
         const NamedChoice& choice = parameter.choices.at(std::size_t(std::get<int>(value)));
         return parameter.label.empty() ? choice.name : choice.label;

@@ -56,6 +56,7 @@ void expect_row(const RichParameter& actual, const Parameter& row, Scalarm diago
     const ParameterValue initial = row.get({});
     switch (row.type) {
         case Parameter::Type::Switch:
+        case Parameter::Type::Strength:
             ASSERT_EQ(actual.stringType(), "RichBool");
             EXPECT_EQ(ParameterValue(actual.value().getBool()), initial);
             break;
@@ -235,6 +236,7 @@ TEST_F(Plugin, WritesTheQualityThatIsAskedFor) {
         return numbers;
     };
     for (CVertexO& vertex : layer.cm.vert) vertex.Q() = 42;
+    layer.clearDataMask(MeshModel::MM_VERTQUALITY);
     const std::vector<double> before = quality();
     ASSERT_TRUE(apply()) << outcome.message;
     EXPECT_EQ(quality(), before);
@@ -246,6 +248,28 @@ TEST_F(Plugin, WritesTheQualityThatIsAskedFor) {
     EXPECT_NE(displacement, before);
     EXPECT_NE(quality(), displacement);
     EXPECT_TRUE(layer.hasDataMask(MeshModel::MM_VERTQUALITY));
+}
+
+TEST_F(Plugin, TakesTheStrengthFromTheQuality) {
+    for (CVertexO& vertex : layer.cm.vert) vertex.Q() = vertex.cP()[0] > 0 ? 1 : 0;
+    const std::vector<CVertexO> original(layer.cm.vert.begin(), layer.cm.vert.end());
+    const auto before = position_bits(layer);
+    parameters.setValue("strength", BoolValue(true));
+    layer.clearDataMask(MeshModel::MM_VERTQUALITY);
+    ASSERT_FALSE(apply()) << "the layer has no quality";
+    EXPECT_TRUE(contains(outcome.message, "no vertex quality")) << outcome.message;
+    layer.updateDataMask(MeshModel::MM_VERTQUALITY);
+    ASSERT_TRUE(apply()) << outcome.message;
+    EXPECT_TRUE(contains(outcome.log, " have strength 0.")) << outcome.log;
+    const auto after = position_bits(layer);
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        EXPECT_EQ(before[i] == after[i], original[i].cQ() == 0) << i;
+        EXPECT_EQ(layer.cm.vert[i].cQ(), original[i].cQ()) << i;
+    }
+    layer.cm.vert[5].Q() = 2;
+    ASSERT_FALSE(apply());
+    EXPECT_TRUE(contains(outcome.message, "The strength of vertex 5 is 2.")) << outcome.message;
+    EXPECT_EQ(position_bits(layer), after);
 }
 
 TEST_F(Plugin, EveryBoundaryHasAnEffectOnAnOpenMesh) {

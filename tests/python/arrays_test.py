@@ -83,6 +83,10 @@ WRONG = [
     ({"selected": [0, 1]}, InvalidParameter, "the type int64; give an array of bools"),
     ({"selected": [True]}, InvalidParameter, "one for each of the 3042 faces"),
     ({"selected": numpy.zeros(3042, bool)}, InvalidMesh, "No face is selected"),
+    ({"strength": [1]}, InvalidParameter, "one for each of the 1600 vertices"),
+    ({"strength": numpy.full(1600, 2)}, InvalidMesh, "The strength of vertex 0 is 2"),
+    ({"strength": numpy.zeros(1600)}, InvalidMesh, "Nothing can move"),
+    ({"strength": numpy.ones(1600, bool)}, InvalidParameter, "numbers from 0 to 1"),
     ({"progress": 1}, TypeError, "not callable"),
 ]
 
@@ -114,13 +118,20 @@ def refuse_bowl(_):
     smooth(order=5)
 
 
-def write_ply(path, vertices, faces, selected):
-    """Writes the flag of each face as its property s."""
+def ply_of(vertices, faces):
+    """Returns the lines of a PLY file: those of its header, then those of vertices and faces."""
     header = ["ply", "format ascii 1.0", f"element vertex {len(vertices)}",
               *(f"property double {axis}" for axis in "xyz"), f"element face {len(faces)}",
-              "property list uchar int vertex_indices", "property uchar s", "end_header"]
+              "property list uchar int vertex_indices", "end_header"]
     rows = [" ".join(map(repr, vertex)) for vertex in vertices.tolist()]
-    rows += [f"3 {a} {b} {c} {flag:d}" for (a, b, c), flag in zip(faces.tolist(), selected)]
+    return header, rows + [f"3 {a} {b} {c}" for a, b, c in faces.tolist()]
+
+
+def write_ply(path, vertices, faces, selected):
+    """Writes the flag of each face as its property s."""
+    header, rows = ply_of(vertices, faces)
+    header.insert(-1, "property uchar s")
+    rows[len(vertices):] = [f"{row} {flag:d}" for row, flag in zip(rows[len(vertices):], selected)]
     path.write_text("\n".join([*header, *rows, ""]), encoding="ascii")
 
 
@@ -197,15 +208,16 @@ class Program(WithFolder):
                 self.assertGreaterEqual(values.pop(name), 0)
         for name in ("program", "input", "output"):
             reported.pop(name)
-        self.assertIs(report["parameters"].pop("selected"), False)
-        self.assertIsNone(reported["parameters"].pop("selected"))
+        for name in ("selected", "strength"):
+            self.assertIs(report["parameters"].pop(name), False)
+            self.assertIsNone(reported["parameters"].pop(name))
         # The advice of the last warning names options of the host.
         self.assertEqual(len(report.pop("warnings")), len(reported.pop("warnings")))
         self.assertEqual(report, reported)
 
     def test_all_parameters_are_compared(self):
         names = set(smooth()[1]["parameters"])
-        self.assertEqual(names, {name for name, _, _ in RUNS} | {"selected"})
+        self.assertEqual(names, {name for name, _, _ in RUNS} | {"selected", "strength"})
 
     def test_defaults_on_a_real_mesh(self):
         vertices, faces = read_off(MESH)
@@ -227,6 +239,18 @@ class Program(WithFolder):
         still = numpy.unique(FACES[~selected])
         self.assertEqual(vertices[still].tobytes(), VERTICES[still].tobytes())
         self.assertTrue((vertices != VERTICES).any())
+
+    def test_strength(self):
+        strength = numpy.linspace(0, 1, len(VERTICES)).astype("float32")
+        header, rows = ply_of(VERTICES, FACES)
+        header.insert(6, "property float s")
+        rows[:len(VERTICES)] = [f"{row} {s!r}" for row, s in zip(rows, strength.tolist())]
+        (self.folder / "bowl.ply").write_text("\n".join([*header, *rows, ""]), encoding="ascii")
+        vertices, report = smooth(strength=strength)
+        expected, _, _ = self.program(self.folder / "bowl.ply", *self.options({**COARSE, "strength": "s"}))
+        self.assertEqual(vertices.tobytes(), expected)
+        self.assertIs(report["parameters"]["strength"], True)
+        self.assertNotEqual(expected, smooth()[0].tobytes())
 
     def test_version(self):
         said = subprocess.run([TOOL, "--version"], check=True, capture_output=True, text=True).stdout
@@ -393,6 +417,54 @@ class Progress(unittest.TestCase):
         done.set()
         thread.join()
         self.assertGreater(per_second, 50)
+
+
+class Steps(unittest.TestCase):
+    def steps(self, vertices=VERTICES, **parameters):
+        return tracked_mcf.steps(vertices, FACES, **{**COARSE, **parameters})
+
+    def test_are_those_of_shorter_flows(self):
+        seen = list(self.steps(step_size=1e-3, iterations=5, every=2))
+        self.assertEqual([step for step, _ in seen], [2, 4])
+        for step, moved in seen:
+            self.assertEqual(moved.tobytes(), smooth(step_size=1e-3, iterations=step)[0].tobytes())
+        *_, (step, last) = self.steps(VERTICES.astype("float32"), order=2)
+        self.assertEqual((step, last.dtype), (3, numpy.float32))
+        self.assertEqual(last.tobytes(), smooth(VERTICES.astype("float32"), order=2)[0].tobytes())
+
+    def test_leaving_the_loop_ends_the_flow(self):
+        for step, _ in self.steps(depth=7, iterations=100000):
+            if step == 2:
+                break
+        self.assertEqual(threading.active_count(), 1)
+
+    def test_errors(self):
+        for parameters, error in (({"order": 5}, InvalidParameter), ({"every": 0}, InvalidParameter),
+                                  ({"oder": 5}, TypeError),
+                                  ({"progress": lambda *_: False}, tracked_mcf.Cancelled)):
+            with self.assertRaises(error):
+                list(self.steps(**parameters))
+        with self.assertRaises(InvalidMesh):
+            list(tracked_mcf.steps(VERTICES, FACES + 10000))
+        self.assertEqual(threading.active_count(), 1)
+
+    def test_warnings(self):
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            self.assertEqual(len(list(self.steps(depth=2, detail_size=0.01))), 3)
+        self.assertIn("The cells of depth 2 ", str(caught[0].message))
+        self.assertIs(caught[0].category, tracked_mcf.FlowWarning)
+        self.assertEqual(caught[0].filename, __file__)
+
+    def test_interrupt(self):
+        script = ("import _thread, threading, arrays_test\n"
+                  "threading.Timer(0.5, _thread.interrupt_main).start()\n"
+                  "try:\n"
+                  "    for _ in arrays_test.Steps().steps(depth=7, iterations=100000, every=50000): pass\n"
+                  "except KeyboardInterrupt: print('interrupted')")
+        said = subprocess.run([sys.executable, "-c", script], cwd=HERE, check=True, capture_output=True,
+                              text=True, timeout=60).stdout
+        self.assertEqual(said, "interrupted\n")
 
 
 class Processes(unittest.TestCase):

@@ -29,6 +29,7 @@ TEST(Report, HoldsEveryMemberUnderItsName) {
     line.parameters.flow = FlowKind::Conformalized;
     line.parameters.boundary = BoundaryCondition::Free;
     line.selected = "q";
+    line.strength = "s";
     line.parameters.preserve = Preserve::Area;
     line.parameters.quality = Quality::Displacement;
     line.parameters.keep_edges = 25;
@@ -74,7 +75,7 @@ TEST(Report, HoldsEveryMemberUnderItsName) {
         "input": "in.ply", "output": "out.obj",
         "parameters": {"detail_size": 0.375, "local_detail_size": true, "order": 2, "depth": 7,
                        "step_size": 2e-4, "absolute": true, "iterations": 3, "keep_edges": 25.0,
-                       "flow": "conformalized", "boundary": "free", "selected": "q",
+                       "flow": "conformalized", "boundary": "free", "selected": "q", "strength": "s",
                        "preserve": "area", "quality": "displacement", "cubature": 12,
                        "method": "shared-cells", "tolerance": 0.5, "stabilization": 0.25, "cycles": 2, "threads": 1},
         "vertices": 1, "triangles": 2, "degenerate_triangles": 3, "boundary_edges": 4,
@@ -186,6 +187,7 @@ TEST(Report, NamesEveryWayToStop) {
 
 TEST(Report, SelectedIsNullUnlessGiven) {
     EXPECT_TRUE(Json::parse(report_json({}, {}, {}))["parameters"]["selected"].is_null());
+    EXPECT_TRUE(Json::parse(report_json({}, {}, {}))["parameters"]["strength"].is_null());
 }
 
 TEST(Warnings, NameTheWorstStepThatStoppedShort) {

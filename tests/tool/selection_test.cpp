@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// --selected: which triangles the properties of a PLY file select.
+/// --selected and --strength: which triangles the properties of a PLY file select, and how far its
+/// vertices move.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -150,6 +151,36 @@ TEST(Selection, ErrorsOfTheProgramAreOneLineAndLeaveNoOutput) {
     fails("--selected q a.off", 2, "--selected needs a PLY file");
     fails("--selected of_faces --preserve area a.ply", 2,
           "Preserving the area would move vertices that must stay");
+}
+
+TEST(Strength, IsANumberOfTheVertices) {
+    const TemporaryFolder folder;
+    write_file(folder / "a.ply", kPyramid);
+    const auto all = vertex_lines(folder, "");
+    EXPECT_EQ(vertex_lines(folder, "--strength both"), all) << "1 at all vertices";
+    const auto part = vertex_lines(folder, "--strength z --report r.json");
+    EXPECT_EQ(std::vector(part.begin(), part.begin() + 4),
+              (std::vector<std::string>{"0 0 0", "1 0 0", "1 1 0", "0 1 0"}));
+    EXPECT_NE(part[4], "0.5 0.5 1");
+    EXPECT_THAT(read_file(folder / "r.json"), HasSubstr("\"strength\": \"z\""));
+}
+
+TEST(Strength, RefusesOtherNumbersAndFiles) {
+    const TemporaryFolder folder;
+    write_file(folder / "a.ply", kPyramid);
+    write_file(folder / "a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+    const auto refused = [&](const std::string& arguments, int exit_code) {
+        const ProgramRun run = run_program(folder, arguments);
+        EXPECT_EQ(run.exit_code, exit_code) << arguments;
+        return run.errors;
+    };
+    EXPECT_THAT(
+        refused("a.ply b.ply --strength of_faces", 2),
+        HasSubstr("The vertices of a.ply have no number 'of_faces'; they have: x, y, z, both, "
+                  "of_vertices, flags."));
+    EXPECT_THAT(refused("a.ply b.ply --strength flags", 1),
+                HasSubstr("The strength of vertex 3 is 33.000000; give numbers from 0 to 1."));
+    EXPECT_THAT(refused("a.off b.ply --strength x", 2), HasSubstr("--strength needs a PLY file"));
 }
 
 }  // namespace

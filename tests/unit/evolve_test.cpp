@@ -8,6 +8,8 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <stdexcept>
+#include <vector>
 
 #include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/mesh/measures.h"
@@ -129,6 +131,36 @@ TEST(Evolve, ProgressRisesFromZeroToOne) {
 void evolve_by_phases(TriangleMesh& mesh, const Progress& progress) {
     const ProgressMeter meter(progress, std::chrono::hours(1));
     evolve(mesh, parameters(3, 1e-3, 4));
+}
+
+TEST(Evolve, ShowsTheSurfaceAfterEachStep) {
+    const TriangleMesh initial = shapes::bumpy_sphere(20);
+    FlowParameters p = parameters(5, 1e-3, 3);
+    p.preserve = Preserve::Volume;
+    std::vector<TriangleMesh> seen;
+    const auto on_step = [&](int step, const std::vector<Eigen::Vector3d>& positions) {
+        seen.push_back({positions, initial.triangles});
+        EXPECT_EQ(step, static_cast<int>(seen.size()));
+    };
+    TriangleMesh mesh = initial;
+    evolve(mesh, {}, p, {}, on_step);
+    ASSERT_EQ(seen.size(), 3U);
+    EXPECT_TRUE(same_bits(seen.back(), mesh));
+    // With a given step size, a flow of fewer steps is the beginning of this one.
+    TriangleMesh shorter = initial;
+    p.iterations = 2;
+    evolve(shorter, p);
+    EXPECT_TRUE(same_bits(seen[1], shorter));
+}
+
+TEST(Evolve, AFailureOfTheStepObserverLeavesTheMeshAsItWas) {
+    const TriangleMesh initial = shapes::bumpy_sphere(10);
+    TriangleMesh mesh = initial;
+    const auto fail = [](int step, const auto&) {
+        if (step == 2) throw std::range_error("full");
+    };
+    EXPECT_THROW(evolve(mesh, {}, parameters(4, 1e-3, 3), {}, fail), std::range_error);
+    EXPECT_TRUE(same_bits(mesh, initial));
 }
 
 TEST(Evolve, CancellingLeavesTheMeshAsItWas) {

@@ -20,9 +20,14 @@ ParameterValue other_value(const Parameter& parameter) {
     return 0.5;
 }
 
+bool is_of_host(const Parameter& parameter) {
+    return parameter.type == Parameter::Type::Selected ||
+           parameter.type == Parameter::Type::Strength;
+}
+
 TEST(ParameterTable, ARowSetsItsMemberAndNoOther) {
     for (const Parameter& set : parameter_table()) {
-        if (set.type == Parameter::Type::Selected) continue;
+        if (is_of_host(set)) continue;
         const ParameterValue value = other_value(set);
         FlowParameters parameters;
         set.set(parameters, value);
@@ -52,9 +57,9 @@ TEST(ParameterTable, AMethodComesBackAndANumberThatIsNoneIsRefused) {
     }
 }
 
-TEST(ParameterTable, ASelectionIsNoMember) {
+TEST(ParameterTable, WhatHostsTakeFromTheMeshIsNoMember) {
     for (const Parameter& parameter : parameter_table()) {
-        if (parameter.type != Parameter::Type::Selected) continue;
+        if (!is_of_host(parameter)) continue;
         FlowParameters parameters;
         parameter.set(parameters, true);
         EXPECT_EQ(parameter.get(parameters), ParameterValue(false));

@@ -155,7 +155,9 @@ Case case_of(std::uint64_t seed, std::int64_t number) {
 std::string options_of(const Case& described) {
     std::ostringstream text;
     for (const Parameter& parameter : parameter_table()) {
-        if (parameter.type == Parameter::Type::Selected) continue;
+        if (parameter.type == Parameter::Type::Selected ||
+            parameter.type == Parameter::Type::Strength)
+            continue;
         const ParameterValue value = parameter.get(described.parameters);
         // The default of the stabilisation depends on the method.
         if (value == parameter.get({}) && parameter.name != "stabilization") continue;

@@ -32,22 +32,27 @@ std::vector<double> local_edge_lengths(const Domain& domain) {
 
 }  // namespace
 
-std::vector<double> triangle_densities(const Domain& domain) {
-    const std::vector<double> lengths = local_edge_lengths(domain);
+std::vector<double> triangle_densities(const Domain& domain, bool follows_edges) {
+    if (!follows_edges && domain.mesh().strength.empty()) return {};
+    std::vector<double> lengths;
+    if (follows_edges) lengths = local_edge_lengths(domain);
     const double mean = mean_edge_length(domain.surface());
+    const auto limited = [](double ratio) {
+        return std::clamp(ratio, 1 / kLargestDetailRatio, kLargestDetailRatio);
+    };
     std::vector<double> densities;
     densities.reserve(domain.topology().triangles.size());
     for (const auto& [a, b, c] : domain.topology().triangles) {
-        const double local = (lengths[a] + lengths[b] + lengths[c]) / 3;
-        const double ratio = std::clamp(local / mean, 1 / kLargestDetailRatio, kLargestDetailRatio);
+        double ratio = limited((domain.strength(a) + domain.strength(b) + domain.strength(c)) / 3);
+        if (follows_edges) ratio *= limited((lengths[a] + lengths[b] + lengths[c]) / 3 / mean);
         densities.push_back(1 / (ratio * ratio));
     }
     return densities;
 }
 
-std::vector<float> element_densities(const TrackedElements& elements, const Domain& domain,
+std::vector<float> element_densities(const TrackedElements& elements,
+                                     const std::vector<double>& of_triangle,
                                      const RawVector<FragmentEntry>& fragments) {
-    const std::vector<double> of_triangle = triangle_densities(domain);
     const std::int32_t count = elements.finest().element_count();
     std::vector<float> densities(static_cast<std::size_t>(count) + kElementBatch, 1.0F);
     parallel_for_rows(count, [&](std::int32_t element) {

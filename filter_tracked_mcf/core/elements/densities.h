@@ -10,17 +10,19 @@
 namespace tracked_mcf {
 
 /// The largest ratio of the detail size at one place to FlowParameters::detail_size, and of the
-/// latter to the former.
+/// latter to the former, through edge lengths or strengths.
 inline constexpr double kLargestDetailRatio = 10;
 
-/// Returns the mass density of each triangle of the domain's surface; 1 at mean edge length.
-std::vector<double> triangle_densities(const Domain& domain);
+/// Returns the mass density of each triangle of the domain's surface; nothing if all are 1. In
+/// equation 2, a density ρ acts like a time step δ / ρ, so it is 1 / r² where the detail size is r
+/// times the usual one: r is the mean strength of the vertices, times, if the detail size
+/// `follows_edges`, the local edge length over the mean one.
+std::vector<double> triangle_densities(const Domain& domain, bool follows_edges);
 
-/// Returns the mass density of each finest element, with 1 at triangles of mean edge length, for a
-/// detail size that follows the local edge length. In equation 2, a density ρ acts like a time step
-/// δ / ρ, so it is 1 / r² where the detail size is r times the usual one. `fragments` are those of
-/// the elements. kElementBatch more numbers follow, because kernels read whole vectors.
-std::vector<float> element_densities(const TrackedElements& elements, const Domain& domain,
+/// Returns the mass density of each finest element, given those of triangles. `fragments` are those
+/// of the elements. kElementBatch more numbers follow, because kernels read whole vectors.
+std::vector<float> element_densities(const TrackedElements& elements,
+                                     const std::vector<double>& of_triangle,
                                      const RawVector<FragmentEntry>& fragments);
 
 }  // namespace tracked_mcf

@@ -235,9 +235,9 @@ TrackedElements build_tracked_elements(const Domain& domain, ClippedSurface surf
             elements.fragment_triangle[i] = surface.fragments[i].triangle;
         });
     }
-    if (parameters.local_detail_size) {
-        elements.densities = element_densities(elements, domain, surface.fragments);
-    }
+    const auto densities = triangle_densities(domain, parameters.local_detail_size);
+    if (!densities.empty())
+        elements.densities = element_densities(elements, densities, surface.fragments);
     elements.curve_samples = sample_constrained_edges(elements, surface.mesh, surface.fragments,
                                                       domain.constrained_edges());
     return elements;

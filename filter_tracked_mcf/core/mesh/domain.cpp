@@ -23,6 +23,8 @@ bool any_set(const std::vector<std::uint8_t>& flags) {
     return std::any_of(flags.begin(), flags.end(), [](auto flag) { return flag != 0; });
 }
 
+}  // namespace
+
 void check_selection(const TriangleMesh& mesh, const Selection& selection) {
     if (selection.empty()) return;
     if (selection.size() != mesh.triangles.size()) {
@@ -35,6 +37,8 @@ void check_selection(const TriangleMesh& mesh, const Selection& selection) {
             "No face is selected; select the faces to smooth, or smooth the whole mesh.");
     }
 }
+
+namespace {
 
 /// Returns the items of the selected triangles.
 template <class Items>
@@ -156,7 +160,8 @@ void Domain::constrain_vertices(const Selection& selection) {
     });
     constrained_vertices_.resize(welded.size());
     parallel_for_rows(count, [&](std::int32_t vertex) {
-        constrained_vertices_[vertex] = constrained[welded[vertex]] ? 1 : 0;
+        const bool stays = constrained[welded[vertex]] || strength(vertex) == 0;
+        constrained_vertices_[vertex] = stays ? 1 : 0;
     });
 }
 

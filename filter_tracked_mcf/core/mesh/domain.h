@@ -12,6 +12,10 @@
 
 namespace tracked_mcf {
 
+/// Throws InvalidParameter unless `selection` is empty or has a flag for every triangle,
+/// InvalidMesh if it selects no triangle.
+void check_selection(const TriangleMesh& mesh, const Selection& selection);
+
 /// The part of a mesh that flows, and which of its edges and vertices are constrained.
 ///
 /// The selected triangles flow as a surface of their own. The seam is the set of edges that they
@@ -20,8 +24,7 @@ namespace tracked_mcf {
 class Domain {
 public:
     /// Constrains the seam, and the boundary of the mesh unless it is Free. `mesh` must outlive the
-    /// domain. Throws InvalidParameter unless `selection` is empty or has a flag for every
-    /// triangle, InvalidMesh if it selects no triangle.
+    /// domain. Throws as check_selection() does.
     Domain(const TriangleMesh& mesh, const Selection& selection, BoundaryCondition boundary);
     /// All of a mesh flows.
     Domain(const TriangleMesh& mesh, BoundaryCondition boundary) : Domain(mesh, {}, boundary) {}
@@ -39,10 +42,15 @@ public:
     /// Returns flags, per triangle of the surface, of its constrained sides. Slivers (triangles
     /// without a reliable normal) pass their constraints on to their neighbours with area.
     const std::vector<std::uint8_t>& constrained_edges() const { return constrained_edges_; }
-    /// Returns, per vertex of the mesh, whether it keeps its bits: vertices of constrained edges
-    /// and of unselected triangles do. A constrained vertex on no constrained edge may separate
-    /// from the surface.
+    /// Returns, per vertex of the mesh, whether it keeps its bits: vertices of constrained edges,
+    /// of unselected triangles and with strength 0 do. A constrained vertex on no constrained edge
+    /// may separate from the surface.
     const std::vector<std::uint8_t>& constrained_vertices() const { return constrained_vertices_; }
+
+    /// Returns the strength of a vertex, see TriangleMesh::strength.
+    double strength(std::int32_t vertex) const {
+        return mesh_.strength.empty() ? 1 : mesh_.strength[topology_.welded[vertex]];
+    }
 
     /// Returns the number of sides of the surface's triangles on the boundary of the mesh.
     std::int64_t boundary_edge_count() const { return boundary_edge_count_; }

@@ -47,8 +47,7 @@ EdgeMetric::EdgeMetric(const Domain& domain, const TrackedElements& elements, co
     : positions_(domain.mesh().positions),
       grid_(elements.grid),
       size_(size),
-      smoother_(domain.topology(),
-                local_detail_size ? triangle_densities(domain) : std::vector<double>()),
+      smoother_(domain.topology(), triangle_densities(domain, local_detail_size)),
       noise_(smoother_.noise(positions_) / grid_.cell_size),
       step_factor_(1 + kStepsPerNoise * std::min(noise_ / size_.detail_size, kMostNoise)) {}
 

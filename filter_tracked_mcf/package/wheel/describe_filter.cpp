@@ -23,6 +23,7 @@ std::string python_type(const Parameter& parameter) {
     text << std::showpoint << std::setprecision(2);
     switch (parameter.type) {
         case Parameter::Type::Switch:
+        case Parameter::Type::Strength:
             return std::get<bool>(value) ? "bool = True" : "bool = False";
         case Parameter::Type::Selected:
             return "bool, by default True if faces are selected";

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A strength at each vertex, which multiplies the detail size.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "filter_tracked_mcf/core/errors.h"
+#include "filter_tracked_mcf/core/evolve.h"
+#include "tests/support/shapes.h"
+#include "tests/support/surface_distance.h"
+#include "tests/unit/flows.h"
+
+namespace tracked_mcf {
+namespace {
+
+/// Returns a sphere with noise whose vertices have the strength `of` their height, -1 to 1.
+template <class Of>
+TriangleMesh noisy_sphere(const Of& of) {
+    TriangleMesh mesh = shapes::bumpy_sphere(20);
+    for (const Eigen::Vector3d& p : mesh.positions) mesh.strength.push_back(of(p.normalized()[2]));
+    return mesh;
+}
+
+TEST(Strength, OneEverywhereChangesNothing) {
+    for (const double keep_edges : {0.0, 25.0}) {
+        FlowParameters p = parameters(5, 1e-3, 2);
+        p.order = 2;
+        p.keep_edges = keep_edges;
+        TriangleMesh mesh = noisy_sphere([](double) { return 1.0; });
+        EXPECT_EQ(evolve(mesh, p).held_triangles, 0);
+        EXPECT_TRUE(same_bits(mesh, evolved(shapes::bumpy_sphere(20), p)));
+    }
+}
+
+TEST(Strength, MultipliesTheDetailSize) {
+    const TriangleMesh initial = shapes::bumpy_sphere(20);
+    for (const double strength : {0.2, 0.5, 0.7}) {
+        TriangleMesh weaker = noisy_sphere([&](double) { return strength; });
+        FlowParameters p = parameters(5, 1e-3, 2);
+        p.tolerance = 1e-6;
+        p.stabilization = 0;  // it does not follow the strength
+        evolve(weaker, p);
+        // The detail size is proportional to the square root of δ.
+        p.step_size *= strength * strength;
+        const TriangleMesh expected = evolved(initial, p);
+        EXPECT_LT(rms_distance(weaker, expected), 1e-2 * rms_distance(initial, expected))
+            << strength;
+    }
+}
+
+TEST(Strength, GoesDownToATenth) {
+    FlowParameters p = parameters(5, 1e-3, 1);
+    const auto moved = [&](double strength) {
+        TriangleMesh mesh = noisy_sphere([&](double) { return strength; });
+        return evolve(mesh, p).rms_displacement;
+    };
+    EXPECT_EQ(moved(1e-9), moved(0.1));
+    EXPECT_LT(moved(0.1), 0.1 * moved(1));
+}
+
+TEST(Strength, ZeroHoldsAndTheSurfaceStaysWhole) {
+    for (const Preserve preserve : {Preserve::None, Preserve::Volume}) {
+        for (const double keep_edges : {0.0, 25.0}) {
+            FlowParameters p = parameters(5, 1e-3, 3);
+            p.preserve = preserve;
+            p.keep_edges = keep_edges;
+            const TriangleMesh before = noisy_sphere([](double z) { return z > 0 ? 0.0 : 1.0; });
+            TriangleMesh mesh = before;
+            const FlowReport report = evolve(mesh, p);
+            EXPECT_GT(report.held_triangles, 3000);
+            EXPECT_EQ(report.unselected_triangles, 0);
+            EXPECT_EQ(report.triangles + report.held_triangles, 8000);
+            for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+                EXPECT_EQ(mesh.positions[i] == before.positions[i], before.strength[i] == 0) << i;
+            }
+        }
+    }
+}
+
+TEST(Strength, FadesOutAtASoftMask) {
+    // The movement follows the squared strength, up to the detail size.
+    const auto fading = [](double z) { return std::clamp(0.5 - 2 * z, 0.0, 1.0); };
+    const TriangleMesh before = noisy_sphere(fading);
+    TriangleMesh mesh = before;
+    evolve(mesh, parameters(5, 1e-4, 1));
+    double strongest = 0, weak = 0;
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        const double moved = (mesh.positions[i] - before.positions[i]).norm();
+        double& largest = before.strength[i] == 1 ? strongest : weak;
+        if (before.strength[i] == 1 || before.strength[i] < 0.3) largest = std::max(largest, moved);
+    }
+    EXPECT_GT(weak, 0);
+    EXPECT_LT(weak, 0.3 * strongest);
+}
+
+TEST(Strength, ASingleVertexWithZeroStays) {
+    TriangleMesh mesh = noisy_sphere([](double) { return 1.0; });
+    mesh.strength[7] = 0;
+    const TriangleMesh before = mesh;
+    const FlowReport report = evolve(mesh, parameters(5, 1e-3, 2));
+    EXPECT_EQ(report.held_triangles, 0);
+    EXPECT_EQ(report.constrained_vertices, 1);
+    EXPECT_EQ(mesh.positions[7], before.positions[7]);
+    EXPECT_NE(mesh.positions[8], before.positions[8]);
+}
+
+TEST(Strength, CountsOnlySelectedFacesAsHeld) {
+    TriangleMesh mesh = noisy_sphere([](double z) { return z > 0.5 ? 0.0 : 1.0; });
+    Selection upper(mesh.triangles.size());
+    for (std::size_t i = 0; i < upper.size(); ++i) {
+        upper[i] = mesh.positions[mesh.triangles[i][0]][2] > 0 ? 1 : 0;
+    }
+    const auto selected = std::count(upper.begin(), upper.end(), 1);
+    const FlowReport report = evolve(mesh, upper, parameters(5, 1e-3, 1));
+    EXPECT_GT(report.held_triangles, 1000);
+    EXPECT_EQ(report.triangles + report.held_triangles, selected);
+    EXPECT_EQ(report.unselected_triangles, 8000 - selected);
+}
+
+TEST(Strength, RefusesNumbersOutsideItsRangeAndLeavesTheMeshAsItWas) {
+    const auto refused = [](const std::vector<double>& strength) -> std::string {
+        TriangleMesh mesh = shapes::bumpy_sphere(5);
+        mesh.strength.assign(mesh.positions.size(), 1);
+        for (std::size_t i = 0; i < strength.size(); ++i) mesh.strength[i] = strength[i];
+        if (strength.empty()) mesh.strength.pop_back();
+        const TriangleMesh before = mesh;
+        try {
+            evolve(mesh, parameters(3, 1e-3, 1));
+        } catch (const InvalidMesh& error) {
+            EXPECT_TRUE(same_bits(mesh, before));
+            return error.what();
+        }
+        return "nothing";
+    };
+    EXPECT_EQ(refused({1, 1, 1.5}),
+              "The strength of vertex 2 is 1.500000; give numbers from 0 to 1.");
+    EXPECT_NE(refused({-1e-9}), "nothing");
+    EXPECT_NE(refused({std::numeric_limits<double>::quiet_NaN()}), "nothing");
+    EXPECT_EQ(refused({}), "There are 251 strengths for the 252 vertices; give one for each.");
+    EXPECT_EQ(refused(std::vector<double>(252, 0)),
+              "Nothing can move: the strength is 0 at all vertices of the faces that may.");
+    EXPECT_EQ(refused({0, 0, 0}), "nothing");
+}
+
+}  // namespace
+}  // namespace tracked_mcf
