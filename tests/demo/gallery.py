@@ -1,0 +1,217 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Runs the commands of the gallery, filter_tracked_mcf/pictures/README.md, and checks what they do:
+gallery.py TOOL CGAL_MESHES WORK_DIR [--pictures]
+
+With --pictures, draws the pictures of the page anew, with Debian's python3-vtk9, xvfb and imagemagick.
+"""
+
+import argparse
+import pathlib
+import re
+import shlex
+import subprocess
+import sys
+
+import numpy
+
+TOP = pathlib.Path(__file__).resolve().parents[2]
+PICTURES = TOP / "filter_tracked_mcf" / "pictures"
+COLOURS = numpy.array([[40, 80, 200], [235, 232, 225], [200, 50, 40]])  # negative, 0, positive
+
+
+def read_off(path):
+    words = path.read_text(encoding="ascii").split()
+    count, faces = int(words[1]), int(words[2])
+    vertices = numpy.array(words[4:4 + 3 * count], float).reshape(-1, 3)
+    rows = numpy.array(words[4 + 3 * count:4 + 3 * count + 4 * faces], int).reshape(-1, 4)
+    return vertices, rows[:, 1:]
+
+
+def read_ply(path):
+    """Returns the properties of the vertices of a binary file by name."""
+    header, _, data = path.read_bytes().partition(b"end_header\n")
+    lines = header.decode().split("element vertex ")[1].split("element face")[0].splitlines()
+    types = {"double": "<f8", "float": "<f4", "uchar": "u1"}
+    rows = [line.split() for line in lines[1:] if line.startswith("property")]
+    rows = numpy.frombuffer(data, [(name, types[kind]) for _, kind, name in rows], int(lines[0]))
+    return {name: rows[name] for name in rows.dtype.names}
+
+
+def write_ply(path, vertices, faces, **properties):
+    """Writes the properties of the vertices after their positions: bytes as uchar, others as float."""
+    columns = {axis: vertices[:, i].astype("<f8") for i, axis in enumerate("xyz")}
+    columns.update(properties)
+    kinds = {name: "uchar" if column.dtype == "u1" else "double" if name in "xyz" else "float"
+             for name, column in columns.items()}
+    types = {"uchar": "u1", "double": "<f8", "float": "<f4"}
+    rows = numpy.zeros(len(vertices), [(name, types[kind]) for name, kind in kinds.items()])
+    for name, column in columns.items():
+        rows[name] = column
+    triangles = numpy.zeros(len(faces), [("count", "u1"), ("corners", "<i4", 3)])
+    triangles["count"], triangles["corners"] = 3, faces
+    header = ["ply", "format binary_little_endian 1.0", f"element vertex {len(vertices)}",
+              *(f"property {kind} {name}" for name, kind in kinds.items()),
+              f"element face {len(faces)}", "property list uchar int vertex_indices", "end_header", ""]
+    path.write_bytes("\n".join(header).encode() + rows.tobytes() + triangles.tobytes())
+
+
+def with_noise(vertices, faces, edges):
+    """Moves the vertices by normal noise, whose deviation is this many mean edge lengths."""
+    sides = vertices[faces] - vertices[faces[:, [1, 2, 0]]]
+    deviation = edges * numpy.linalg.norm(sides, axis=2).mean()
+    return vertices + numpy.random.default_rng(1).normal(scale=deviation, size=vertices.shape)
+
+
+def frame(side=80):
+    """Returns a crumpled film in a frame that is bent three times up and down."""
+    ticks = numpy.linspace(-1, 1, side)
+    x, y = (axis.ravel() for axis in numpy.meshgrid(ticks, ticks))
+    stretch = numpy.maximum(abs(x), abs(y)) / numpy.maximum(numpy.hypot(x, y), 1e-9)
+    x, y = x * stretch, y * stretch
+    radius, angle = numpy.hypot(x, y), numpy.arctan2(y, x)
+    inside = radius < 1 - 1e-9
+    z = 0.45 * radius * numpy.cos(3 * angle)
+    z += inside * numpy.random.default_rng(1).normal(scale=0.03, size=x.size)
+    corner = numpy.arange(side * side).reshape(side, side)
+    a, b, c, d = (part.ravel() for part in (corner[:-1, :-1], corner[:-1, 1:], corner[1:, 1:],
+                                            corner[1:, :-1]))
+    return (numpy.stack([x, y, z], axis=1),
+            numpy.concatenate([numpy.stack([a, b, c], axis=1), numpy.stack([a, c, d], axis=1)]))
+
+
+def make_inputs(meshes, work):
+    part, part_faces = read_off(meshes / "fandisk.off")
+    write_ply(work / "noisy_part.ply", with_noise(part, part_faces, 0.2), part_faces)
+    lion, lion_faces = read_off(meshes / "lion-head.off")
+    write_ply(work / "lion.ply", lion, lion_faces)
+    write_ply(work / "noisy_lion.ply", with_noise(lion, lion_faces, 0.15), lion_faces)
+    write_ply(work / "half_lion.ply", lion, lion_faces,
+              right=(lion[:, 0] > numpy.median(lion[:, 0])).astype("u1"))
+    low, high = numpy.percentile(lion[:, 1], [25, 60])
+    write_ply(work / "faded_lion.ply", lion, lion_faces,
+              below=numpy.clip((high - lion[:, 1]) / (high - low), 0, 1))
+    write_ply(work / "frame.ply", *frame())
+    bear, bear_faces = read_off(meshes / "bear.off")
+    write_ply(work / "bear.ply", bear, bear_faces)
+
+
+def commands_of(page):
+    """Returns the arguments of the page's commands, in their order."""
+    blocks = re.findall(r"^```sh\n(.*?)^```$", page, re.MULTILINE | re.DOTALL)
+    lines = [line for block in blocks for line in block.splitlines()]
+    return [shlex.split(line)[1:] for line in lines if line.startswith("tracked_mcf ")]
+
+
+def positions(path):
+    properties = read_ply(path)
+    return numpy.stack([properties[axis] for axis in "xyz"], axis=1)
+
+
+def noise_left(clean, noisy, smoothed):
+    """Returns the noise along the normals that is left, as a share of the noise before."""
+    vertices, faces = read_off(clean)
+    a, b, c = (vertices[faces[:, i]] for i in range(3))
+    normals = numpy.zeros_like(vertices)
+    for i in range(3):
+        numpy.add.at(normals, faces[:, i], numpy.cross(b - a, c - a))
+    normals /= numpy.maximum(numpy.linalg.norm(normals, axis=1), 1e-300)[:, None]
+    before, after = (((positions(path) - vertices) * normals).sum(axis=1).std() for path in (noisy, smoothed))
+    return after / before
+
+
+def check_results(meshes, work):
+    """Checks what the page says of the results."""
+    assert noise_left(meshes / "fandisk.off", work / "noisy_part.ply", work / "part.ply") < 0.5
+    assert noise_left(meshes / "lion-head.off", work / "noisy_lion.ply", work / "clean_lion.ply") < 0.6
+    lion = positions(work / "lion.ply")
+    moved = numpy.linalg.norm(positions(work / "half.ply") - lion, axis=1)
+    stays = read_ply(work / "half_lion.ply")["right"] == 0
+    assert (moved[stays] == 0).all() and moved[~stays].max() > 0
+    moved = numpy.linalg.norm(positions(work / "faded.ply") - lion, axis=1)
+    strength = read_ply(work / "faded_lion.ply")["below"]
+    assert (moved[strength == 0] == 0).all() and moved[strength == 1].max() > 0
+    film, rim = positions(work / "film.ply"), positions(work / "frame.ply")
+    on_rim = numpy.hypot(rim[:, 0], rim[:, 1]) > 1 - 1e-9
+    assert (film[on_rim] == rim[on_rim]).all()
+    x, y = film[:, 0], film[:, 1]
+    # The minimal surface is near the harmonic function with this rim.
+    assert abs(film[:, 2] - 0.45 * (x**3 - 3 * x * y**2)).max() < 0.1
+    sphere = positions(work / "sphere.ply")
+    radii = numpy.linalg.norm(sphere - sphere.mean(axis=0), axis=1)
+    assert radii.std() < 0.1 * radii.mean()
+    assert len(list(work.glob("sphere_*.ply"))) == 25
+    assert read_ply(work / "curved.ply")["quality"].std() > 0
+
+
+def draw(output, *meshes, options=()):
+    subprocess.run([TOP / "tests" / "experiments" / "render.py", "--output", output, "--height", "400",
+                    *options, "--", *meshes], check=True)
+
+
+def as_palette(path, colours=128):
+    subprocess.run(["convert", path, "-strip", "+dither", "-colors", str(colours), f"PNG8:{path}"],
+                   check=True)
+
+
+def colour_by_quality(meshes, work):
+    _, faces = read_off(meshes / "bear.off")
+    quality = read_ply(work / "curved.ply")["quality"]
+    at = numpy.clip(quality / numpy.percentile(abs(quality), 97), -1, 1)
+    mixed = numpy.stack([numpy.interp(at, [-1, 0, 1], channel) for channel in COLOURS.T])
+    red, green, blue = mixed.astype("u1")
+    write_ply(work / "coloured.ply", positions(work / "curved.ply"), faces, red=red, green=green, blue=blue)
+
+
+def draw_all(meshes, work):
+    side = ["--view", "-0.6", "-0.15", "-1"]
+    draw(PICTURES / "edges.png", work / "noisy_part.ply", work / "part.ply",
+         options=["--flat", "--view", "1", "-0.8", "-1.2"])
+    draw(PICTURES / "noise.png", work / "noisy_lion.ply", work / "clean_lion.ply", options=side)
+    draw(PICTURES / "selection.png", work / "lion.ply", work / "half.ply")
+    draw(PICTURES / "strength.png", work / "lion.ply", work / "faded.ply", options=side)
+    draw(PICTURES / "film.png", work / "frame.ply", work / "film.ply",
+         options=["--view", "0.2", "1", "-0.6", "--up", "0", "0", "1"])
+    colour_by_quality(meshes, work)
+    draw(PICTURES / "curvature.png", work / "bear.ply", work / "coloured.ply", options=["--colours"])
+    for picture in ("edges", "noise", "selection", "strength", "film", "curvature"):
+        as_palette(PICTURES / f"{picture}.png")
+    frames = []
+    for i, mesh in enumerate([work / "bear.ply", *sorted(work.glob("sphere_*.ply"))]):
+        picture = work / f"frame_{i:02d}.png"
+        draw(picture, work / "bear.ply", mesh, options=["--zoom", "0.85"])
+        frames.append(picture)
+    subprocess.run(["convert", "-delay", "12", *frames, "-gravity", "east", "-crop", "50%x100%+0+0",
+                    "+repage", "-resize", "320x", "-set", "delay", "12", "-colors", "32", "+dither",
+                    "-loop", "0", "-layers", "optimize", PICTURES / "sphere.gif"], check=True)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("tool", type=pathlib.Path)
+    parser.add_argument("meshes", type=pathlib.Path)
+    parser.add_argument("work", type=pathlib.Path)
+    parser.add_argument("--pictures", action="store_true")
+    arguments = parser.parse_args()
+    work = arguments.work
+    work.mkdir(parents=True, exist_ok=True)
+    for old in work.glob("*"):
+        old.unlink()
+    make_inputs(arguments.meshes, work)
+    page = (PICTURES / "README.md").read_text(encoding="utf-8")
+    commands = commands_of(page)
+    assert len(commands) >= 7, "the page has lost commands"
+    for command in commands:
+        print("tracked_mcf", *command, flush=True)
+        run = subprocess.run([arguments.tool.resolve(), *command, "--quiet"], cwd=work, check=True,
+                             stderr=subprocess.PIPE, text=True)
+        assert not run.stderr, run.stderr
+    check_results(arguments.meshes, work)
+    if arguments.pictures:
+        draw_all(arguments.meshes, work)
+    for picture in re.findall(r"!\[[^]]*\]\(([^)]+)\)", page):
+        assert (PICTURES / picture).exists(), f"{picture} is missing; run with --pictures"
+
+
+if __name__ == "__main__":
+    sys.exit(main())
