@@ -12,6 +12,7 @@
 #   experiments  building and running tests/experiments
 #   benchmark    building and running tests/benchmark, CGAL and hypre included
 #   pymeshlab    external/pymeshlab.sh
+#   notebook     running the notebook of the Python package
 #   gravomg      external/gravomg.sh
 #   windows      building for Windows and running tests in Wine
 #   arm64        building for ARM64 and running tests in QEMU
@@ -38,6 +39,7 @@ packages_of() {
         benchmark) echo "$(packages_of program)" libgtest-dev libgmock-dev libboost-dev \
             libcgal-dev libhypre-dev python3 ;;
         pymeshlab) echo python3-venv python3-numpy python3-matplotlib ;;
+        notebook) echo python3-venv python3-matplotlib python3-nbclient python3-ipykernel ;;
         gravomg) echo python3-venv ;;
         windows) echo "$(packages_of program)" g++-mingw-w64-x86-64-posix googletest python3 wine wine64 ;;
         arm64) echo "$(packages_of program)" g++-aarch64-linux-gnu googletest python3 qemu-user ;;

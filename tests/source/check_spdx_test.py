@@ -11,7 +11,7 @@ import unittest
 SCRIPT = pathlib.Path(__file__).resolve().parents[2] / ".ci" / "check_spdx"
 LINE = "SPDX-License-Identifier: GPL-3.0-or-later"
 
-FILES = ["a.cpp", "a.h", "a.inc", "a.sh", "a.py", "a.cmake", "CMakeLists.txt", ".ci/run"]
+FILES = ["a.cpp", "a.h", "a.inc", "a.sh", "a.py", "a.cmake", "CMakeLists.txt", "Containerfile", ".ci/run"]
 
 
 class CheckSpdx(unittest.TestCase):
