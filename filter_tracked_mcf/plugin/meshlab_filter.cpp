@@ -7,6 +7,7 @@
 #include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/parameter_table.h"
 #include "filter_tracked_mcf/plugin/as_typed.h"
+#include "filter_tracked_mcf/plugin/host_python.h"
 
 namespace tracked_mcf {
 
@@ -126,7 +127,7 @@ RichParameterList rich_parameters(const MeshModel* layer) {
 
 FilterOutcome smooth_current_layer(MeshDocument& document, const RichParameterList& parameters,
                                    vcg::CallBackPos* callback) {
-    return guard([&] {
+    const auto work = [&] {
         const Run run;
         MeshModel* const layer = document.mm();
         if (layer == nullptr) throw InvalidMesh("There is no layer to smooth; open a mesh first.");
@@ -145,7 +146,8 @@ FilterOutcome smooth_current_layer(MeshDocument& document, const RichParameterLi
             layer->updateDataMask(MeshModel::MM_VERTQUALITY);
         }
         return outcome;
-    });
+    };
+    return guard(work, !python_runs());
 }
 
 }  // namespace tracked_mcf

@@ -27,8 +27,9 @@ struct FilterOutcome {
 };
 
 /// Runs `work` and turns any exception into a failed outcome: an exception that a host does not
-/// know ends its program. The message about a parameter says its label in the dialog, too.
-FilterOutcome guard(const std::function<FilterOutcome()>& work);
+/// know ends its program. If the host has a dialog, the message about a parameter says its label
+/// there, too.
+FilterOutcome guard(const std::function<FilterOutcome()>& work, bool has_dialog);
 
 /// Wraps a host's callback, which may be null, for the core.
 Progress as_progress(HostCallback* callback);
