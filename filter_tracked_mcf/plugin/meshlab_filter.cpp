@@ -101,12 +101,13 @@ private:
 thread_local bool Run::runs = false;
 
 /// Wraps the host's callback, which may be null. Stops if a user has deleted the layer meanwhile,
-/// or closed its document.
+/// or closed its document, or pressed Ctrl-C in Python.
 Progress watched_progress(MeshDocument& document, const MeshModel& layer,
                           vcg::CallBackPos* callback) {
     if (callback == nullptr) return {};
     return [report = as_progress(callback), pointer = QPointer<MeshDocument>(&document),
             id = layer.id()](double fraction, std::string_view phase) {
+        if (python_interrupts()) throw Interrupted();
         const bool goes_on = report(fraction, phase);
         if (pointer.isNull() || pointer->getMesh(id) == nullptr) {
             throw InvalidMesh("The layer was deleted while the filter ran, so the filter stopped.");

@@ -38,6 +38,8 @@ FilterOutcome guard(const std::function<FilterOutcome()>& work, bool has_dialog)
         return {false, "There is not enough memory. Choose a smaller depth.", {}, {}};
     } catch (const InvalidParameter& error) {
         return {false, has_dialog ? with_label(error.what()) : error.what(), {}, {}};
+    } catch (const Interrupted& error) {
+        return {false, error.what(), {}, {}, true};
     } catch (const std::exception& error) {
         return {false, error.what(), {}, {}};
     } catch (...) {

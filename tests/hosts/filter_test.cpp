@@ -322,6 +322,8 @@ TEST(Guard, TurnsEveryExceptionIntoAMessage) {
     EXPECT_EQ(message_of(InvalidMesh("No faces.")), "No faces.");
     EXPECT_NE(message_of(std::bad_alloc()).find("memory"), std::string::npos);
     EXPECT_FALSE(message_of(42).empty());
+    const FilterOutcome interrupted = guard([]() -> FilterOutcome { throw Interrupted(); }, true);
+    EXPECT_TRUE(!interrupted.succeeded && interrupted.interrupted && !done.interrupted);
 }
 
 TEST(Progress, IsInPercentAndStopsWhenTheHostAsks) {
