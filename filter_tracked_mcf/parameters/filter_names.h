@@ -19,4 +19,9 @@ inline constexpr const char* kFilterHelp =
     "href=\"https://doi.org/10.1111/j.1467-8659.2011.01899.x\">"
     "doi:10.1111/j.1467-8659.2011.01899.x</a>.";
 
+/// Says what is wrong where a layer has no quality for the parameter `strength`.
+inline constexpr const char* kNoQuality =
+    "The layer has no vertex quality to take the strength from; compute one, from 0 to 1, or "
+    "switch it off.";
+
 }  // namespace tracked_mcf

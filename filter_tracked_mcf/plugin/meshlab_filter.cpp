@@ -6,7 +6,9 @@
 
 #include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/parameter_table.h"
+#include "filter_tracked_mcf/parameters/filter_names.h"
 #include "filter_tracked_mcf/plugin/as_typed.h"
+#include "filter_tracked_mcf/plugin/host_python.h"
 
 namespace tracked_mcf {
 
@@ -101,12 +103,13 @@ private:
 thread_local bool Run::runs = false;
 
 /// Wraps the host's callback, which may be null. Stops if a user has deleted the layer meanwhile,
-/// or closed its document.
+/// or closed its document, or pressed Ctrl-C in Python.
 Progress watched_progress(MeshDocument& document, const MeshModel& layer,
                           vcg::CallBackPos* callback) {
     if (callback == nullptr) return {};
     return [report = as_progress(callback), pointer = QPointer<MeshDocument>(&document),
             id = layer.id()](double fraction, std::string_view phase) {
+        if (python_interrupts()) throw Interrupted();
         const bool goes_on = report(fraction, phase);
         if (pointer.isNull() || pointer->getMesh(id) == nullptr) {
             throw InvalidMesh("The layer was deleted while the filter ran, so the filter stopped.");
@@ -127,7 +130,7 @@ RichParameterList rich_parameters(const MeshModel* layer) {
 
 FilterOutcome smooth_current_layer(MeshDocument& document, const RichParameterList& parameters,
                                    vcg::CallBackPos* callback) {
-    return guard([&] {
+    const auto work = [&] {
         const Run run;
         MeshModel* const layer = document.mm();
         if (layer == nullptr) throw InvalidMesh("There is no layer to smooth; open a mesh first.");
@@ -143,9 +146,7 @@ FilterOutcome smooth_current_layer(MeshDocument& document, const RichParameterLi
                 from_layer.strength_by_quality = std::get<bool>(value);
         }
         if (from_layer.strength_by_quality && !layer->hasDataMask(MeshModel::MM_VERTQUALITY)) {
-            throw InvalidMesh(
-                "The layer has no vertex quality to take the strength from; compute one, from 0 to "
-                "1, or switch it off.");
+            throw InvalidMesh(kNoQuality);
         }
         FilterOutcome outcome =
             run_filter(layer->cm, flow, from_layer, watched_progress(document, *layer, callback));
@@ -154,7 +155,8 @@ FilterOutcome smooth_current_layer(MeshDocument& document, const RichParameterLi
             layer->updateDataMask(MeshModel::MM_VERTQUALITY);
         }
         return outcome;
-    });
+    };
+    return guard(work, !python_runs());
 }
 
 }  // namespace tracked_mcf

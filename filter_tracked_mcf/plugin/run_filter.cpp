@@ -31,13 +31,15 @@ std::string with_label(const std::string& message) {
 
 }  // namespace
 
-FilterOutcome guard(const std::function<FilterOutcome()>& work) {
+FilterOutcome guard(const std::function<FilterOutcome()>& work, bool has_dialog) {
     try {
         return work();
     } catch (const std::bad_alloc&) {
         return {false, "There is not enough memory. Choose a smaller depth.", {}, {}};
     } catch (const InvalidParameter& error) {
-        return {false, with_label(error.what()), {}, {}};
+        return {false, has_dialog ? with_label(error.what()) : error.what(), {}, {}};
+    } catch (const Interrupted& error) {
+        return {false, error.what(), {}, {}, true};
     } catch (const std::exception& error) {
         return {false, error.what(), {}, {}};
     } catch (...) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <variant>
 
+#include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/evolve.h"
 #include "filter_tracked_mcf/mesh_bridge/mesh_bridge.h"
 
@@ -21,14 +22,21 @@ using Outputs = std::map<std::string, std::variant<int, double>>;
 /// How a run of the filter ended.
 struct FilterOutcome {
     bool succeeded;
-    std::string message;   ///< for the user: what was done, or what is wrong and what to do
-    Outputs outputs;       ///< empty after a failure; see outputs_of()
-    std::string warnings;  ///< those of the message, one a line
+    std::string message;       ///< for the user: what was done, or what is wrong and what to do
+    Outputs outputs;           ///< empty after a failure; see outputs_of()
+    std::string warnings;      ///< those of the message, one a line
+    bool interrupted = false;  ///< whether Interrupted was thrown, a failure that the host reports
+};
+
+/// The host must get control at once. It reports why itself, as Python does after Ctrl-C.
+struct Interrupted : Error {
+    Interrupted() : Error("The filter was interrupted.") {}
 };
 
 /// Runs `work` and turns any exception into a failed outcome: an exception that a host does not
-/// know ends its program. The message about a parameter says its label in the dialog, too.
-FilterOutcome guard(const std::function<FilterOutcome()>& work);
+/// know ends its program. If the host has a dialog, the message about a parameter says its label
+/// there, too.
+FilterOutcome guard(const std::function<FilterOutcome()>& work, bool has_dialog);
 
 /// Wraps a host's callback, which may be null, for the core.
 Progress as_progress(HostCallback* callback);

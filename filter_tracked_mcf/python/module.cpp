@@ -14,7 +14,9 @@
 
 #include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/evolve.h"
+#include "filter_tracked_mcf/parameters/filter_names.h"
 #include "filter_tracked_mcf/parameters/flow_warnings.h"
+#include "filter_tracked_mcf/parameters/pymeshlab_help.h"
 #include "filter_tracked_mcf/parameters/report_values.h"
 #include "filter_tracked_mcf/python/parameters.h"
 
@@ -286,6 +288,9 @@ const char* const kDefaultDetailSize =
 NB_MODULE(_core, module) {
     using namespace tracked_mcf;
     module.attr("version") = TRACKED_MCF_VERSION;
+    module.attr("no_quality") = kNoQuality;
+    module.attr("pymeshlab_help") = pymeshlab_help();
+    module.attr("pymeshlab_parameters") = pymeshlab_parameters();
     nb::register_exception_translator(translate);
     module.def("smooth", smooth, "vertices"_a, "faces"_a, nb::kw_only(), "selected"_a = nb::none(),
                "strength"_a = nb::none(), "progress"_a = nb::none(), "parameters"_a,

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "filter_tracked_mcf/python/parameters.h"
 
+#include <nanobind/stl/string.h>
+
 #include <algorithm>
 #include <limits>
 #include <regex>
@@ -127,6 +129,13 @@ std::string python_type(const Parameter& parameter) {
            "] = " + literal(parameter.choices.at(static_cast<std::size_t>(std::get<int>(value))));
 }
 
+/// Returns the kinds of values that PyMeshLab and smooth() write in different ways as a word.
+const char* type_name(Parameter::Type type) {
+    if (type == Parameter::Type::Real) return "real";
+    if (type == Parameter::Type::Length) return "length";
+    return type == Parameter::Type::Choice ? "choice" : "other";
+}
+
 }  // namespace
 
 FlowParameters flow_parameters(const nb::kwargs& given, const TriangleMesh& mesh) {
@@ -187,6 +196,21 @@ std::string help_of_parameters() {
         text += parameter.help + "\n";
     }
     return text;
+}
+
+nb::list pymeshlab_parameters() {
+    nb::list list;
+    for (const Parameter& parameter : parameter_table()) {
+        if (parameter.label.empty()) continue;
+        nb::dict values, choices;
+        for (const NamedChoice& choice : parameter.choices)
+            choices[choice.label.c_str()] = choice.name;
+        values["name"] = parameter.name;
+        values["type"] = type_name(parameter.type);
+        values["choices"] = choices;
+        list.append(values);
+    }
+    return list;
 }
 
 }  // namespace tracked_mcf

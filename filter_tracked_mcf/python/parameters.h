@@ -21,4 +21,9 @@ std::string signature_of_smooth();
 /// Returns what each keyword parameter means, one paragraph each.
 std::string help_of_parameters();
 
+/// Returns a list of the parameters that PyMeshLab offers, a dictionary for each:
+/// - `name`, and `type`, a word;
+/// - `choices`, which maps PyMeshLab's name of each choice to that of smooth(), in their order.
+nanobind::list pymeshlab_parameters();
+
 }  // namespace tracked_mcf

@@ -51,8 +51,8 @@ TEST(ParameterTable, ANumberThatIsNoChoiceIsRefusedWithTheLabels) {
 
 /// Returns the message of a filter that fails with this error.
 template <class Error>
-std::string message_of(const Error& error) {
-    const FilterOutcome outcome = guard([&]() -> FilterOutcome { throw error; });
+std::string message_of(const Error& error, bool has_dialog = true) {
+    const FilterOutcome outcome = guard([&]() -> FilterOutcome { throw error; }, has_dialog);
     EXPECT_FALSE(outcome.succeeded);
     return outcome.message;
 }
@@ -69,6 +69,11 @@ TEST(Guard, AZeroMayBeANumberThatMeshLabCouldNotRead) {
     EXPECT_EQ(message_of(InvalidParameter("iterations is 0; give 1 to 9.")),
               "iterations is 0; give 1 to 9. In the dialog it is \"Smoothing steps\". MeshLab "
               "reads a number with a decimal comma as 0: use a point.");
+}
+
+TEST(Guard, AMessageFitsAHostWithoutADialog) {
+    for (const char* const message : {"depth is 13; give 0 to 12.", "iterations is 0; give more."})
+        EXPECT_EQ(message_of(InvalidParameter(message), false), message);
 }
 
 TEST(AsTyped, RecoversTheDecimalOfAFloat) {
@@ -309,20 +314,16 @@ TEST(Warnings, TellOfALimitedStepADetailBelowACellAndASuddenLoss) {
 }
 
 TEST(Guard, TurnsEveryExceptionIntoAMessage) {
-    const FilterOutcome done = guard([] {
-        return FilterOutcome{true, "done", {{"depth", 5}}, {}};
-    });
+    const auto work = [] { return FilterOutcome{true, "done", {{"depth", 5}}, {}}; };
+    const FilterOutcome done = guard(work, true);
     EXPECT_TRUE(done.succeeded);
     EXPECT_EQ(done.message, "done");
     EXPECT_EQ(done.outputs.size(), 1u);
-    const auto message_of = [](auto thrown) {
-        const FilterOutcome outcome = guard([&]() -> FilterOutcome { throw thrown; });
-        EXPECT_FALSE(outcome.succeeded);
-        return outcome.message;
-    };
     EXPECT_EQ(message_of(InvalidMesh("No faces.")), "No faces.");
     EXPECT_NE(message_of(std::bad_alloc()).find("memory"), std::string::npos);
     EXPECT_FALSE(message_of(42).empty());
+    const FilterOutcome interrupted = guard([]() -> FilterOutcome { throw Interrupted(); }, true);
+    EXPECT_TRUE(!interrupted.succeeded && interrupted.interrupted && !done.interrupted);
 }
 
 TEST(Progress, IsInPercentAndStopsWhenTheHostAsks) {

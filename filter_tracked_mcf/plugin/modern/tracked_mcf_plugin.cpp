@@ -14,6 +14,9 @@ std::map<std::string, QVariant> TrackedMcfPlugin::applyFilter(const QAction*,
                                                               unsigned int& post_condition_mask,
                                                               vcg::CallBackPos* callback) {
     const FilterOutcome outcome = smooth_current_layer(document, parameters, callback);
+    // Python raises an exception when it gets control. After an MLException, PyMeshLab would raise
+    // one of its own, and keep a log that may dangle.
+    if (outcome.interrupted) return {};
     // MLException is the only exception that hosts expect.
     if (!outcome.succeeded) throw MLException(QString::fromStdString(outcome.message));
     log(kBuild + (": " + outcome.message));

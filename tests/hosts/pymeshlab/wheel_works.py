@@ -35,9 +35,11 @@ OFFICIAL = pathlib.Path(pymeshlab.__file__).parent
 # The plugin may need these of the system. PyMeshLab brings all others.
 OF_THE_SYSTEM = re.compile(r"(libc|libm|libstdc\+\+|libgcc_s|ld-linux-[-\w]+)\.so\.\d")
 
-# Imports the module, then uses PyMeshLab, which must work even if the import fails.
+# Imports the module, then uses PyMeshLab, which must work even if the import fails. The Python package
+# would replace the plugin; arrays_in_pymeshlab.py tests that.
 IMPORT = """
-import pymeshlab
+import sys, pymeshlab
+sys.modules["tracked_mcf"] = None
 {before}
 try:
     import pymeshlab_tracked_mcf
@@ -140,7 +142,7 @@ def check_messages(python, installed, single_precision_plugin, work):
     check_import(python, ["PyMeshLab works with the filter"])
     for release in ("2023.12.post3", "2025.70"):
         message = f"This is PyMeshLab {release}, but the plugin is for PyMeshLab 2025.7."
-        check_import(python, [message, "pip install", works],
+        check_import(python, [message, "pip install", "the package tracked-mcf", works],
                      before=f"pymeshlab.pmeshlab.__version__ = '{release}'")
     for name, plugin, message in (
             ("single", single_precision_plugin, "different floating point precision"),
@@ -150,7 +152,8 @@ def check_messages(python, installed, single_precision_plugin, work):
         (copy / PLUGIN).unlink()
         if plugin:
             shutil.copy(plugin, copy / PLUGIN)
-        check_import(python, [message, "double precision", "pip install", works], path=copy.parent)
+        check_import(python, [message, "double precision", "pip install", "the package tracked-mcf", works],
+                     path=copy.parent)
     script = f"import sys; sys.modules['pymeshlab'] = None; import {MODULE}"
     without = subprocess.run([python, "-c", script], capture_output=True, text=True, check=False)
     assert "ImportError: PyMeshLab cannot be imported" in without.stderr, without.stderr

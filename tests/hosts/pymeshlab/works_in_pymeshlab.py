@@ -13,6 +13,7 @@ import json
 import math
 import multiprocessing
 import pathlib
+import signal
 import subprocess
 import sys
 
@@ -77,6 +78,7 @@ WRONG = [
     ({"keep_edges": 25, "flow": "Conformalized"}, "keep_edges"),
     ({"method": "Magic"}, "Possible values"),
     ({"selected": True}, "No face is selected"),
+    ({"strength": True}, "no vertex quality"),
     ({"preserve": "Volume", "flow": "Conformalized", "boundary": "Free"}, "open"),
     ({"preserve": "Area"}, "Preserving the area"),
     ({"detph": 6}, "detph not found"),
@@ -189,19 +191,60 @@ def must_refuse(plugin, mesh, case):
     except Exception as error:  # PyMeshLab has three exception types without a common base
         if word not in str(error):
             sys.exit(f"{parameters}: '{word}' is not in: {error}")
+        if "dialog" in str(error) or "comma" in str(error):
+            sys.exit(f"{parameters}: PyMeshLab has no dialog: {error}")
         print(f"refused {parameters}: {error}")
     if vertices(meshes).tobytes() != before.tobytes():
         sys.exit(f"{parameters}: the mesh was changed")
 
 
+def run_apart(function, *arguments):
+    """Returns the exit code of a process that calls the function. One that hangs is killed."""
+    process = multiprocessing.get_context("spawn").Process(target=function, args=arguments)
+    process.start()
+    process.join(120)
+    process.kill()
+    process.join()
+    return process.exitcode
+
+
 def refuse_all(plugin, mesh):
     for case in range(len(WRONG)):
-        process = multiprocessing.get_context("spawn").Process(
-            target=must_refuse, args=(plugin, mesh, case))
-        process.start()
-        process.join()
-        if process.exitcode != 0:
+        if run_apart(must_refuse, plugin, mesh, case) != 0:
             sys.exit(f"not refused as it should: {WRONG[case]}")
+
+
+def must_interrupt(plugin, mesh):
+    """The handler of a signal runs during the flow. What it raises ends the flow, as Ctrl-C does."""
+    apply = load_plugin(plugin)
+    meshes = load(mesh)
+    meshes.set_selection_all()
+    parts = ("vertex_matrix", "vertex_normal_matrix", "face_normal_matrix", "vertex_scalar_array",
+             "face_selection_array")
+    bits = [getattr(meshes.current_mesh(), part)().tobytes() for part in parts]
+    signals = []
+
+    def handle(number, frame):
+        signals.append(number)
+        if len(signals) == 3:  # the others do not end the flow
+            signal.default_int_handler(number, frame)
+
+    signal.signal(signal.SIGALRM, handle)
+    signal.setitimer(signal.ITIMER_REAL, 0.5, 0.5)
+    try:
+        apply(meshes, detail_size=pymeshlab.PureValue(1e-6), depth=7, iterations=1000000,
+              quality="Displacement")
+        sys.exit("the flow was not interrupted")
+    except KeyboardInterrupt as error:
+        if error.__context__:
+            sys.exit(f"{error.__context__!r} came before KeyboardInterrupt")
+    signal.setitimer(signal.ITIMER_REAL, 0)
+    if [getattr(meshes.current_mesh(), part)().tobytes() for part in parts] != bits or len(signals) != 3:
+        sys.exit(f"after {len(signals)} signals, the layer is not what it was")
+    apply(meshes, **COARSE)
+    if vertices(meshes).tobytes() == bits[0]:
+        sys.exit("the filter does nothing after an interrupt")
+    load(mesh)
 
 
 def check_detail_size(apply, tool, mesh, work):
@@ -293,6 +336,8 @@ def main(plugin, tool, page, work, *meshes):
     check_warnings(apply, meshes[0])
     check_turned_face(apply, work)
     refuse_all(plugin, meshes[0])
+    if run_apart(must_interrupt, plugin, meshes[0]) != 0:
+        sys.exit("not interrupted as it should")
 
 
 if __name__ == "__main__":

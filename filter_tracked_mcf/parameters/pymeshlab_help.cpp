@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "filter_tracked_mcf/parameters/pymeshlab_help.h"
+
+#include <iomanip>
+#include <regex>
+#include <sstream>
+#include <variant>
+
+#include "filter_tracked_mcf/core/parameter_table.h"
+#include "filter_tracked_mcf/parameters/filter_names.h"
+
+namespace tracked_mcf {
+
+namespace {
+
+/// Returns a parameter's Python type and default, such as "int = 3". A default that depends on the
+/// mesh is left out.
+std::string python_type(const Parameter& parameter) {
+    const ParameterValue value = parameter.get({});
+    std::ostringstream text;
+    text << std::showpoint << std::setprecision(2);
+    switch (parameter.type) {
+        case Parameter::Type::Switch:
+        case Parameter::Type::Strength:
+            return std::get<bool>(value) ? "bool = True" : "bool = False";
+        case Parameter::Type::Selected:
+            return "bool, by default True if faces are selected";
+        case Parameter::Type::Integer:
+            return "int = " + std::to_string(std::get<int>(value));
+        case Parameter::Type::Real:
+            text << "float = " << std::get<double>(value);
+            break;
+        case Parameter::Type::Length:
+            return "pymeshlab.PercentageValue or pymeshlab.PureValue";
+        case Parameter::Type::Choice:
+            const NamedChoice& first = parameter.choices[std::get<int>(value)];
+            text << "str = '" << first.label << "'";
+            for (const NamedChoice& choice : parameter.choices) {
+                if (&choice != &first) text << ", or '" << choice.label << "'";
+            }
+    }
+    return text.str();
+}
+
+}  // namespace
+
+std::string pymeshlab_help() {
+    const std::string html = std::regex_replace(kFilterHelp, std::regex("<br>"), "\n");
+    std::string text = std::regex_replace(html, std::regex("<[^>]*>"), "") + "\n\nParameters:\n";
+    for (const Parameter& parameter : parameter_table()) {
+        if (parameter.label.empty()) continue;
+        text += "    " + parameter.name + ": " + python_type(parameter) + "\n        " +
+                parameter.label + ": " + parameter.help + "\n";
+    }
+    return text +
+           "\nReturns a dictionary of numbers, such as largest_displacement, and the list "
+           "warnings.\n";
+}
+
+}  // namespace tracked_mcf
