@@ -80,6 +80,31 @@ def frame(side=80):
             numpy.concatenate([numpy.stack([a, b, c], axis=1), numpy.stack([a, c, d], axis=1)]))
 
 
+def in_charts(vertices, faces, count=14):
+    """Cuts a mesh as texture charts do: each chart has vertices and a colour of its own."""
+    seeds = numpy.random.default_rng(3).choice(len(vertices), count, replace=False)
+    centroids = vertices[faces].mean(axis=1)
+    chart = numpy.linalg.norm(centroids[:, None] - vertices[seeds], axis=2).argmin(axis=1)
+    keys, corners = numpy.unique(chart[:, None] * len(vertices) + faces, return_inverse=True)
+    colours = 150 + 25 * numpy.stack([numpy.arange(count) * i % 5 for i in (1, 2, 3)], axis=1)
+    return (vertices[keys % len(vertices)], corners.reshape(-1, 3),
+            colours[keys // len(vertices)].astype("u1").T)
+
+
+def with_patch(vertices, faces):
+    """Closes a hole in the belly of the bear by a flat patch, whose strength 1 fades around it."""
+    middle = vertices[numpy.argmax(vertices[:, 2] - 3 * abs(vertices[:, :2] - [0, 0]).sum(axis=1))]
+    distance = numpy.linalg.norm(vertices - middle, axis=1)
+    radius = 0.12 * numpy.ptp(vertices, axis=0).max()
+    rim = vertices[(distance > 0.9 * radius) & (distance < 1.1 * radius)]
+    centre = rim.mean(axis=0)
+    normal = numpy.linalg.svd(rim - centre)[2][2]
+    inside = distance < radius
+    patched = vertices.copy()
+    patched[inside] -= ((vertices[inside] - centre) @ normal)[:, None] * normal
+    return patched, numpy.clip(2 - distance / radius, 0, 1)
+
+
 def make_inputs(meshes, work):
     part, part_faces = read_off(meshes / "fandisk.off")
     write_ply(work / "noisy_part.ply", with_noise(part, part_faces, 0.2), part_faces)
@@ -94,6 +119,10 @@ def make_inputs(meshes, work):
     write_ply(work / "frame.ply", *frame())
     bear, bear_faces = read_off(meshes / "bear.off")
     write_ply(work / "bear.ply", bear, bear_faces)
+    patched, around = with_patch(bear, bear_faces)
+    write_ply(work / "patched_bear.ply", patched, bear_faces, around=around)
+    lion, lion_faces, (red, green, blue) = in_charts(lion, lion_faces)
+    write_ply(work / "charts.ply", lion, lion_faces, red=red, green=green, blue=blue)
 
 
 def commands_of(page):
@@ -131,6 +160,9 @@ def check_results(meshes, work):
     moved = numpy.linalg.norm(positions(work / "faded.ply") - lion, axis=1)
     strength = read_ply(work / "faded_lion.ply")["below"]
     assert (moved[strength == 0] == 0).all() and moved[strength == 1].max() > 0
+    before, after = positions(work / "charts.ply"), positions(work / "smooth_charts.ply")
+    assert len(numpy.unique(before, axis=0)) < 0.95 * len(before), "there are seams"
+    assert len(numpy.unique(numpy.hstack([before, after]), axis=0)) == len(numpy.unique(before, axis=0))
     film, rim = positions(work / "film.ply"), positions(work / "frame.ply")
     on_rim = numpy.hypot(rim[:, 0], rim[:, 1]) > 1 - 1e-9
     assert (film[on_rim] == rim[on_rim]).all()
@@ -172,9 +204,12 @@ def draw_all(meshes, work):
     draw(PICTURES / "strength.png", work / "lion.ply", work / "faded.ply", options=side)
     draw(PICTURES / "film.png", work / "frame.ply", work / "film.ply",
          options=["--view", "0.2", "1", "-0.6", "--up", "0", "0", "1"])
+    draw(PICTURES / "seams.png", work / "charts.ply", work / "smooth_charts.ply", options=["--colours"])
+    draw(PICTURES / "patch.png", work / "patched_bear.ply", work / "blended.ply",
+         options=["--zoom", "2", "--center", "0", "-0.2", "--view", "0.5", "0", "-1"])
     colour_by_quality(meshes, work)
     draw(PICTURES / "curvature.png", work / "bear.ply", work / "coloured.ply", options=["--colours"])
-    for picture in ("edges", "noise", "selection", "strength", "film", "curvature"):
+    for picture in ("edges", "noise", "selection", "strength", "seams", "patch", "film", "curvature"):
         as_palette(PICTURES / f"{picture}.png")
     frames = []
     for i, mesh in enumerate([work / "bear.ply", *sorted(work.glob("sphere_*.ply"))]):
