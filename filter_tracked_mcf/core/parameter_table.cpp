@@ -96,8 +96,8 @@ const std::vector<Parameter>& parameter_table() {
              Type::Length,
              {0, kFinite, ", in units of the mesh, where 0 takes 2.5 mean edge lengths"}),
          "detail_size", "Remove detail smaller than",
-         "Waves of this length keep half their height after all steps, shorter ones less. 0 takes "
-         "2.5 mean edge lengths."},
+         "Waves this long keep half their height after all steps, shorter less. 0: 2.5 mean edge "
+         "lengths."},
         {access<&P::keep_edges>(Type::Real, {0, 179, " degrees, such as 25, where 0 keeps none"}),
          "keep_edges", "Keep edges sharper than",
          "In degrees, 25 for noise, with order 2. More noise makes longer steps. 0 keeps none."},
@@ -109,13 +109,12 @@ const std::vector<Parameter>& parameter_table() {
          "1 is the flow itself, 4 keeps larger detail best; each more takes another solve."},
         {choice<&P::preserve>({{"None", "none"}, {"Area", "area"}, {"Volume", "volume"}}),
          "preserve", "Preserve",
-         "Of each connected part. Volume also works with boundaries and selections. Area scales, "
-         "so nothing may be locked."},
+         "Of each connected part. Area: nothing may be locked. Volume: also with locked vertices."},
         {choice<&P::boundary>(
              {{"Locked", "locked"}, {"Locked cells (paper)", "locked-cells"}, {"Free", "free"}}),
          "boundary", "Boundary",
-         "Of an open mesh. Locked: its vertices stay. Locked cells: all in its grid cells stays. "
-         "Free: openings shrink."},
+         "Locked: its vertices stay. Locked cells: all in its grid cells stays. Free: openings "
+         "shrink."},
         {of_host(Type::Selected), "selected", "Affect only selected faces",
          "Vertices of other faces stay. Select a little more than needed, because the seam cannot "
          "move."},
@@ -136,9 +135,7 @@ const std::vector<Parameter>& parameter_table() {
          "The step size is in squared units of the mesh."},
         {integer<&P::depth>(0, kMaximumDepth, ", where 0 chooses automatically"), "depth",
          "Octree depth (expert)",
-         "2^depth grid cells a side, 1 to 12; one more takes four times as long. 0 chooses it by "
-         "the "
-         "vertices and the detail size."},
+         "2^depth grid cells a side, 1 to 12; one more takes four times as long. 0 chooses it."},
         {choice<&P::flow>(
              {{"Mean curvature", "mean-curvature"}, {"Conformalized", "conformalized"}}),
          "flow", "Flow (expert)",

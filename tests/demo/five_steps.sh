@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Draws the README's picture of five steps in MeshLab: opens a mesh in stock MeshLab 2020.09, opens the
 # filter's dialog, switches the preview on, and numbers the steps on a screenshot of the window:
-# xvfb-run -a -s "-screen 0 1280x900x24" five_steps.sh PREFIX MESH OUT_DIR
+# xvfb-run -a -s "-screen 0 1280x930x24" five_steps.sh PREFIX MESH OUT_DIR
 #
 # PREFIX is a MeshLab that has the plugin, such as build/demo/meshlab, which smooth_a_scan.sh makes.
 set -euo pipefail
@@ -12,8 +12,8 @@ prefix=$(realpath "$1") mesh=$2 out=$(realpath -m "$3") filter="Mean Curvature F
 
 # These replace window.sh's functions, which are for a larger screen.
 fill_screen() {
-    xdotool windowsize "$window" 1280 900 sleep 1
-    xdotool getwindowgeometry "$window" | grep -q 1280x900
+    xdotool windowsize "$window" 1280 930 sleep 1
+    xdotool getwindowgeometry "$window" | grep -q 1280x930
 }
 surface() { import -window root -crop 740x640+5+75 +repage "$out/$1.png"; }
 
@@ -21,7 +21,7 @@ make_home
 cd "$(dirname "$mesh")" # MeshLab's log on the picture shows no folder
 start_meshlab "$prefix/bin/meshlab" "$(basename "$mesh")"
 start_filter
-xdotool windowmove --sync "$dialog" 752 80 windowsize --sync "$dialog" 500 690 sleep 0.5
+xdotool windowmove --sync "$dialog" 752 80 windowsize --sync "$dialog" 500 720 sleep 0.5
 eval "$(xdotool getwindowgeometry --shell "$dialog")"
 surface before
 xdotool key Tab Tab space # from Apply over Default to Preview
@@ -35,7 +35,7 @@ number() { # LABEL X Y: of the badge's centre
 }
 number 1 36 34
 number 2 121 34
-number 3 $((X - 18)) $((Y + 160))
+number 3 $((X - 18)) $((Y + 173))
 number 4 $((X - 18)) $((Y + HEIGHT - 84))
 number 5 $((X + WIDTH - 40)) $((Y + HEIGHT - 22))
 convert "$out/window.png" -font "$(fc-match -f '%{file}' sans:bold)" -pointsize 20 "${badges[@]}" -strip "$out/five_steps.png"
