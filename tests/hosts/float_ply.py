@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Converts a PLY or OFF file to a binary PLY file of floats. All hosts read the same bits from it:
-float_ply.py IN OUT.ply"""
+float_ply.py IN OUT.ply [quality]
+
+With a third argument, each vertex has a number from 0 to 1 as its quality."""
 
 import struct
 import sys
@@ -30,17 +32,19 @@ def read_mesh(path):
     return positions(elements), [tuple(map(int, face)) for face in faces.column(name)]
 
 
-def write_ply(path, vertices, faces):
+def write_ply(path, vertices, faces, *quality):
+    names = ["x", "y", "z", *quality]
     header = ["ply", "format binary_little_endian 1.0", f"element vertex {len(vertices)}",
-              *(f"property float {axis}" for axis in "xyz"), f"element face {len(faces)}",
+              *(f"property float {name}" for name in names), f"element face {len(faces)}",
               "property list uchar int vertex_indices", "end_header", ""]
     with open(path, "wb") as file:
         file.write("\n".join(header).encode())
-        for vertex in vertices:
-            file.write(struct.pack("<3f", *vertex))
+        for i, vertex in enumerate(vertices):
+            numbers = [*vertex, *(i % 5 / 4 for _ in quality)]
+            file.write(struct.pack(f"<{len(numbers)}f", *numbers))
         for face in faces:
             file.write(struct.pack("<B3i", 3, *face))
 
 
 if __name__ == "__main__":
-    write_ply(sys.argv[2], *read_mesh(sys.argv[1]))
+    write_ply(sys.argv[2], *read_mesh(sys.argv[1]), *sys.argv[3:])

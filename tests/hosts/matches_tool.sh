@@ -14,7 +14,7 @@ rm -rf "$work"
 mkdir -p "$work"
 
 # Both start from the same floats.
-"$here/float_ply.py" "$mesh" "$work/in.ply"
+"$here/float_ply.py" "$mesh" "$work/in.ply" quality
 
 run() { # NAME PARAMETERS TOOL_OPTIONS: as in a script, and as the tool takes them
     local parameters options in_host=0 ours=0
@@ -66,6 +66,7 @@ compare locked_cells boundary=1 "--boundary locked-cells"
 compare free boundary=2 "--boundary free"
 compare conformalized flow=1 "--flow conformalized"
 compare shared_cells method=1 "--method shared-cells"
+compare strength strength=true "--strength quality"
 compare keep_edges keep_edges=25 "--keep-edges 25"
 compare paper "boundary=1 method=2" "--boundary locked-cells --method paper"
 compare area "boundary=2 preserve=1" "--boundary free --preserve area"
