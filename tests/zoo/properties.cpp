@@ -329,7 +329,9 @@ void Checker::check_area() {
 
 void Checker::check_unmoved() {
     for (std::size_t i = 0; i < flows_.size(); ++i) {
-        if (flows_[i] || same_bits(base_.mesh.positions[i], case_.mesh.positions[i])) continue;
+        const bool is_held = !case_.mesh.strength.empty() && case_.mesh.strength[i] == 0;
+        const bool moves = flows_[i] && !is_held;
+        if (moves || same_bits(base_.mesh.positions[i], case_.mesh.positions[i])) continue;
         fail(Property::Unmoved, "vertex " + std::to_string(i));
         return;
     }
@@ -456,6 +458,8 @@ void Checker::check_order() {
     for (std::size_t i = 0; i < vertex_of.size(); ++i) {
         new_index[vertex_of[i]] = static_cast<std::int32_t>(i);
         other.mesh.positions[i] = case_.mesh.positions[vertex_of[i]];
+        if (!case_.mesh.strength.empty())
+            other.mesh.strength[i] = case_.mesh.strength[vertex_of[i]];
     }
     for (std::size_t i = 0; i < triangle_of.size(); ++i) {
         const Triangle& t = case_.mesh.triangles[triangle_of[i]];

@@ -6,8 +6,11 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <fstream>
 #include <limits>
+#include <map>
 #include <sstream>
 #include <stdexcept>
 
@@ -99,6 +102,20 @@ FlowParameters random_parameters(double side, Random& random) {
     return parameters;
 }
 
+/// Returns strengths of which many are 0 or 1. Coincident vertices have the same.
+std::vector<double> random_strength(const TriangleMesh& mesh, Random& random) {
+    std::map<std::array<std::uint64_t, 3>, double> at;
+    std::vector<double> strength;
+    for (const Eigen::Vector3d& position : mesh.positions) {
+        const Eigen::Vector3d without_negative_zero = position.array() + 0.0;
+        std::array<std::uint64_t, 3> bits{};
+        std::memcpy(bits.data(), without_negative_zero.data(), sizeof bits);
+        const double drawn = random.pick({0.0, 1.0, random.unit()});
+        strength.push_back(at.emplace(bits, drawn).first->second);
+    }
+    return strength;
+}
+
 /// Returns the shortest text that is read as this number.
 std::string exact(double value) {
     std::array<char, 32> text{};
@@ -149,6 +166,7 @@ Case case_of(std::uint64_t seed, std::int64_t number) {
     made.parameters =
         random_parameters(box_of(made.mesh, made.selection).sizes().maxCoeff(), random);
     limit_work(made, kMostFragments);
+    if (random.chance(0.1)) made.mesh.strength = random_strength(made.mesh, random);
     return made;
 }
 
@@ -175,6 +193,7 @@ std::string options_of(const Case& described) {
         }
     }
     if (!described.selection.empty()) text << " --selected selected";
+    if (!described.mesh.strength.empty()) text << " --strength strength";
     return text.str();
 }
 
@@ -182,12 +201,17 @@ void write_ply(const Case& written, const std::string& path) {
     std::ofstream file(path);
     file.precision(std::numeric_limits<double>::max_digits10);
     const bool has_selection = !written.selection.empty();
+    const bool has_strength = !written.mesh.strength.empty();
     file << "ply\nformat ascii 1.0\nelement vertex " << written.mesh.positions.size()
-         << "\nproperty double x\nproperty double y\nproperty double z\nelement face "
+         << "\nproperty double x\nproperty double y\nproperty double z\n"
+         << (has_strength ? "property double strength\n" : "") << "element face "
          << written.mesh.triangles.size() << "\nproperty list uchar int vertex_indices\n"
          << (has_selection ? "property uchar selected\n" : "") << "end_header\n";
-    for (const Eigen::Vector3d& p : written.mesh.positions) {
-        file << p[0] << ' ' << p[1] << ' ' << p[2] << '\n';
+    for (std::size_t i = 0; i < written.mesh.positions.size(); ++i) {
+        const Eigen::Vector3d& p = written.mesh.positions[i];
+        file << p[0] << ' ' << p[1] << ' ' << p[2];
+        if (has_strength) file << ' ' << written.mesh.strength[i];
+        file << '\n';
     }
     for (std::size_t i = 0; i < written.mesh.triangles.size(); ++i) {
         const Triangle& t = written.mesh.triangles[i];

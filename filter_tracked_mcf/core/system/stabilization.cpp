@@ -12,7 +12,8 @@ namespace tracked_mcf {
 
 namespace {
 
-/// Added to δ, so that the stabilisation does not vanish beside the mass matrix at small steps.
+/// Added to δ, times the density, so that the stabilisation does not vanish beside the mass matrix
+/// at small steps.
 constexpr double kMassShare = 0.1;
 
 /// Integrals over [0, 1] of products of two hat functions, values or slopes.
@@ -87,7 +88,7 @@ Eigen::Matrix3d normal_tensor(const Eigen::Matrix3d& normal_product) {
 
 }  // namespace
 
-Stabilization::Stabilization(const TrackedElements& elements) {
+Stabilization::Stabilization(const TrackedElements& elements) : densities_(elements.densities) {
     const std::int64_t count = elements.finest().element_count();
     normal_tensors_.resize(static_cast<std::size_t>((count + kBlockElements - 1) / kBlockElements));
     if (count > 0) normal_tensors_.back() = TensorBlock{};
@@ -108,9 +109,20 @@ Stabilization::Stabilization(const TrackedElements& elements) {
 
 void Stabilization::add(double weight, double step_size_in_cells, MatrixBlocks& matrices) const {
     if (weight == 0) return;
-    const TensorProducts products = tensor_products(weight * (step_size_in_cells + kMassShare));
+    const double factor = step_size_in_cells + kMassShare;
+    const TensorProducts products = tensor_products(weight * factor);
+    RawVector<TensorBlock> scaled;
+    if (!densities_.empty()) {
+        scaled = normal_tensors_;
+        parallel_for_rows(matrices.size(), [&](std::int32_t element) {
+            const double own = step_size_in_cells + kMassShare * double{densities_[element]};
+            for (auto& entry : scaled[element / kBlockElements].entry)
+                entry[element % kBlockElements] *= static_cast<float>(own / factor);
+        });
+    }
+    const RawVector<TensorBlock>& tensors = densities_.empty() ? normal_tensors_ : scaled;
     parallel_for_chunks(matrices.size(), [&](std::int64_t begin, std::int64_t end) {
-        kernels().add_tensor_products(normal_tensors_.data(), products, begin / kBlockElements,
+        kernels().add_tensor_products(tensors.data(), products, begin / kBlockElements,
                                       (end + kBlockElements - 1) / kBlockElements,
                                       matrices.blocks());
     });

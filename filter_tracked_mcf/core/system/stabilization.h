@@ -15,9 +15,9 @@ namespace tracked_mcf {
 /// converging. The stabilisation adds to the energy of a displacement d its variation along the
 /// normals of the initial surface, in the volume of each element's cell:
 ///
-///     κ (δ + 0.1) Σ_elements ∫_cell ∇dᵀ N ∇d dV,
+///     κ Σ_elements (δ + 0.1 ρ) ∫_cell ∇dᵀ N ∇d dV,
 ///
-/// in grid units, with the element's normal tensor N. This is the normal-gradient volume
+/// in grid units, with the element's density ρ (densities.h) and normal tensor N. This is the normal-gradient volume
 /// stabilisation of trace finite elements (Burman, Hansbo, Larson and Massing 2018; Grande,
 /// Lehrenfeld and Reusken 2018). It applies to the displacement only, so a surface at rest stays at
 /// rest.
@@ -27,7 +27,7 @@ namespace tracked_mcf {
 /// does not depend on the orientation of faces.
 class Stabilization {
 public:
-    /// Measures the normal tensors, 24 bytes per element.
+    /// Measures the normal tensors, 24 bytes per element. `elements` must outlive this.
     explicit Stabilization(const TrackedElements& elements);
 
     /// Adds the stabilisation of weight κ, for the step size δ in squared sides of a cell, to the
@@ -35,6 +35,7 @@ public:
     void add(double weight, double step_size_in_cells, MatrixBlocks& matrices) const;
 
 private:
+    const std::vector<float>& densities_;
     RawVector<TensorBlock> normal_tensors_;
 };
 
