@@ -34,11 +34,13 @@ surface before
 
 wait_for "the dialog fits a screen of 1280 by 960" smaller_than 1280 830
 click_help
-# The dialog scrolls, unless it is enlarged.
-xdotool windowsize --sync "$dialog" 780 820
+sleep 0.5
+wait_for "the dialog with its help fits this screen, too" smaller_than 1280 830
+# Help makes the dialog wider than window.sh leaves room for.
+xdotool windowmove --sync "$dialog" $((width - 890)) 80
 picture dialog_with_help
 click_help
-sleep 0.5
+xdotool windowmove --sync "$dialog" $((width - 790)) 80 sleep 0.5
 click_preview
 wait_for "the preview shows the result" unlike before
 wait_for "MeshLab logs that the filter succeeded" grep -q "Applied filter:\? $filter in" "$out/log.txt"
