@@ -95,7 +95,6 @@ TEST(Strength, FadesOutAtASoftMask) {
     EXPECT_LT(weak, 0.3 * strongest);
 }
 
-/// The solver failed before the stabilisation followed the density.
 TEST(Strength, ChangesFromVertexToVertexAsItLikes) {
     TriangleMesh cap = shapes::bumpy_sphere(20);
     cap.triangles.resize(cap.triangles.size() / 2);
