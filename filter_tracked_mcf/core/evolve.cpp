@@ -179,7 +179,7 @@ FlowReport evolve(TriangleMesh& mesh, const Selection& selected, const FlowParam
     enter_setup_phase(kCheckMesh);
     validate(mesh);
     check_selection(mesh, selected);
-    const Selection selection = without_held(mesh, selected);
+    const Selection selection = without_weakest(mesh, selected);
     Flow flow = set_up(mesh, selection, parameters);
     const double setup_seconds = setup.seconds();
 
@@ -199,8 +199,9 @@ FlowReport evolve(TriangleMesh& mesh, const Selection& selected, const FlowParam
     FlowReport report = flow.report();
     add_effort(discarded, report.steps);
     report.setup_seconds = setup_seconds;
-    report.held_triangles = count_moving(mesh, selected) - report.triangles;
-    report.unselected_triangles -= report.held_triangles;
+    report.has_strengths = !mesh.strength.empty();
+    report.weakest_triangles = count_moving(mesh, selected) - report.triangles;
+    report.unselected_triangles -= report.weakest_triangles;
     report.area_before = area_before;
     report.area_after = after.area;
     compare(mesh, after.positions, selection, report);

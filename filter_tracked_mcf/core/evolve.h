@@ -22,12 +22,12 @@ namespace tracked_mcf {
 using StepObserver = std::function<void(int step, const std::vector<Eigen::Vector3d>& positions)>;
 
 /// Smooths `mesh`, or only its selected triangles, by mean-curvature flow with tracked octree
-/// finite elements. This is the only call that a host makes.
+/// finite elements. Hosts call this and default_detail_size().
 ///
 /// Positions are written at the very end, after all steps have succeeded and the last call of
 /// `progress` has returned true. Vertices that do not move keep their bits: constrained ones, and
-/// those that no selected triangle uses. If nothing is left to do, the flow ends before its last
-/// step and FlowReport::stop says why.
+/// those that no selected triangle uses. If the flow ends before its last step,
+/// FlowReport::stop says why.
 ///
 /// Throws InvalidMesh, InvalidParameter, NotEnoughMemory or Cancelled (errors.h)
 /// and leaves the mesh unchanged.

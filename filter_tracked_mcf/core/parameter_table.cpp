@@ -96,31 +96,31 @@ const std::vector<Parameter>& parameter_table() {
              Type::Length,
              {0, kFinite, ", in units of the mesh, where 0 takes 2.5 mean edge lengths"}),
          "detail_size", "Remove detail smaller than",
-         "Waves this long keep half their height after all steps, shorter less. 0: 2.5 mean edge "
+         "Waves this long keep half their height, shorter ones less. 0 takes 2.5 mean edge "
          "lengths."},
         {access<&P::keep_edges>(Type::Real, {0, 179, " degrees, such as 25, where 0 keeps none"}),
          "keep_edges", "Keep edges sharper than",
-         "In degrees, 25 for noise, with order 2. More noise makes longer steps. 0 keeps none."},
+         "In degrees: 25 for noise, with order 2. Takes many times the time and memory. 0 keeps "
+         "none."},
         {toggle<&P::local_detail_size>(), "local_detail_size", "Larger where faces are larger",
-         "The length follows the local edge length, as noise of scans does."},
+         "The detail size follows the local edge length, as noise of scans often does."},
         {integer<&P::iterations>(1, kMaximumIterations), "iterations", "Smoothing steps",
          "Steps in which the detail is removed, 1 to 1000000. More are more accurate."},
         {integer<&P::order>(1, kMaximumOrder), "order", "Order (1 to 4)",
-         "1 is the flow itself, 4 keeps larger detail best; each more takes another solve."},
+         "1 is the flow itself, 4 keeps larger shapes best. Each order more takes another solve."},
         {choice<&P::preserve>({{"None", "none"}, {"Area", "area"}, {"Volume", "volume"}}),
          "preserve", "Preserve",
-         "Of each connected part. Area: nothing may be locked. Volume: also with locked vertices."},
+         "Of each connected part. Area: no vertex may stay. Volume: also if some vertices stay."},
         {choice<&P::boundary>(
              {{"Locked", "locked"}, {"Locked cells (paper)", "locked-cells"}, {"Free", "free"}}),
          "boundary", "Boundary",
-         "Locked: its vertices stay. Locked cells: all in its grid cells stays. Free: openings "
-         "shrink."},
+         "Locked: its vertices stay. Locked cells: all in its grid cells stays. Free: it moves "
+         "too."},
         {of_host(Type::Selected), "selected", "Affect only selected faces",
          "Vertices of other faces stay. Select a little more than needed, because the seam cannot "
          "move."},
         {of_host(Type::Strength), "strength", "Strength from vertex quality",
-         "A number from 0 to 1 at each vertex multiplies the length. Where it is 0, the vertex "
-         "stays."},
+         "A number from 0 to 1 at each vertex multiplies the detail size. A vertex with 0 stays."},
         {choice<&P::quality>({{"Kept", "none"},
                               {"Displacement", "displacement"},
                               {"Mean curvature", "mean-curvature"}}),
@@ -135,11 +135,13 @@ const std::vector<Parameter>& parameter_table() {
          "The step size is in squared units of the mesh."},
         {integer<&P::depth>(0, kMaximumDepth, ", where 0 chooses automatically"), "depth",
          "Octree depth (expert)",
-         "2^depth grid cells a side, 1 to 12; one more takes four times as long. 0 chooses it."},
+         "2^depth grid cells a side, 1 to 12; one more: 4 times the time and memory. 0 is "
+         "automatic."},
         {choice<&P::flow>(
              {{"Mean curvature", "mean-curvature"}, {"Conformalized", "conformalized"}}),
          "flow", "Flow (expert)",
-         "Mean curvature: thin parts pinch. Conformalized: becomes a sphere."},
+         "Mean curvature: thin parts pinch. Conformalized: if closed without handles, becomes a "
+         "sphere."},
         {method(), "method", "Method (expert)",
          "Shared cells: close parts stick together. Paper: also one W-cycle a step, only to "
          "compare."},

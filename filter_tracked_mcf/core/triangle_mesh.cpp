@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "filter_tracked_mcf/core/triangle_mesh.h"
 
-#include <algorithm>
 #include <limits>
 #include <string>
 
@@ -50,23 +49,6 @@ void validate(const TriangleMesh& mesh) {
                           " vertices; give one for each.");
     }
     for (const Triangle& triangle : mesh.triangles) check_triangle(mesh, triangle);
-}
-
-Selection without_held(const TriangleMesh& mesh, const Selection& selection) {
-    if (mesh.strength.empty()) return selection;
-    Selection moving = selection;
-    moving.resize(mesh.triangles.size(), selection.empty() ? 1 : 0);
-    for (std::size_t i = 0; i < moving.size(); ++i) {
-        const Triangle& t = mesh.triangles[i];
-        if (std::all_of(t.begin(), t.end(), [&](auto v) { return mesh.strength[v] == 0; }))
-            moving[i] = 0;
-    }
-    if (std::count(moving.begin(), moving.end(), 0) == static_cast<std::ptrdiff_t>(moving.size())) {
-        throw InvalidMesh(
-            "Nothing can move: the strength is 0 at all vertices of the faces that "
-            "may.");
-    }
-    return moving;
 }
 
 }  // namespace tracked_mcf

@@ -18,8 +18,9 @@ struct TriangleMesh {
     std::vector<Eigen::Vector3d> positions;  ///< one per vertex
     std::vector<Triangle> triangles;         ///< indices into positions
     /// Per vertex: a number from 0 to 1 that multiplies the detail size; empty if all are 1. At 0,
-    /// a vertex stays. Coincident vertices take that of the first.
-    std::vector<double> strength = {};
+    /// a vertex stays. Coincident vertices take the strength of the first.
+    // Without the initializer, GCC would warn where a mesh is made of two members.
+    std::vector<double> strength = {};  // NOLINT(readability-redundant-member-init)
 };
 
 /// One flag per triangle of a mesh: nonzero if the triangle flows. Empty if all triangles flow.
@@ -29,10 +30,5 @@ using Selection = std::vector<std::uint8_t>;
 /// vertices that triangles use are finite, and their strengths from 0 to 1. Unreferenced vertices
 /// are not checked.
 void validate(const TriangleMesh& mesh);
-
-/// Returns the selection without the triangles whose three vertices have strength 0. The mesh is
-/// valid, and the selection empty or as long as it has triangles. Throws InvalidMesh if no triangle
-/// is left.
-Selection without_held(const TriangleMesh& mesh, const Selection& selection);
 
 }  // namespace tracked_mcf

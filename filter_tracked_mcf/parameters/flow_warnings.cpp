@@ -127,19 +127,20 @@ std::string changes(const FlowReport& report) {
     text.precision(3);
     if (report.steps.empty()) text << "Nothing has moved. ";
     if (report.unselected_triangles > 0) {
-        text << "Only the " << report.triangles + report.held_triangles << " selected of "
-             << report.triangles + report.held_triangles + report.unselected_triangles
+        text << "Only the " << report.triangles + report.weakest_triangles << " selected of "
+             << report.triangles + report.weakest_triangles + report.unselected_triangles
              << " faces may move. ";
     }
-    if (report.held_triangles > 0) {
-        text << report.held_triangles << " faces stay, because their vertices have strength 0. ";
+    if (report.weakest_triangles > 0) {
+        text << report.weakest_triangles << " faces stay, because their vertices have strength 0. ";
     }
     if (report.steps.empty()) return text.str().substr(0, text.str().size() - 1);
     if (report.normal_length > 0) {
         text << "Edges are kept, " << 100 * report.edge_share
              << " % of the area; the noise is about " << report.noise << ". ";
     } else if (report.stop == Stop::None) {
-        text << "Waves of length " << report.detail_size << " keep half of their amplitude. ";
+        text << (report.has_strengths ? "Where the strength is 1, waves" : "Waves") << " of length "
+             << report.detail_size << " keep half of their amplitude. ";
     }
     text << "The step size was " << report.step_size
          << " squared units of the mesh. The vertices moved by up to "

@@ -33,7 +33,9 @@ const std::string kProperty =
     "or else its vertices. A face is selected if its number is not 0, or if the numbers of all its "
     "vertices are not 0. 'flags' is where MeshLab saves a selection: only its bit 32 counts. ";
 
-const std::string kStrength = "PROPERTY is a number that the vertices of a PLY file have. ";
+const std::string kStrength =
+    "PROPERTY is the name of a number that the vertices of a PLY file have; MeshLab's vertex "
+    "quality is 'quality'. ";
 
 const char* const kExamples =
     "Examples:\n"
@@ -174,10 +176,11 @@ void add_files(CLI::App& app, CommandLine& line) {
     add_path(app, "--report", line.report,
              help_of("Write sizes, times, residuals, error estimates and memory to a JSON file."))
         ->type_name("FILE.json");
-    app.add_option("--every", line.every,
-                   help_of("Also write the surface after every N steps, for an animation or a "
-                           "hierarchy of scales: step 10 to OUTPUT_0010.ply, with the name and the "
-                           "extension of OUTPUT."))
+    app.add_option(
+           "--every", line.every,
+           help_of("Also write the surface after every N steps, for an animation or a "
+                   "hierarchy of scales, to files named after OUTPUT: step 10 of smooth.ply "
+                   "is smooth_0010.ply."))
         ->type_name("N")
         ->check(CLI::PositiveNumber.description(""));
     app.add_flag("--quiet", line.quiet,

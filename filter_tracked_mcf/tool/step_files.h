@@ -20,7 +20,7 @@ public:
     /// Returns whether `path` is the name of a file that may be written.
     bool includes(const std::filesystem::path& path) const;
 
-    /// Writes the step's file, or replaces it, if it is one of those asked for. Throws
+    /// Writes or replaces the file of this step if `every` divides its number. Throws
     /// UnwritableFile.
     void write(int step, const std::function<void(std::ostream&)>& write_content);
 

@@ -56,11 +56,18 @@ def write_ply(path, vertices, faces, **properties):
     path.write_bytes("\n".join(header).encode() + rows.tobytes() + triangles.tobytes())
 
 
-def with_noise(vertices, faces, edges):
-    """Moves the vertices by normal noise, whose deviation is this many mean edge lengths."""
-    sides = vertices[faces] - vertices[faces[:, [1, 2, 0]]]
-    deviation = edges * numpy.linalg.norm(sides, axis=2).mean()
-    return vertices + numpy.random.default_rng(1).normal(scale=deviation, size=vertices.shape)
+def with_noise(vertices, faces, edges, local=False):
+    """Moves the vertices by normal noise, whose deviation is this many mean edge lengths: those of the
+    mesh, or if it is `local`, those of the vertex's faces."""
+    sides = numpy.linalg.norm(vertices[faces] - vertices[faces[:, [1, 2, 0]]], axis=2)
+    lengths = numpy.full(len(vertices), sides.mean())
+    if local:
+        sums, counts = numpy.zeros(len(vertices)), numpy.zeros(len(vertices))
+        numpy.add.at(sums, faces, sides.mean(axis=1)[:, None])
+        numpy.add.at(counts, faces, 1)
+        lengths = sums / numpy.maximum(counts, 1)
+    noise = numpy.random.default_rng(1).normal(size=vertices.shape)
+    return vertices + edges * lengths[:, None] * noise
 
 
 def frame(side=80):
@@ -92,7 +99,8 @@ def in_charts(vertices, faces, count=14):
 
 
 def with_patch(vertices, faces):
-    """Closes a hole in the belly of the bear by a flat patch, whose strength 1 fades around it."""
+    """Flattens a disc on the belly of the bear, as a closed hole is, and returns strengths that fade
+    around it."""
     middle = vertices[numpy.argmax(vertices[:, 2] - 3 * abs(vertices[:, :2] - [0, 0]).sum(axis=1))]
     distance = numpy.linalg.norm(vertices - middle, axis=1)
     radius = 0.12 * numpy.ptp(vertices, axis=0).max()
@@ -110,7 +118,7 @@ def make_inputs(meshes, work):
     write_ply(work / "noisy_part.ply", with_noise(part, part_faces, 0.2), part_faces)
     lion, lion_faces = read_off(meshes / "lion-head.off")
     write_ply(work / "lion.ply", lion, lion_faces)
-    write_ply(work / "noisy_lion.ply", with_noise(lion, lion_faces, 0.15), lion_faces)
+    write_ply(work / "noisy_lion.ply", with_noise(lion, lion_faces, 0.15, local=True), lion_faces)
     write_ply(work / "half_lion.ply", lion, lion_faces,
               right=(lion[:, 0] > numpy.median(lion[:, 0])).astype("u1"))
     low, high = numpy.percentile(lion[:, 1], [25, 60])

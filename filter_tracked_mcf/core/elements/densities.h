@@ -9,14 +9,14 @@
 
 namespace tracked_mcf {
 
-/// The largest ratio of the detail size at one place to FlowParameters::detail_size, and of the
-/// latter to the former, through edge lengths or strengths.
+/// Edge lengths multiply the detail size at a place by at most this number and at least its
+/// inverse; strengths, by at least its inverse.
 inline constexpr double kLargestDetailRatio = 10;
 
 /// Returns the mass density of each triangle of the domain's surface; nothing if all are 1. In
 /// equation 2, a density ρ acts like a time step δ / ρ, so it is 1 / r² where the detail size is r
-/// times the usual one: r is the mean strength of the vertices, times, if the detail size
-/// `follows_edges`, the local edge length over the mean one.
+/// times the usual one. r is the product of two limited factors: the mean strength of the vertices
+/// and, if the detail size `follows_edges`, the local edge length over the mean one.
 std::vector<double> triangle_densities(const Domain& domain, bool follows_edges);
 
 /// Returns the mass density of each finest element, given those of triangles. `fragments` are those

@@ -35,9 +35,9 @@ void check_no_constraints(const Domain& domain, const char* what) {
     if (!domain.has_constraints()) return;
     throw InvalidParameter(
         std::string(what) +
-        " would move vertices that must stay: those of a boundary that is not free, and those of "
-        "unselected faces. Preserve the volume of a mean-curvature flow instead, or free the "
-        "boundary and select all faces.");
+        " would move vertices that must stay: those of a boundary that is not free, those of "
+        "unselected faces, and those with strength 0. Preserve the volume of a mean-curvature flow "
+        "instead, or free all vertices.");
 }
 
 void check_oriented(const Domain& domain) {

@@ -38,6 +38,24 @@ void check_selection(const TriangleMesh& mesh, const Selection& selection) {
     }
 }
 
+Selection without_weakest(const TriangleMesh& mesh, const Selection& selection) {
+    if (mesh.strength.empty()) return selection;
+    const std::vector<std::int32_t> welded = weld_coincident_vertices(mesh);
+    const auto is_zero = [&](std::int32_t vertex) { return mesh.strength[welded[vertex]] == 0; };
+    Selection moving = selection;
+    moving.resize(mesh.triangles.size(), 1);
+    for (std::size_t i = 0; i < moving.size(); ++i) {
+        const Triangle& t = mesh.triangles[i];
+        if (std::all_of(t.begin(), t.end(), is_zero)) moving[i] = 0;
+    }
+    if (!any_set(moving)) {
+        throw InvalidMesh(
+            "Nothing can move: all vertices of the faces to smooth have strength 0. Give some a "
+            "larger one.");
+    }
+    return moving;
+}
+
 namespace {
 
 /// Returns the items of the selected triangles.

@@ -31,11 +31,11 @@ struct MeshTopology {
     /// triangle has its edge. Copies of a triangle count as one triangle. Triangles with two equal
     /// vertices do not count: they have no boundary sides and close no boundary.
     std::vector<std::uint8_t> boundary;
-    /// How many times more often the triangles of an edge pass along it in one direction than in
-    /// the other, at most. If it is 0, the volume inside the surface is well defined; if it is 1 or
-    /// less, the surface has two sides.
+    /// The largest difference, over all edges, between the numbers of triangles that pass along the
+    /// edge in one and in the other direction.
     std::int32_t imbalance = 0;
 
+    /// Returns whether the volume inside the surface is well defined.
     bool bounds_volume() const { return imbalance == 0; }
     bool is_oriented_consistently() const { return imbalance <= 1; }
 };
@@ -61,7 +61,8 @@ constexpr bool has_bit(std::uint64_t flags, int i) {
 /// more than 2147483647 edges.
 MeshTopology topology_of(const TriangleMesh& mesh);
 
-/// Sets what depends on `triangles`: edges, boundary, imbalance. Throws as topology_of() does.
+/// Sets what depends on `triangles`: edges, edge_count, boundary, imbalance. Throws as
+/// topology_of() does.
 void find_edges(MeshTopology& topology);
 
 /// Returns the number of different referenced vertices.

@@ -17,10 +17,10 @@ namespace tracked_mcf {
 ///
 ///     κ Σ_elements (δ + 0.1 ρ) ∫_cell ∇dᵀ N ∇d dV,
 ///
-/// in grid units, with the element's density ρ (densities.h) and normal tensor N. This is the
-/// normal-gradient volume stabilisation of trace finite elements (Burman, Hansbo, Larson and
-/// Massing 2018; Grande, Lehrenfeld and Reusken 2018). It applies to the displacement only, so a
-/// surface at rest stays at rest.
+/// in grid units, with the element's density ρ (densities.h; 1 if there are none) and normal tensor
+/// N. This is the normal-gradient volume stabilisation of trace finite elements (Burman, Hansbo,
+/// Larson and Massing 2018; Grande, Lehrenfeld and Reusken 2018). It applies to the displacement
+/// only, so a surface at rest stays at rest.
 ///
 /// N = (λ₁ - λ₂) v vᵀ, where λ₁ >= λ₂ are the largest eigenvalues of ∫ n nᵀ over the element's
 /// surface and v is the eigenvector of λ₁. N grows with the area, fades where normals disagree, and

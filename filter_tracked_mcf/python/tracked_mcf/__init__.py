@@ -28,11 +28,13 @@ class Error(Exception):
 
 
 class InvalidMesh(Error, ValueError):
-    """The mesh cannot flow, or an array has a wrong shape, type or index."""
+    """The mesh cannot flow, vertices or faces have a wrong shape, type or index, or a strength is not
+    from 0 to 1."""
 
 
 class InvalidParameter(Error, ValueError):
-    """A parameter is outside its range, or does not fit the mesh or another parameter."""
+    """A parameter is outside its range or does not fit the mesh or another parameter, or selected or
+    strength has a wrong shape or type."""
 
 
 class NotEnoughMemory(Error, MemoryError):
@@ -52,12 +54,14 @@ def steps(vertices: _numpy.ArrayLike, faces: _numpy.ArrayLike, *, every: int = 1
     """Iterates over the steps of a flow: over pairs of a step's number, from 1, and new vertices.
 
     every: int = 1
-        Leaves out the steps whose number is no multiple of this one.
+        Yields only the steps whose number is a multiple of this one.
     parameters
-        Those of smooth(). Also here, detail_size is what all steps remove together.
+        Those of smooth(). All steps together remove detail_size.
 
-    The flow makes the next step while the loop's body runs, and ends if the loop is left. If the flow
-    is made again with more care, which is rare, its steps come again. Raises and warns as smooth().
+    The flow makes the next step while the loop's body runs, and ends if the loop is left. The report
+    and a quality are not returned. If the last step makes the surface vanish, it is yielded although
+    smooth() takes it back; and if the flow is made again with more care, which is rare, its steps come
+    again. Raises and warns as smooth().
     """
     if every < 1:
         raise InvalidParameter(f"every is {every}; give 1 or more.")
