@@ -168,7 +168,7 @@ double default_detail_size(const TriangleMesh& mesh, const Selection& selection)
     return kDefaultDetailInEdges * mean_edge_length(mesh, selection);
 }
 
-FlowReport evolve(TriangleMesh& mesh, const Selection& selected, const FlowParameters& parameters,
+FlowReport evolve(TriangleMesh& mesh, const Selection& selection, const FlowParameters& parameters,
                   const Progress& progress, const StepObserver& on_step) {
     std::optional<ProgressMeter> meter;
     if (progress) meter.emplace(progress);
@@ -178,13 +178,13 @@ FlowReport evolve(TriangleMesh& mesh, const Selection& selected, const FlowParam
     const Stopwatch setup;
     enter_setup_phase(kCheckMesh);
     validate(mesh);
-    check_selection(mesh, selected);
-    const Selection selection = without_weakest(mesh, selected);
-    Flow flow = set_up(mesh, selection, parameters);
+    check_selection(mesh, selection);
+    const Selection moving = without_weakest(mesh, selection);
+    Flow flow = set_up(mesh, moving, parameters);
     const double setup_seconds = setup.seconds();
 
-    const double area_before = surface_area(mesh, selection);
-    const Task task{mesh, selection, parameters, on_step};
+    const double area_before = surface_area(mesh, moving);
+    const Task task{mesh, moving, parameters, on_step};
     Moved after = flow_through(flow, task, area_before);
     std::vector<StepReport> discarded;
     if (parameters.tolerance > kCarefulTolerance &&
@@ -200,12 +200,12 @@ FlowReport evolve(TriangleMesh& mesh, const Selection& selected, const FlowParam
     add_effort(discarded, report.steps);
     report.setup_seconds = setup_seconds;
     report.has_strengths = !mesh.strength.empty();
-    report.weakest_triangles = count_moving(mesh, selected) - report.triangles;
+    report.weakest_triangles = count_moving(mesh, selection) - report.triangles;
     report.unselected_triangles -= report.weakest_triangles;
     report.area_before = area_before;
     report.area_after = after.area;
-    compare(mesh, after.positions, selection, report);
-    report.quality = measure_quality(parameters.quality, flow, mesh, after.positions, selection);
+    compare(mesh, after.positions, moving, report);
+    report.quality = measure_quality(parameters.quality, flow, mesh, after.positions, moving);
     report.estimated_memory_bytes += memory_before;
     report.peak_memory_bytes = peak_memory_bytes();
     enter_phase(1, "Done");
