@@ -32,8 +32,9 @@ StepFiles::StepFiles(fs::path output, int every) : output_(std::move(output)), e
 bool StepFiles::includes(const fs::path& path) const {
     if (every_ == 0) return false;
     const std::string stem = path.stem().u8string();
+    const auto number = std::find(stem.rbegin(), stem.rend(), '_').base();
     int step = 0;  // also if there is no number after the last underscore
-    std::from_chars(stem.data() + stem.find_last_of('_') + 1, stem.data() + stem.size(), step);
+    std::from_chars(stem.data() + (number - stem.begin()), stem.data() + stem.size(), step);
     if (step <= 0 || step % every_ != 0) return false;
     std::error_code ignored;
     return follow_links(path, ignored) == follow_links(step_path(output_, step), ignored);
