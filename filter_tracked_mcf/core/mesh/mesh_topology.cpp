@@ -140,13 +140,6 @@ std::int64_t sort_star(Stars& stars, std::int64_t vertex, const RawVector<Triang
     return edges;
 }
 
-/// Sets `largest` to at least `value`.
-void raise(std::atomic<std::int32_t>& largest, std::int32_t value) {
-    std::int32_t current = largest.load(std::memory_order_relaxed);
-    while (current < value && !largest.compare_exchange_weak(current, value)) {
-    }
-}
-
 }  // namespace
 
 MeshTopology topology_of(const TriangleMesh& mesh) {
@@ -167,7 +160,8 @@ void find_edges(MeshTopology& topology) {
     topology.edges.resize(topology.triangles.size());
     Stars stars = gather_stars(topology);
     std::vector<std::atomic<std::uint8_t>> boundary(topology.triangles.size());
-    std::atomic<std::int32_t> imbalance{0};
+    std::vector<std::int32_t> imbalances(
+        static_cast<std::size_t>(chunk_count(static_cast<std::int64_t>(topology.welded.size()))));
     const auto edge_count = parallel_scan<std::int64_t>(
         static_cast<std::int64_t>(topology.welded.size()),
         [&](std::int64_t vertex) { return sort_star(stars, vertex, topology.triangles); },
@@ -187,14 +181,16 @@ void find_edges(MeshTopology& topology) {
                     });
                 });
             }
-            raise(imbalance, imbalance_here);
+            imbalances[begin / kChunkSize] = imbalance_here;
         });
     if (edge_count > std::numeric_limits<std::int32_t>::max()) {
         throw InvalidMesh("The mesh has more than 2147483647 edges; simplify it first.");
     }
     topology.edge_count = static_cast<std::int32_t>(edge_count);
     topology.boundary.assign(boundary.begin(), boundary.end());
-    topology.imbalance = imbalance;
+    topology.imbalance = 0;
+    for (const std::int32_t imbalance : imbalances)
+        topology.imbalance = std::max(topology.imbalance, imbalance);
 }
 
 std::int64_t count_vertices(const MeshTopology& topology) {
