@@ -179,7 +179,7 @@ FlowReport evolve(TriangleMesh& mesh, const Selection& selection, const FlowPara
     enter_setup_phase(kCheckMesh);
     validate(mesh);
     check_selection(mesh, selection);
-    const Selection moving = without_weakest(mesh, selection);
+    const Selection moving = without_zero_strength(mesh, selection);
     Flow flow = set_up(mesh, moving, parameters);
     const double setup_seconds = setup.seconds();
 
@@ -200,8 +200,8 @@ FlowReport evolve(TriangleMesh& mesh, const Selection& selection, const FlowPara
     add_effort(discarded, report.steps);
     report.setup_seconds = setup_seconds;
     report.has_strengths = !mesh.strength.empty();
-    report.weakest_triangles = count_moving(mesh, selection) - report.triangles;
-    report.unselected_triangles -= report.weakest_triangles;
+    report.zero_strength_triangles = count_moving(mesh, selection) - report.triangles;
+    report.unselected_triangles -= report.zero_strength_triangles;
     report.area_before = area_before;
     report.area_after = after.area;
     compare(mesh, after.positions, moving, report);

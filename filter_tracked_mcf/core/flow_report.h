@@ -39,7 +39,8 @@ struct FlowReport {
     std::int64_t vertices = 0;              ///< referenced by triangles
     std::int64_t triangles = 0;             ///< that flow
     std::int64_t unselected_triangles = 0;  ///< that do not, because others are selected
-    std::int64_t weakest_triangles = 0;     ///< that do not, because their vertices' strength is 0
+    std::int64_t zero_strength_triangles =
+        0;                                  ///< that do not, because their vertices' strength is 0
     bool has_strengths = false;             ///< whether vertices have strengths
     std::int64_t degenerate_triangles = 0;  ///< triangles of zero area, which were ignored
     std::int64_t boundary_edges = 0;

@@ -127,12 +127,13 @@ std::string changes(const FlowReport& report) {
     text.precision(3);
     if (report.steps.empty()) text << "Nothing has moved. ";
     if (report.unselected_triangles > 0) {
-        text << "Only the " << report.triangles + report.weakest_triangles << " selected of "
-             << report.triangles + report.weakest_triangles + report.unselected_triangles
+        text << "Only the " << report.triangles + report.zero_strength_triangles << " selected of "
+             << report.triangles + report.zero_strength_triangles + report.unselected_triangles
              << " faces may move. ";
     }
-    if (report.weakest_triangles > 0) {
-        text << report.weakest_triangles << " faces stay, because their vertices have strength 0. ";
+    if (report.zero_strength_triangles > 0) {
+        text << report.zero_strength_triangles
+             << " faces stay, because their vertices have strength 0. ";
     }
     if (report.steps.empty()) return text.str().substr(0, text.str().size() - 1);
     if (report.normal_length > 0) {

@@ -90,32 +90,38 @@ TriangleMesh mesh_of(nb::handle vertices, nb::handle faces) {
     return mesh;
 }
 
-Selection selection_of(nb::handle given, const TriangleMesh& mesh) {
+/// What one of the arguments with a number for each face or vertex must be.
+struct Column {
+    const char* name;
+    const char* kinds;   ///< of NumPy's types
+    const char* wanted;  ///< in words
+    const char* of;      ///< what has the numbers
+};
+
+/// Copies the numbers, as `type`; none if None is given.
+template <class Number>
+std::vector<Number> column_of(nb::handle given, const Column& column, const char* type,
+                              std::size_t count) {
     if (given.is_none()) return {};
     const nb::object array = numpy().attr("asarray")(given);
-    const std::size_t faces = mesh.triangles.size();
-    if (!has_kind(array, "b") || !array.attr("shape").equal(nb::make_tuple(faces))) {
-        throw InvalidParameter(description("selected", array) +
-                               "; give an array of bools, one for each of the " +
-                               std::to_string(faces) + " faces.");
+    if (!has_kind(array, column.kinds) || !array.attr("shape").equal(nb::make_tuple(count))) {
+        throw InvalidParameter(description(column.name, array) + "; give an array of " +
+                               column.wanted + ", one for each of the " + std::to_string(count) +
+                               " " + column.of + ".");
     }
-    const auto flags = nb::cast<nb::ndarray<const std::uint8_t, nb::ndim<1>, nb::c_contig>>(
-        numpy().attr("ascontiguousarray")(array, "uint8"));
-    return {flags.data(), flags.data() + faces};
+    const auto numbers = nb::cast<nb::ndarray<const Number, nb::ndim<1>, nb::c_contig>>(
+        numpy().attr("ascontiguousarray")(array, type));
+    return {numbers.data(), numbers.data() + count};
+}
+
+Selection selection_of(nb::handle given, const TriangleMesh& mesh) {
+    return column_of<std::uint8_t>(given, {"selected", "b", "bools", "faces"}, "uint8",
+                                   mesh.triangles.size());
 }
 
 std::vector<double> strength_of(nb::handle given, const TriangleMesh& mesh) {
-    if (given.is_none()) return {};
-    const nb::object array = numpy().attr("asarray")(given);
-    const std::size_t vertices = mesh.positions.size();
-    if (!has_kind(array, "fiu") || !array.attr("shape").equal(nb::make_tuple(vertices))) {
-        throw InvalidParameter(description("strength", array) +
-                               "; give an array of numbers from 0 to 1, one for each of the " +
-                               std::to_string(vertices) + " vertices.");
-    }
-    const auto numbers = nb::cast<nb::ndarray<const double, nb::ndim<1>, nb::c_contig>>(
-        numpy().attr("ascontiguousarray")(array, "float64"));
-    return {numbers.data(), numbers.data() + vertices};
+    return column_of<double>(given, {"strength", "fiu", "numbers from 0 to 1", "vertices"},
+                             "float64", mesh.positions.size());
 }
 
 /// Moves numbers into an array of this shape, without a copy.

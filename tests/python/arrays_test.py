@@ -118,6 +118,12 @@ def refuse_bowl(_):
     smooth(order=5)
 
 
+def said_by(script):
+    """Returns what a new process of Python prints that runs the script."""
+    return subprocess.run([sys.executable, "-c", script], cwd=HERE, check=True, capture_output=True,
+                          text=True, timeout=60).stdout
+
+
 def ply_of(vertices, faces):
     """Returns the lines of a PLY file: those of its header, then those of vertices and faces."""
     header = ["ply", "format ascii 1.0", f"element vertex {len(vertices)}",
@@ -341,9 +347,7 @@ class Errors(unittest.TestCase):
                   "resource.setrlimit(resource.RLIMIT_DATA, (limit, limit))\n"
                   "try: arrays_test.smooth(depth=11)\n"
                   "except tracked_mcf.NotEnoughMemory as error: print(error)")
-        said = subprocess.run([sys.executable, "-c", script], cwd=HERE, check=True, capture_output=True,
-                              text=True).stdout
-        self.assertIn("Choose depth", said)
+        self.assertIn("Choose depth", said_by(script))
 
     def test_warnings(self):
         with warnings.catch_warnings(record=True) as caught:
@@ -398,9 +402,7 @@ class Progress(unittest.TestCase):
                   "threading.Timer(0.3, _thread.interrupt_main).start()\n"
                   "try: arrays_test.smooth(depth=7, iterations=100000)\n"
                   "except KeyboardInterrupt: print('interrupted')")
-        said = subprocess.run([sys.executable, "-c", script], cwd=HERE, check=True, capture_output=True,
-                              text=True, timeout=60).stdout
-        self.assertEqual(said, "interrupted\n")
+        self.assertEqual(said_by(script), "interrupted\n")
 
     def test_other_threads_run(self):
         ticks, done = [0], threading.Event()
@@ -462,9 +464,7 @@ class Steps(unittest.TestCase):
                   "try:\n"
                   "    for _ in arrays_test.Steps().steps(depth=7, iterations=100000, every=50000): pass\n"
                   "except KeyboardInterrupt: print('interrupted')")
-        said = subprocess.run([sys.executable, "-c", script], cwd=HERE, check=True, capture_output=True,
-                              text=True, timeout=60).stdout
-        self.assertEqual(said, "interrupted\n")
+        self.assertEqual(said_by(script), "interrupted\n")
 
 
 class Processes(unittest.TestCase):

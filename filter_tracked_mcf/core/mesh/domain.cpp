@@ -38,7 +38,7 @@ void check_selection(const TriangleMesh& mesh, const Selection& selection) {
     }
 }
 
-Selection without_weakest(const TriangleMesh& mesh, const Selection& selection) {
+Selection without_zero_strength(const TriangleMesh& mesh, const Selection& selection) {
     if (mesh.strength.empty()) return selection;
     const std::vector<std::int32_t> welded = weld_coincident_vertices(mesh);
     const auto is_zero = [&](std::int32_t vertex) { return mesh.strength[welded[vertex]] == 0; };

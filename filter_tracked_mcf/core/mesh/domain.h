@@ -18,7 +18,7 @@ void check_selection(const TriangleMesh& mesh, const Selection& selection);
 
 /// Returns the selection without the triangles whose three vertices have strength 0. The mesh is
 /// valid, and so is the selection. Throws InvalidMesh if no triangle is left.
-Selection without_weakest(const TriangleMesh& mesh, const Selection& selection);
+Selection without_zero_strength(const TriangleMesh& mesh, const Selection& selection);
 
 /// The part of a mesh that flows, and which of its edges and vertices are constrained.
 ///
