@@ -44,7 +44,7 @@ packages_of() {
         windows) echo "$(packages_of program)" g++-mingw-w64-x86-64-posix googletest python3 wine wine64 ;;
         arm64) echo "$(packages_of program)" g++-aarch64-linux-gnu googletest python3 qemu-user ;;
         zig) echo "$(packages_of program)" python3-venv ;;
-        checks) echo g++-11 libc++-dev libc++abi-dev clang clang-format clang-tidy-22 libclang-rt-dev libomp-dev llvm git \
+        checks) echo g++-11 libc++-dev libc++abi-dev clang clang-format clang-tidy-22 libclang-rt-dev llvm git \
             valgrind ;;
         *) echo "install_debian.sh: unknown task '$1'" >&2 && return 1 ;;
     esac

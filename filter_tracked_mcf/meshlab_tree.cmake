@@ -19,7 +19,7 @@ foreach(name sdk common_for_plugins)
   target_link_libraries(tracked_mcf_meshlab_${name} INTERFACE meshlab-common)
 endforeach()
 
-# MeshLab finds OpenMP, and Eigen or its own copy of it in vcglib.
+# MeshLab finds Eigen, or its own copy of it in vcglib.
 if(NOT TARGET Eigen3::Eigen)
   add_library(tracked_mcf_eigen INTERFACE)
   add_library(Eigen3::Eigen ALIAS tracked_mcf_eigen)

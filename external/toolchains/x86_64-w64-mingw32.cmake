@@ -9,6 +9,5 @@ set(CMAKE_CXX_COMPILER x86_64-w64-mingw32-g++-posix)
 set(CMAKE_RC_COMPILER x86_64-w64-mingw32-windres)
 # Programs then need no libraries beside them. CMake would find the library that loads a DLL.
 set(CMAKE_EXE_LINKER_FLAGS_INIT -static)
-set(OpenMP_gomp_LIBRARY gomp)
 set(CMAKE_CROSSCOMPILING_EMULATOR wine)
 include("${CMAKE_CURRENT_LIST_DIR}/header_libraries.cmake")

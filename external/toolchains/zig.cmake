@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Builds for the system and processor of TRACKED_MCF_ZIG_TARGET with the Clang, libc++ and system headers of
-# Zig (zig.sh), without OpenMP: aarch64-macos.13.0, x86_64-macos.13.0, x86_64-linux-gnu.2.28,
+# Zig (zig.sh): aarch64-macos.13.0, x86_64-macos.13.0, x86_64-linux-gnu.2.28,
 # aarch64-linux-gnu.2.28. Its programs need nothing of the target but the C library.
 
 list(APPEND CMAKE_TRY_COMPILE_PLATFORM_VARIABLES TRACKED_MCF_ZIG TRACKED_MCF_ZIG_TARGET)

@@ -173,7 +173,7 @@ FlowReport evolve(TriangleMesh& mesh, const Selection& selection, const FlowPara
     std::optional<ProgressMeter> meter;
     if (progress) meter.emplace(progress);
     validate(parameters);
-    const ThreadCountScope threads(parameters.threads);
+    const ThreadTeam team(parameters.threads);
     const std::int64_t memory_before = resident_memory_bytes();
     const Stopwatch setup;
     enter_setup_phase(kCheckMesh);

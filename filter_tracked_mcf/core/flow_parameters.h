@@ -145,8 +145,8 @@ struct FlowParameters {
     /// OneWCycle: number of W-cycles per step, 1 to 1000; the paper uses one.
     int cycles = 1;
 
-    /// Number of OpenMP threads; 0 leaves the choice to OpenMP, which respects OMP_NUM_THREADS. The
-    /// result has the same bits for any number. evolve() applies it; a Flow does not.
+    /// Number of threads; 0 takes ThreadTeam::default_size(). The result has the same bits for any
+    /// number. evolve() applies it; a Flow does not.
     int threads = 0;
 };
 

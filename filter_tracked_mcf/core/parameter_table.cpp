@@ -162,8 +162,9 @@ const std::vector<Parameter>& parameter_table() {
          "half "
          "a cell unless --method paper is given. Take 1, which is inaccurate, or 12, which is slow "
          "and exact to degree 6, only to compare."},
-        {integer<&P::threads>(0, 1024, ", where 0 takes all that OpenMP offers"), "threads", "",
-         "Threads, up to 1024; 0 takes all that OpenMP offers (OMP_NUM_THREADS is respected). The "
+        {integer<&P::threads>(0, 1024, ", where 0 takes one for each processor"), "threads", "",
+         "Threads, up to 1024; 0 takes OMP_NUM_THREADS or, unless that is set, one for each "
+         "processor that the program may use. The "
          "result does not depend on it; only processors with other vector instructions round "
          "differently."},
     };

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Prints the library versions that binaries need: for each set of symbol versions, such as GLIBC,
-# GLIBCXX, GOMP or Qt, the largest version that any of the files needs: needed_versions.sh FILE...
+# GLIBCXX or Qt, the largest version that any of the files needs: needed_versions.sh FILE...
 set -euo pipefail
 
 [ $# -gt 0 ] || { sed -n '3,4s/^# \{0,1\}//p' "$0" >&2 && exit 2; }

@@ -24,12 +24,6 @@ foreach(set IN ITEMS GLIBC GLIBCXX CXXABI Qt)
 endforeach()
 set(GCC " with GLIBCXX${GLIBCXX} and CXXABI${CXXABI}")
 
-# What was built without OpenMP does not need its library.
-set(openmp "")
-if(largest MATCHES "(^|;)GOMP_")
-  set(openmp "\n    libgomp")
-endif()
-
 # The first GCC whose libstdc++ has these symbols, from the lists in its manual.
 set(first_GLIBCXX 3.4.29=11 3.4.30=12 3.4.31=13 3.4.32=13.2 3.4.33=14 3.4.34=15)
 set(first_CXXABI 1.3.13=11 1.3.14=13 1.3.15=14)

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "filter_tracked_mcf/core/memory/process_memory.h"
+#include "filter_tracked_mcf/core/parallel/thread_team.h"
 #include "tests/benchmark/incomplete_cholesky_flow.h"
 #include "tests/benchmark/meshes.h"
 #include "tests/benchmark/rows.h"
@@ -39,6 +40,7 @@ void run(const Options& options) {
     parameters.order = parse_vertex_order(options.order);
     parameters.warm_start = !options.cold;
     const TriangleMesh mesh = named_mesh(options.mesh);
+    const ThreadTeam team(parameters.threads);
     print_header();
     print_quantity("mesh_memory_bytes", 0, peak_memory_bytes());
     const ProcessStopwatch stopwatch;

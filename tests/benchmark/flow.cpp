@@ -93,7 +93,7 @@ void print_assembly(const Flow& flow) {
 
 void run(const TrackedOptions& options) {
     const FlowParameters parameters = options.parameters();
-    const ThreadCountScope threads(options.threads);
+    const ThreadTeam threads(options.threads);
     TriangleMesh mesh = named_mesh(options.mesh);
     print_header();
     print_quantity("mesh_memory_bytes", 0, peak_memory_bytes());

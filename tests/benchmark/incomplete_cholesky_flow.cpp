@@ -2,11 +2,10 @@
 #include "tests/benchmark/incomplete_cholesky_flow.h"
 #include "filter_tracked_mcf/core/mesh/measures.h"
 
-#include <omp.h>
-
 #include <algorithm>
 #include <cmath>
 
+#include "filter_tracked_mcf/core/parallel/parallel.h"
 #include "filter_tracked_mcf/core/parallel/stopwatch.h"
 
 namespace tracked_mcf::benchmark {
@@ -110,12 +109,12 @@ std::int64_t IncompleteCholeskyFlow::bytes() const {
            bytes_of(q_);
 }
 
-/// Calls body(block, index) for each block, always on the same thread.
+/// Calls body(block, index) for each block.
 template <class Body>
 void IncompleteCholeskyFlow::for_each_block(const Body& body) {
-    const int count = static_cast<int>(pattern_.block_begin.size()) - 1;
-#pragma omp parallel for schedule(static, 1) num_threads(count)
-    for (int i = 0; i < count; ++i) body(block(static_cast<std::size_t>(i)), i);
+    parallel_for(static_cast<std::int64_t>(pattern_.block_begin.size()) - 1, [&](std::int64_t i) {
+        body(block(static_cast<std::size_t>(i)), static_cast<int>(i));
+    });
 }
 
 Block IncompleteCholeskyFlow::block(std::size_t index) {

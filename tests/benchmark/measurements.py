@@ -55,10 +55,8 @@ class Measurements:
         words = [str(word) for word in case.words]
         print(f"... {' '.join(words)} {' '.join('='.join(e) for e in case.environment)}",
               file=sys.stderr, flush=True)
-        # Otherwise, threads that wait at a barrier take processor time from other processes.
         self._add(case, repetition, "load_average", 0, os.getloadavg()[0])
-        environment = {**os.environ, "OMP_WAIT_POLICY": "passive", **dict(case.environment)}
-        result = subprocess.run([program, *words], env=environment, stdout=subprocess.PIPE,
+        result = subprocess.run([program, *words], env={**os.environ, **dict(case.environment)}, stdout=subprocess.PIPE,
                                 text=True, check=False)
         if result.returncode != 0:
             # Possibly out of memory, which is a result, too. The measurements so far count.

@@ -32,7 +32,7 @@ void step(TriangleMesh& mesh, const FlowParameters& parameters, int number) {
 }
 
 void run(const TrackedOptions& options) {
-    const ThreadCountScope threads(options.threads);
+    const ThreadTeam threads(options.threads);
     TriangleMesh mesh = named_mesh(options.mesh);
     print_header();
     for (int number = 1; number <= options.steps; ++number) {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "filter_tracked_mcf/core/parallel/parallel.h"
 #include "filter_tracked_mcf/core/parallel/stopwatch.h"
 #include "tests/benchmark/rows.h"
 #include "tests/benchmark/subcommands.h"
@@ -19,24 +20,25 @@ struct Options {
     int repetitions = 15;
 };
 
-void triad(std::vector<double>& a, const std::vector<double>& b, const std::vector<double>& c,
-           int threads) {
-    const auto count = static_cast<std::int64_t>(a.size());
-#pragma omp parallel for schedule(static) num_threads(threads)
-    for (std::int64_t i = 0; i < count; ++i) a[i] = b[i] + 3 * c[i];
+void triad(std::vector<double>& a, const std::vector<double>& b, const std::vector<double>& c) {
+    parallel_for_chunks(static_cast<std::int64_t>(a.size()),
+                        [&](std::int64_t begin, std::int64_t end) {
+                            for (std::int64_t i = begin; i < end; ++i) a[i] = b[i] + 3 * c[i];
+                        });
 }
 
 void run(const Options& options) {
+    const ThreadTeam threads(options.threads);
     const auto count = static_cast<std::size_t>(options.megabytes) * (1U << 20U) / sizeof(double);
     std::vector<double> a(count, 1);
     const std::vector<double> b(count, 2);
     const std::vector<double> c(count, 3);
-    triad(a, b, c, options.threads);
+    triad(a, b, c);
     const double bytes = 3.0 * static_cast<double>(count) * sizeof(double);
     std::vector<double> bandwidths;
     for (int i = 0; i < options.repetitions; ++i) {
         const Stopwatch stopwatch;
-        triad(a, b, c, options.threads);
+        triad(a, b, c);
         bandwidths.push_back(bytes / stopwatch.seconds());
     }
     std::sort(bandwidths.begin(), bandwidths.end());

@@ -27,9 +27,6 @@ sys.path.insert(0, str(TOP / "tests" / "benchmark"))
 
 from machine import processor  # noqa: E402
 
-# A thread that waits for others must not count as processor time.
-os.environ.setdefault("OMP_WAIT_POLICY", "passive")
-
 # Meshes of Debian's libcgal-demo, and of a folder of further scans for comparison.
 CGAL_SCANS = ["armadillo.off", "nefertiti.off", "elephant.off", "hand.off", "camel.off"]
 CGAL_THIN_SCANS = ["armadillo.off", "elephant.off", "camel.off"]

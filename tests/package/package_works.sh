@@ -68,10 +68,9 @@ largest() { # SET FILE...
 says() { grep -q -- "$1" INSTALL.txt || fail "INSTALL.txt does not say $1"; }
 for file in "${binaries[@]}"; do
     line=$(grep -A 1 "^ *$file\$" INSTALL.txt)
-    for set in GLIBC GLIBCXX CXXABI GOMP; do
+    for set in GLIBC GLIBCXX CXXABI; do
         version=$(largest "$set" "$file")
-        [ -n "$version" ] || [ $set = GOMP ] || fail "$file has no symbol of $set"
-        [ -n "$version" ] || continue # built without OpenMP
+        [ -n "$version" ] || fail "$file has no symbol of $set"
         grep -qwF "${set}_$version" <<< "$line" || fail "$file needs ${set}_$version"
     done
 done
@@ -79,11 +78,6 @@ says "MeshLab ${host##*-}, $scalar precision"
 says " glibc $(largest GLIBC "${binaries[@]}") or later"
 says "GLIBCXX $(largest GLIBCXX "${binaries[@]}") and CXXABI $(largest CXXABI "${binaries[@]}") or"
 says " Qt $(largest Qt "$plugin"),"
-if [ -n "$(largest GOMP "${binaries[@]}")" ]; then
-    says "^ *libgomp\$"
-else
-    ! grep libgomp INSTALL.txt || fail "INSTALL.txt says libgomp"
-fi
 [ "$release" != 2020.09 ] ||
     says " /usr/lib/$(dpkg-architecture -q DEB_HOST_MULTIARCH)/meshlab/plugins/\$"
 [ "$scalar" = float ] || says "load_plugin('/path/$plugin')"

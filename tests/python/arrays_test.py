@@ -469,7 +469,7 @@ class Steps(unittest.TestCase):
 
 class Processes(unittest.TestCase):
     def setUp(self):
-        self.expected = [smoothed_bowl(seed) for seed in range(10)]  # uses OpenMP's threads before fork
+        self.expected = [smoothed_bowl(seed) for seed in range(10)]  # in several threads, before fork
 
     @unittest.skipUnless("fork" in multiprocessing.get_all_start_methods(), "needs fork")
     def test_forked_processes(self):

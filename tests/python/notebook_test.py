@@ -32,7 +32,6 @@ class Notebook(unittest.TestCase):
         notebook = nbformat.read(NOTEBOOK, as_version=4)
         cls.kept = [cell.outputs for cell in notebook.cells if cell.cell_type == "code"]
         os.environ["SCAN"] = os.path.abspath(MESH)
-        os.environ.setdefault("OMP_WAIT_POLICY", "passive")  # other programs may use the processors
         with tempfile.TemporaryDirectory() as folder:
             # Without folders of kernels, the kernel is this Python.
             kernels = jupyter_client.kernelspec.KernelSpecManager(kernel_dirs=[])

@@ -19,7 +19,7 @@ ROOMS = ["kernels parallel", "mesh", "cells", "memory", "octree", "elements", "s
 KERNELS_ALONE = "kernels include only kernels"
 PAPER = "only step_solver.cpp includes solver/paper"
 CORE_ALONE = "the core includes nothing of the project but the core"
-FOREIGN = "the core knows the standard library, Eigen, Highway and OpenMP alone"
+FOREIGN = "the core knows the standard library, Eigen and Highway alone"
 PUBLIC = "only the core includes the core's rooms"
 FROM_TOP = "paths of our files begin at the top"
 

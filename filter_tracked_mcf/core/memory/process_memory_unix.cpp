@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "filter_tracked_mcf/core/memory/process_memory.h"
+#include "filter_tracked_mcf/core/parallel/control_groups.h"
 
 namespace tracked_mcf {
 
@@ -45,20 +46,10 @@ std::int64_t free_in_folder(const std::string& folder) {
     return *limit - std::max<std::int64_t>(0, *use - reclaimable.value_or(0));
 }
 
-/// Returns the least of this process's control group and its parents (cgroup v2). Inside a
-/// container, the path may be one outside of it that does not exist here; then the mount itself is
-/// the container's own group.
 std::int64_t free_in_groups(const std::string& root) {
-    const std::string mount = root + "/sys/fs/cgroup";
-    std::int64_t least = free_in_folder(mount);
-    std::ifstream groups(root + "/proc/self/cgroup");
-    std::string line;
-    while (std::getline(groups, line)) {
-        if (line.rfind("0::", 0) != 0) continue;  // a hierarchy of cgroup v1
-        const std::string path = mount + line.substr(3);
-        for (std::size_t end = path.size(); end > mount.size(); end = path.rfind('/', end - 1)) {
-            least = std::min(least, free_in_folder(path.substr(0, end)));
-        }
+    std::int64_t least = kUnlimited;
+    for (const std::string& folder : control_group_folders(root)) {
+        least = std::min(least, free_in_folder(folder));
     }
     return least;
 }

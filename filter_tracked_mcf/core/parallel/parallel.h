@@ -2,10 +2,9 @@
 #pragma once
 
 #include <algorithm>
-#include <atomic>
 #include <cstddef>
 #include <cstdint>
-#include <exception>
+#include <functional>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -13,56 +12,18 @@
 
 #include "filter_tracked_mcf/core/parallel/progress_meter.h"
 #include "filter_tracked_mcf/core/parallel/raw_vector.h"
+#include "filter_tracked_mcf/core/parallel/thread_team.h"
 
 /// Parallel loops over the items of a mesh. All of them poll progress (progress_meter.h) at every
 /// chunk, and give the same bits for any number of threads.
 namespace tracked_mcf {
 
-/// Sets the number of OpenMP threads for loops that the calling thread starts during the scope's
-/// life; 0 leaves OpenMP's own choice. The destructor restores the number, since hosts use OpenMP
-/// too.
-class ThreadCountScope {
-public:
-    explicit ThreadCountScope(int threads);
-    ~ThreadCountScope();
-    ThreadCountScope(const ThreadCountScope&) = delete;
-    ThreadCountScope& operator=(const ThreadCountScope&) = delete;
-
-private:
-    int previous_;
-};
-
-/// Returns whether a loop may use several threads. OpenMP's threads do not survive fork, and a
-/// child would wait for them for ever: once a process has asked, the processes that it forks may
-/// not.
-bool may_use_threads();
-/// Returns the largest number of threads of a loop that the caller starts.
-std::size_t thread_count();
-/// Returns the caller's index, from 0, among the threads of the current loop.
-std::size_t thread_number();
-
 /// Calls body(i) for every i in [0, count), in any order, and in parallel if `count` is at least
-/// `worth_threads`. After the first exception the loop skips the remaining bodies and rethrows it
-/// at the end, because an exception must not leave an OpenMP region. Every thread polls progress
-/// before each body, but only the calling thread can have a meter.
+/// `worth_threads`. See ThreadTeam::run().
 template <class Body>
-void parallel_for(std::int64_t count, const Body& body,
-                  [[maybe_unused]] std::int64_t worth_threads = 2) {
-    std::exception_ptr failure;
-    std::atomic<bool> failed{false};
-#ifdef _OPENMP  // Else, the loop runs on the caller's thread.
-#pragma omp parallel for schedule(dynamic, 1) if (count >= worth_threads && may_use_threads())
-#endif
-    for (std::int64_t i = 0; i < count; ++i) {
-        if (failed.load(std::memory_order_relaxed)) continue;
-        try {
-            poll_progress();
-            body(i);
-        } catch (...) {
-            if (!failed.exchange(true)) failure = std::current_exception();
-        }
-    }
-    if (failure) std::rethrow_exception(failure);
+void parallel_for(std::int64_t count, const Body& body, std::int64_t worth_threads = 2) {
+    const auto run_item = [&](std::int64_t i, std::size_t /*member*/) { body(i); };
+    ThreadTeam::run(count, std::cref(run_item), worth_threads);
 }
 
 /// Items of a chunk. The size does not depend on the number of threads, so sums and lists that are
@@ -110,12 +71,13 @@ void parallel_for_items(const Items& items, const Body& body) {
 /// the chunks that used a workspace before.
 template <class Make, class Body>
 void parallel_for_chunks_with(std::int64_t count, const Make& make, const Body& body) {
-    std::vector<std::optional<decltype(make())>> workspaces(thread_count());
-    parallel_for_chunks(count, [&](std::int64_t begin, std::int64_t end) {
-        auto& workspace = workspaces[thread_number()];
+    std::vector<std::optional<decltype(make())>> workspaces(ThreadTeam::size());
+    const auto run_chunk = [&](std::int64_t chunk, std::size_t member) {
+        auto& workspace = workspaces[member];
         if (!workspace) workspace.emplace(make());
-        body(*workspace, begin, end);
-    });
+        body(*workspace, chunk * kChunkSize, std::min(count, (chunk + 1) * kChunkSize));
+    };
+    ThreadTeam::run(chunk_count(count), std::cref(run_chunk));
 }
 
 /// Returns `zero` plus body(begin, end) of the chunks that cover [0, count), added in their order.

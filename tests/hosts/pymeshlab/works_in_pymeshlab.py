@@ -292,7 +292,7 @@ def smoothed(mesh):
 
 
 def check_fork(mesh):
-    """A forked process must give the same bits as its parent, which has used OpenMP's threads."""
+    """A forked process must give the same bits as its parent, which has used several threads."""
     expected = smoothed(mesh)
     with multiprocessing.get_context("fork").Pool(1) as pool:
         if pool.apply_async(smoothed, (mesh,)).get(timeout=120) != expected:

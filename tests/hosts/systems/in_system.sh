@@ -4,7 +4,7 @@
 # in_system.sh [-r FOLDER]... SYSTEM COMMAND...
 #
 # The command sees the project's sources and the folders of -r, both read-only, and the current
-# directory, all at their usual paths. It gets OMP_NUM_THREADS and the proxies from the environment.
+# directory, all at their usual paths. It gets the proxies from the environment.
 # Mounts and remaining processes end with the command.
 set -euo pipefail
 
@@ -38,7 +38,7 @@ mkdir -p "$system$here"
 mount --bind "$here" "$system$here"
 
 environment=(HOME=/root USER=root LANG=C.UTF-8 PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin)
-for name in TERM OMP_NUM_THREADS http_proxy https_proxy no_proxy; do
+for name in TERM http_proxy https_proxy no_proxy; do
     [ -z "${!name:-}" ] || environment+=("$name=${!name}")
 done
 # Not exec: this shell is process 1 here and must reap orphans.

@@ -4,14 +4,11 @@
 #include "filter_tracked_mcf/core/memory/process_memory.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
-
-#include <filesystem>
-#include <fstream>
 
 #include "filter_tracked_mcf/core/errors.h"
 #include "tests/unit/flows.h"
 #include "tests/unit/memory/address_space_limit.h"
+#include "tests/unit/system_files.h"
 
 namespace tracked_mcf {
 namespace {
@@ -25,22 +22,9 @@ TEST(NotEnoughMemory, LeavesTheMeshAsItWas) {
     EXPECT_TRUE(same_bits(after, mesh));
 }
 
-/// Writes files that stand for those of a system.
-class AvailableMemoryByFiles : public ::testing::Test {
+class AvailableMemoryByFiles : public SystemFiles {
 protected:
-    void SetUp() override { std::filesystem::remove_all(root_); }
-    void TearDown() override { std::filesystem::remove_all(root_); }
-
-    void write(const std::string& path, const std::string& content) const {
-        const std::filesystem::path file = root_ + path;
-        std::filesystem::create_directories(file.parent_path());
-        std::ofstream(file) << content;
-    }
-
     std::int64_t bytes() const { return available_memory_by_files(root_); }
-
-    const std::string root_ =
-        ::testing::TempDir() + "tracked_mcf_available_memory_" + std::to_string(getpid());
 };
 
 TEST_F(AvailableMemoryByFiles, IsUnknownIfNoFileSaysIt) {

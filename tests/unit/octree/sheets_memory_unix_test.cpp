@@ -19,7 +19,7 @@ TEST(Sheets, TakeNoMemoryForVerticesAndEdgesOutsideTheirCells) {
     MeshTopology topology = topology_of(mesh);
     // The surface is a small selection of the largest mesh.
     topology.edge_count = std::numeric_limits<std::int32_t>::max();
-    const ThreadCountScope threads(1);
+    const ThreadTeam threads(1);
     const AddressSpaceLimit limit(100'000'000);
     EXPECT_NO_THROW(separate_sheets(topology, surface.fragments));
 }

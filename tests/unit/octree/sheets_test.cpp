@@ -317,7 +317,7 @@ TEST(Sheets, AreTheSameAtAnyNumberOfThreads) {
         shapes::merged(shapes::bumpy_sphere(60), scaled(shapes::bumpy_sphere(50), 1.01));
     const Grid grid = enclosing_grid(mesh, 6);
     const auto at = [&](int threads) {
-        const ThreadCountScope scope(threads);
+        const ThreadTeam scope(threads);
         return build(mesh, grid);
     };
     const TrackedElements one = at(1);

@@ -9,7 +9,7 @@ namespace tracked_mcf {
 namespace {
 
 TEST(Marks, AreSetInAParallelLoop) {
-    const ThreadCountScope threads(3);
+    const ThreadTeam threads(3);
     constexpr std::int64_t count = 20 * kChunkSize + 3;
     Marks marks(count);
     EXPECT_EQ(marks.count(), 0);

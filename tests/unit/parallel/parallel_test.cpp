@@ -15,7 +15,7 @@ namespace {
 constexpr std::int64_t kSizes[] = {0, 1, kChunkSize - 1, kChunkSize, 5 * kChunkSize + 7};
 
 TEST(ParallelForRuns, VisitsEveryRunOnceAndDividesNone) {
-    const ThreadCountScope threads(3);
+    const ThreadTeam threads(3);
     std::mt19937 random(1);
     for (const std::int64_t count : kSizes) {
         // Some runs are longer than a chunk.
@@ -39,7 +39,7 @@ TEST(ParallelForRuns, VisitsEveryRunOnceAndDividesNone) {
 }
 
 TEST(ParallelForRuns, LetsBodiesChangeTheirItemsInPlace) {
-    const ThreadCountScope threads(3);
+    const ThreadTeam threads(3);
     struct Item {
         std::int64_t run, number;
     };
@@ -60,7 +60,7 @@ TEST(ParallelForRuns, LetsBodiesChangeTheirItemsInPlace) {
 }
 
 TEST(Parallel, PrefixSumsAndCountsAreThoseOfASerialLoop) {
-    const ThreadCountScope threads(3);
+    const ThreadTeam threads(3);
     for (const std::int64_t count : kSizes) {
         const auto size = [](std::int64_t i) { return i % 7; };
         std::vector<std::int64_t> offsets;
@@ -81,7 +81,7 @@ TEST(Parallel, PrefixSumsAndCountsAreThoseOfASerialLoop) {
 
 TEST(ParallelFor, SkipsTheRemainingBodiesAfterAnException) {
     for (const int threads : {1, 3}) {
-        const ThreadCountScope scope(threads);
+        const ThreadTeam scope(threads);
         std::atomic<int> done{0};
         EXPECT_THROW(parallel_for(1000000,
                                   [&](std::int64_t i) {
@@ -97,7 +97,7 @@ TEST(ParallelFor, SkipsTheRemainingBodiesAfterAnException) {
 }
 
 TEST(ParallelForBlocksWith, GivesEveryThreadItsOwnWorkspace) {
-    const ThreadCountScope scope(3);
+    const ThreadTeam scope(3);
     constexpr std::int64_t count = 20 * kChunkSize + 1;
     std::atomic<int> made{0};
     std::vector<int> visits(count, 0);

@@ -37,7 +37,7 @@ TEST(SortByKey, AgreesWithTheLibrarysStableSort) {
 }
 
 TEST(SortBy, IsStableOverManyBlocksAndSkipsBitsThatAllKeysHave) {
-    const ThreadCountScope threads(3);
+    const ThreadTeam threads(3);
     std::mt19937_64 random(5);
     constexpr std::uint64_t shared = std::uint64_t{0xabc} << 50U;
     RawVector<KeyValue> pairs(300000);
@@ -57,7 +57,7 @@ TEST(SortBy, IsStableOverManyBlocksAndSkipsBitsThatAllKeysHave) {
 TEST(SortBy, SortsExtremeKeysAtTheEdgesOfChunks) {
     const std::vector<std::uint64_t> keys = {0, 1, 1023, 1024, ~0ULL, ~0ULL - 1, 1ULL << 63U, 1};
     for (const int threads : {1, 3}) {
-        const ThreadCountScope scope(threads);
+        const ThreadTeam scope(threads);
         for (const std::int64_t count : {std::int64_t{0}, std::int64_t{1}, radix::kItems - 1,
                                          radix::kItems, radix::kItems + 1}) {
             RawVector<KeyValue> pairs(static_cast<std::size_t>(count));

@@ -71,7 +71,7 @@ TEST(ElementPartition, SumsToTheSameBitsWithAnyNumberOfThreads) {
     const ElementPartition partition(level);
     std::vector<Field> results;
     for (const int count : kThreadCounts) {
-        const ThreadCountScope threads(count);
+        const ThreadTeam threads(count);
         sum(partition, nullptr, results.emplace_back(), fraction);
         EXPECT_EQ(results.back(), results.front());
     }
@@ -82,7 +82,7 @@ TEST(ElementBricks, VisitEachElementOnceAndAddInTheSameOrderWithAnyNumberOfThrea
     const ElementBricks bricks(level);
     std::vector<std::vector<float>> results;
     for (const int count : kThreadCounts) {
-        const ThreadCountScope threads(count);
+        const ThreadTeam threads(count);
         std::vector<int> visits(level.unknowns.size());
         results.emplace_back(level.unknown_count());
         bricks.for_each([&](std::int32_t begin, std::int32_t end) {

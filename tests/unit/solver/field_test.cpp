@@ -24,7 +24,7 @@ TEST(Field, DotHasTheSameBitsWithAnyNumberOfThreads) {
     const Field a = Field::Random(4, kCount), b = Field::Random(4, kCount);
     std::vector<Eigen::Vector4d> results;
     for (const int count : {1, 2, 3, 8}) {
-        const ThreadCountScope threads(count);
+        const ThreadTeam threads(count);
         results.push_back(dot(a, b));
         EXPECT_EQ(results.back(), results.front());
     }

@@ -52,7 +52,7 @@ TEST(GaussSeidel, ASweepHasTheSameBitsWithAnyNumberOfThreads) {
     const Field start = random_field(system);
     std::vector<Field> results;
     for (const int count : {1, 2, 3, 8}) {
-        const ThreadCountScope threads(count);
+        const ThreadTeam threads(count);
         results.push_back(start);
         gauss_seidel.sweep(system.multigrid.finest(), system.right_side, results.back());
         EXPECT_EQ(results.back(), results.front());
