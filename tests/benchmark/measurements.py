@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Runs the benchmark's driver and keeps the measurements."""
 
+import contextlib
 import csv
 import dataclasses
 import io
@@ -16,8 +17,8 @@ BASELINE_INSTRUCTIONS = "ours, baseline instructions"
 OTHER_BINARY = "ours, other binary"
 TRIAD = "triad"
 # Of ours, then of PyMeshLab.
-WHOLE_JOBS = ("ours, default parameters", "ours, ten steps of 1e-5", "MeshLab's Taubin",
-              "MeshLab's Laplacian")
+WHOLE_JOBS = ("ours, default parameters", "ours, one thread", "ours, ten steps of 1e-5",
+              "MeshLab's Taubin", "MeshLab's Laplacian")
 
 
 @dataclasses.dataclass(frozen=True)
@@ -31,12 +32,25 @@ class Case:
     words: tuple = ()
     environment: tuple = ()
     program: str = ""
+    busy: int = 0  # endless loops that run meanwhile
+
+
+@contextlib.contextmanager
+def endless_loops(count):
+    """Keeps `count` processors busy, as other programs do."""
+    loops = [subprocess.Popen([sys.executable, "-c", "while True: pass"]) for _ in range(count)]
+    try:
+        yield
+    finally:
+        for loop in loops:
+            loop.kill()
+            loop.wait()
 
 
 class Measurements:
     """Runs cases and keeps all measurements."""
 
-    KEYS = ("peer", "mesh", "step_size", "threads")
+    KEYS = ("peer", "mesh", "step_size", "threads", "busy")
 
     def __init__(self, driver, other_binary=None):
         self._driver = driver
@@ -56,8 +70,9 @@ class Measurements:
         print(f"... {' '.join(words)} {' '.join('='.join(e) for e in case.environment)}",
               file=sys.stderr, flush=True)
         self._add(case, repetition, "load_average", 0, os.getloadavg()[0])
-        result = subprocess.run([program, *words], env={**os.environ, **dict(case.environment)}, stdout=subprocess.PIPE,
-                                text=True, check=False)
+        with endless_loops(case.busy):
+            result = subprocess.run([program, *words], env={**os.environ, **dict(case.environment)},
+                                    stdout=subprocess.PIPE, text=True, check=False)
         if result.returncode != 0:
             # Possibly out of memory, which is a result, too. The measurements so far count.
             print(f"... ended with {result.returncode}", file=sys.stderr)
@@ -66,8 +81,7 @@ class Measurements:
             self._add(case, repetition, row["quantity"], int(row["step"]), float(row["value"]))
 
     def _add(self, case, repetition, quantity, step, value):
-        self._rows.append({"peer": case.peer, "mesh": case.mesh, "step_size": case.step_size,
-                           "threads": case.threads, "repetition": repetition,
+        self._rows.append({**{key: getattr(case, key) for key in self.KEYS}, "repetition": repetition,
                            "quantity": quantity, "step": step, "value": value})
 
     def values(self, quantity, **case):
@@ -90,6 +104,10 @@ class Measurements:
         return list(dict.fromkeys(row["mesh"] for row in self._rows
                                   if all(row[key] == value for key, value in case.items())))
 
+    def loads(self, **case):
+        return sorted({row["busy"] for row in self._rows
+                       if all(row[key] == value for key, value in case.items())})
+
     def peers(self):
         return list(dict.fromkeys(row["peer"] for row in self._rows))
 
@@ -104,5 +122,5 @@ class Measurements:
         with open(path, newline="", encoding="utf-8") as file:
             for row in csv.DictReader(file):
                 self._rows.append({**row, "step_size": float(row["step_size"]),
-                                   "threads": int(row["threads"]), "step": int(row["step"]),
-                                   "value": float(row["value"])})
+                                   "threads": int(row["threads"]), "busy": int(row["busy"]),
+                                   "step": int(row["step"]), "value": float(row["value"])})

@@ -368,12 +368,17 @@ class Page:
 
     def _whole_jobs(self):
         self._title("Whole jobs", "A mesh is read, smoothed and written, with the default parameters and all "
-                    "processors. MeshLab's filters are those of the official PyMeshLab.")
+                    "processors, alone and beside other processes that never wait. MeshLab's filters are those "
+                    "of the official PyMeshLab, which use one thread. Wall and processor seconds.")
+        loads = self._of.loads(peer=WHOLE_JOBS[0])
         rows = []
         for job in WHOLE_JOBS:
             for mesh in self._of.meshes(peer=job):
                 case = {"peer": job, "mesh": mesh}
-                rows.append([job, mesh, digits(self._of.median("whole_job_seconds", **case)),
-                             digits(self._of.median("whole_job_cpu_seconds", **case)),
+                rows.append([job, mesh, *(self._seconds(busy=busy, **case) for busy in loads),
                              digits(self._of.median("peak_memory_bytes", **case) / 1e6, "MB")])
-        self._table(["job", "mesh", "wall seconds", "processor seconds", "memory"], rows)
+        self._table(["job", "mesh", *("alone" if busy == 0 else f"beside {busy}" for busy in loads), "memory"],
+                    rows)
+
+    def _seconds(self, **case):
+        return ", ".join(digits(self._of.median(f"whole_job_{kind}seconds", **case)) for kind in ("", "cpu_"))

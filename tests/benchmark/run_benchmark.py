@@ -9,6 +9,7 @@ from this file alone. A whole run takes about 20 minutes, a quick run two.
 import argparse
 import dataclasses
 import lzma
+import os
 import pathlib
 import shutil
 import sys
@@ -182,7 +183,7 @@ class Benchmark:
         return cases
 
     def _whole_jobs(self):
-        """Returns jobs from file to file, with all processors."""
+        """Returns jobs from file to file, on an idle machine and beside endless loops."""
         mesh, name = self._job_mesh()
         if mesh is None:
             return []
@@ -191,12 +192,14 @@ class Benchmark:
         written = self._output / f"job{mesh.suffix}"
         ours_too = (tool, mesh, written, "--quiet")
         jobs = [(WHOLE_JOBS[0], sys.executable, ours_too),
-                (WHOLE_JOBS[1], sys.executable, (*ours_too, "--step-size", 1e-5, "--iterations", 10))]
+                (WHOLE_JOBS[1], sys.executable, (*ours_too, "--threads", 1)),
+                (WHOLE_JOBS[2], sys.executable, (*ours_too, "--step-size", 1e-5, "--iterations", 10))]
         python = self._arguments.build / "pymeshlab" / "bin" / "python"
         if python.exists():
             jobs += [(job, python, ("pymeshlab", words, mesh, written))
-                     for job, words in zip(WHOLE_JOBS[2:], PYMESHLAB_FILTERS)]
-        return [Case(job, name, words=(script, *words), program=program) for job, program, words in jobs]
+                     for job, words in zip(WHOLE_JOBS[3:], PYMESHLAB_FILTERS)]
+        return [Case(job, name, words=(script, *words), program=program, busy=busy)
+                for busy in (0, 1, os.cpu_count()) for job, program, words in jobs]
 
     def _job_mesh(self):
         """Returns the largest scan's file and name, or None."""
