@@ -18,7 +18,7 @@ fi
 # The environments in which pip builds have new paths each time. scikit-build-core would make everything again.
 "${install[@]}" scikit-build-core nanobind
 settings=(--config-settings "build-dir=$build"
-    --config-settings "build.targets=tracked_mcf_python;tracked_mcf_python_stub")
+    --config-settings "build.targets=tracked_mcf_python")
 for part in TOOL PLUGIN TESTS; do
     value=$(sed -n "s/^TRACKED_MCF_$part:BOOL=//p" "$build/CMakeCache.txt")
     settings+=(--config-settings "cmake.define.TRACKED_MCF_$part=$value")

@@ -173,14 +173,6 @@ Progress progress_by(const nb::object& callback) {
     };
 }
 
-void warn(nb::handle warnings) {
-    const nb::object category = nb::module_::import_("tracked_mcf").attr("FlowWarning");
-    for (const nb::handle warning : warnings) {
-        if (PyErr_WarnEx(category.ptr(), nb::cast<const char*>(warning), 1) != 0)
-            throw nb::python_error();
-    }
-}
-
 /// Moves positions into an array of float32 if the given vertices are of float32, else of float64.
 nb::object vertices_of(std::vector<Eigen::Vector3d>&& positions, nb::handle given) {
     const std::size_t count = positions.size();
@@ -199,12 +191,11 @@ StepObserver observer_by(const nb::object& on_step, nb::handle vertices) {
 }
 
 /// Calls on_step, unless it is None, with the number and the vertices of each step.
-nb::tuple smooth_observed(nb::handle vertices, nb::handle faces, const nb::object& on_step,
-                          nb::handle selected, nb::handle strength, const nb::object& progress,
-                          const nb::kwargs& given) {
+nb::tuple smooth(nb::handle vertices, nb::handle faces, const nb::object& on_step,
+                 const nb::object& progress, const nb::kwargs& given) {
     TriangleMesh mesh = mesh_of(vertices, faces);
-    mesh.strength = strength_of(strength, mesh);
-    const Selection selection = selection_of(selected, mesh);
+    mesh.strength = strength_of(given["strength"], mesh);
+    const Selection selection = selection_of(given["selected"], mesh);
     const FlowParameters parameters = flow_parameters(given, mesh);
     FlowReport report;
     {
@@ -223,14 +214,6 @@ nb::tuple smooth_observed(nb::handle vertices, nb::handle faces, const nb::objec
         values["quality"] = array_of(std::move(report.quality), {count});
     }
     return nb::make_tuple(vertices_of(std::move(mesh.positions), vertices), values);
-}
-
-nb::tuple smooth(nb::handle vertices, nb::handle faces, nb::handle selected, nb::handle strength,
-                 const nb::object& progress, const nb::kwargs& given) {
-    nb::tuple result =
-        smooth_observed(vertices, faces, nb::none(), selected, strength, progress, given);
-    warn(result[1]["warnings"]);
-    return result;
 }
 
 double default_detail_size_of(nb::handle vertices, nb::handle faces, nb::handle selected) {
@@ -259,34 +242,6 @@ void translate(const std::exception_ptr& exception, void*) {
     }
 }
 
-const char* const kSummary =
-    "Smooths a triangle mesh by mean-curvature flow. Returns new vertices and a report.\n\n"
-    "vertices has the shape (n, 3), in any unit of length. faces has the shape (m, 3): integers "
-    "that\n"
-    "count vertices from 0. The given arrays never change.\n\n"
-    "Parameters:\n";
-
-const char* const kRest =
-    "    progress: Callable[[float, str], object] | None = None\n"
-    "        Called about 20 times a second with the fraction done and the phase. False cancels.\n"
-    "\n"
-    "Returns an array of shape (n, 3), of float32 if vertices are float32, else of float64, and a\n"
-    "dictionary: sizes, times, residuals, displacements, the change of area and volume, and the "
-    "list\n"
-    "warnings; the program's page tells what each key means. With a quality, the array \"quality\" "
-    "of\n"
-    "shape (n,) is in it, too. Each warning is also a FlowWarning.\n"
-    "\n"
-    "Raises InvalidMesh, InvalidParameter, NotEnoughMemory, or Cancelled, which all are Errors;\n"
-    "TypeError for unknown parameters and values of a wrong type; and what progress raises. "
-    "Ctrl-C\n"
-    "stops the flow with KeyboardInterrupt. Other threads of Python run meanwhile.";
-
-const char* const kDefaultDetailSize =
-    "Returns the detail_size that smooth() takes by default, 2.5 mean edge lengths of the faces "
-    "that\n"
-    "move, in units of the mesh.";
-
 }  // namespace
 
 }  // namespace tracked_mcf
@@ -296,20 +251,10 @@ NB_MODULE(_core, module) {
     module.attr("version") = TRACKED_MCF_VERSION;
     module.attr("no_quality") = kNoQuality;
     module.attr("pymeshlab_help") = pymeshlab_help();
-    module.attr("pymeshlab_parameters") = pymeshlab_parameters();
+    module.attr("parameters") = parameters();
     nb::register_exception_translator(translate);
-    module.def("smooth", smooth, "vertices"_a, "faces"_a, nb::kw_only(), "selected"_a = nb::none(),
-               "strength"_a = nb::none(), "progress"_a = nb::none(), "parameters"_a,
-               nb::sig(signature_of_smooth().c_str()),
-               (kSummary + help_of_parameters() + kRest).c_str());
-    module.def("smooth_observed", smooth_observed, "vertices"_a, "faces"_a, "on_step"_a,
-               nb::kw_only(), "selected"_a = nb::none(), "strength"_a = nb::none(),
-               "progress"_a = nb::none(), "parameters"_a,
-               "smooth() without warnings, which calls on_step(step, vertices) after each step.");
-    module.def("default_detail_size", default_detail_size_of, "vertices"_a, "faces"_a,
-               nb::kw_only(), "selected"_a = nb::none(),
-               nb::sig("def default_detail_size(vertices: numpy.typing.ArrayLike, faces: "
-                       "numpy.typing.ArrayLike, *, selected: numpy.typing.ArrayLike | None = None) "
-                       "-> float"),
-               kDefaultDetailSize);
+    const auto vertices = "vertices"_a.none(), faces = "faces"_a.none();
+    module.def("smooth", smooth, vertices, faces, "on_step"_a.none(), "progress"_a.none(),
+               "parameters"_a);
+    module.def("default_detail_size", default_detail_size_of, vertices, faces, "selected"_a.none());
 }

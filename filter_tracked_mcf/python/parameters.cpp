@@ -5,9 +5,8 @@
 
 #include <algorithm>
 #include <limits>
-#include <regex>
+#include <string>
 #include <variant>
-#include <vector>
 
 #include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/parameter_table.h"
@@ -69,14 +68,16 @@ Length length_of(const Parameter& parameter, nb::handle value) {
                            "cent of the diagonal of its bounding box.");
 }
 
-bool is_number(const std::string& name) {
-    return std::all_of(name.begin(), name.end(),
-                       [](char letter) { return letter >= '0' && letter <= '9'; });
+/// Returns the value that smooth() takes for a choice: an int if its name is a number, else its
+/// name.
+nb::object python_name(const NamedChoice& choice) {
+    const bool is_number = choice.name.find_first_not_of("0123456789") == std::string::npos;
+    if (is_number) return nb::int_(nb::str(choice.name.c_str()));
+    return nb::str(choice.name.c_str());
 }
 
-/// Returns the name of a choice as Python's code.
 std::string literal(const NamedChoice& choice) {
-    return is_number(choice.name) ? choice.name : "'" + choice.name + "'";
+    return code_of(python_name(choice));
 }
 
 std::string literals(const Parameter& parameter) {
@@ -96,52 +97,63 @@ int choice_of(const Parameter& parameter, nb::handle value) {
                            literals(parameter) + ".");
 }
 
-const Parameter& parameter_of(const std::string& name) {
-    std::string names;
-    for (const Parameter& parameter : parameter_table()) {
-        if (parameter.name == name) return parameter;
-        names += (names.empty() ? "" : ", ") + parameter.name;
-    }
-    throw nb::type_error(
-        ("There is no parameter '" + name + "'; the parameters are " + names + ".").c_str());
+/// Returns whether the default is not the same with method paper, as that of the stabilisation.
+bool depends_on_method(const Parameter& parameter) {
+    FlowParameters paper;
+    paper.solver = Solver::OneWCycle;
+    return parameter.type == Parameter::Type::Real && parameter.get(paper) != parameter.get({});
 }
 
-/// Returns the type and the default as Python's code.
-std::string python_type(const Parameter& parameter) {
-    const ParameterValue value = parameter.get({});
-    const auto as_python = [](auto held) { return code_of(nb::cast(held)); };
+/// Returns the type that smooth() takes, as in its signature.
+std::string annotation(const Parameter& parameter) {
     switch (parameter.type) {
         case Parameter::Type::Switch:
-            return "bool = " + std::visit(as_python, value);
+            return "bool";
         case Parameter::Type::Selected:
         case Parameter::Type::Strength:
-            return "numpy.typing.ArrayLike | None = None";
+            return "ArrayLike | None";
         case Parameter::Type::Integer:
-            return "int = " + std::visit(as_python, value);
+            return "int";
         case Parameter::Type::Real:
-            return "float = " + std::visit(as_python, value);
+            return depends_on_method(parameter) ? "float | None" : "float";
         case Parameter::Type::Length:
-            return "float | str = " + std::visit(as_python, value);
+            return "float | str";
         case Parameter::Type::Choice:
             break;
     }
-    return "typing.Literal[" + literals(parameter) +
-           "] = " + literal(parameter.choices.at(static_cast<std::size_t>(std::get<int>(value))));
+    return "Literal[" + literals(parameter) + "]";
 }
 
-/// Returns the kinds of values that PyMeshLab and smooth() write in different ways as a word.
-const char* type_name(Parameter::Type type) {
-    if (type == Parameter::Type::Real) return "real";
-    if (type == Parameter::Type::Length) return "length";
-    return type == Parameter::Type::Choice ? "choice" : "other";
+/// Returns the default of smooth(), or None if the core chooses it.
+nb::object default_of(const Parameter& parameter) {
+    const ParameterValue value = parameter.get({});
+    if (parameter.type == Parameter::Type::Selected ||
+        parameter.type == Parameter::Type::Strength || depends_on_method(parameter))
+        return nb::none();
+    if (parameter.type == Parameter::Type::Choice)
+        return python_name(parameter.choices.at(static_cast<std::size_t>(std::get<int>(value))));
+    return std::visit([](auto held) { return nb::cast(held); }, value);
+}
+
+std::string help_of(const Parameter& parameter) {
+    std::string text;
+    if (parameter.type == Parameter::Type::Selected)
+        text = "An array of shape (m,) of bools: only these faces move. ";
+    if (parameter.type == Parameter::Type::Strength) text = "An array of shape (n,). ";
+    if (parameter.type == Parameter::Type::Length)
+        text = "In units of the mesh, or as '1%' of its bounding box's diagonal. ";
+    if (depends_on_method(parameter))
+        text = "None takes " + code_of(nb::cast(std::get<double>(parameter.get({})))) + ". ";
+    return text + parameter.help;
 }
 
 }  // namespace
 
-FlowParameters flow_parameters(const nb::kwargs& given, const TriangleMesh& mesh) {
+FlowParameters flow_parameters(const nb::dict& given, const TriangleMesh& mesh) {
     FlowParameters parameters;
-    for (const auto [key, value] : given) {
-        const Parameter& parameter = parameter_of(nb::cast<std::string>(key));
+    for (const Parameter& parameter : parameter_table()) {
+        const nb::object value = given[parameter.name.c_str()];
+        if (value.is_none() && depends_on_method(parameter)) continue;
         const auto set = [&](const ParameterValue& taken) { parameter.set(parameters, taken); };
         switch (parameter.type) {
             case Parameter::Type::Switch:
@@ -171,43 +183,19 @@ FlowParameters flow_parameters(const nb::kwargs& given, const TriangleMesh& mesh
     return parameters;
 }
 
-std::string signature_of_smooth() {
-    std::string text =
-        "def smooth(vertices: numpy.typing.ArrayLike, faces: numpy.typing.ArrayLike, *, ";
-    for (const Parameter& parameter : parameter_table()) {
-        text += parameter.name + ": " + python_type(parameter) + ", ";
-    }
-    return text +
-           "progress: collections.abc.Callable[[float, str], object] | None = None) -> "
-           "tuple[numpy.typing.NDArray[typing.Any], dict[str, typing.Any]]";
-}
-
-std::string help_of_parameters() {
-    static const std::regex modules("(numpy\\.)?typing\\.");  // which help need not name
-    std::string text;
-    for (const Parameter& parameter : parameter_table()) {
-        const std::string type = std::regex_replace(python_type(parameter), modules, "");
-        text += "    " + parameter.name + ": " + type + "\n        ";
-        if (parameter.type == Parameter::Type::Selected)
-            text += "An array of shape (m,) of bools: only these faces move. ";
-        if (parameter.type == Parameter::Type::Strength) text += "An array of shape (n,). ";
-        if (parameter.type == Parameter::Type::Length)
-            text += "In units of the mesh, or as '1%' of its bounding box's diagonal. ";
-        text += parameter.help + "\n";
-    }
-    return text;
-}
-
-nb::list pymeshlab_parameters() {
+nb::list parameters() {
     nb::list list;
     for (const Parameter& parameter : parameter_table()) {
-        if (parameter.label.empty()) continue;
-        nb::dict values, choices;
+        nb::list choices;
         for (const NamedChoice& choice : parameter.choices)
-            choices[choice.label.c_str()] = choice.name;
+            choices.append(nb::make_tuple(choice.label, python_name(choice)));
+        nb::dict values;
         values["name"] = parameter.name;
-        values["type"] = type_name(parameter.type);
+        values["type"] = annotation(parameter);
+        values["default"] = default_of(parameter);
         values["choices"] = choices;
+        values["label"] = parameter.label;
+        values["help"] = help_of(parameter);
         list.append(values);
     }
     return list;

@@ -6,8 +6,8 @@ Ends with 77, which tells CTest that the test was skipped, where the package is 
 """
 
 import _thread
-import ast
 import importlib.metadata
+import inspect
 import json
 import multiprocessing
 import multiprocessing.pool
@@ -18,6 +18,7 @@ import sys
 import tempfile
 import threading
 import time
+import typing
 import unittest
 import warnings
 
@@ -62,7 +63,7 @@ InvalidMesh, InvalidParameter = tracked_mcf.InvalidMesh, tracked_mcf.InvalidPara
 
 # Refused keywords, and words of the message.
 WRONG = [
-    ({"detial_size": 1}, TypeError, "no parameter 'detial_size'; the parameters are detail_size, keep"),
+    ({"detial_size": 1}, TypeError, "smooth() got an unexpected keyword argument 'detial_size'"),
     ({"order": 5}, InvalidParameter, "order is 5; give 1 to 4"),
     ({"order": 2.0}, TypeError, "order is 2.0; give an integer"),
     ({"iterations": 10**30}, InvalidParameter, "give 1 to 1000000"),
@@ -313,6 +314,7 @@ class Arrays(unittest.TestCase):
                 (VERTICES.astype(str), FACES, "give an array of shape (n, 3) of real numbers"),
                 (numpy.where(VERTICES > 0.99, numpy.nan, VERTICES), FACES, "not a finite number"),
                 ([], [], "shape (0,)"),
+                (None, FACES, "vertices has the shape () and the type object"),
                 (VERTICES, FACES[:0], "The mesh has no faces"),
                 (VERTICES, FACES[:, [0, 1, 2, 2]], "split larger faces first"),
                 (VERTICES, FACES.astype(float), "faces has the shape (3042, 3) and the type float64"),
@@ -484,16 +486,31 @@ class Processes(unittest.TestCase):
 
 
 class Documents(WithFolder):
-    def test_stub_and_docstring_name_all_parameters(self):
-        folder = pathlib.Path(tracked_mcf.__file__).parent
-        self.assertTrue((folder / "py.typed").exists())
-        stub = ast.parse((folder / "_core.pyi").read_text(encoding="utf-8"))
-        [function] = [node for node in stub.body if getattr(node, "name", "") == "smooth"]
-        names = [argument.arg for argument in function.args.kwonlyargs]
-        self.assertEqual(names, [*smooth()[1]["parameters"], "progress"])
-        for name in names:
-            self.assertIn(f"\n    {name}: ", tracked_mcf.smooth.__doc__)
-        self.assertIn("preserve: Literal['none', 'area', 'volume'] = 'none'", tracked_mcf.smooth.__doc__)
+    def test_signatures_and_docstring_have_all_parameters(self):
+        keywords = inspect.signature(tracked_mcf.smooth).parameters
+        names = list(keywords)
+        self.assertEqual(names, ["vertices", "faces", *smooth()[1]["parameters"], "progress"])
+        for name, value in (("detail_size", 0.0), ("order", 1), ("preserve", "none"), ("cubature", 3),
+                            ("absolute", False), ("selected", None), ("stabilization", None)):
+            self.assertIs(type(keywords[name].default), type(value))
+            self.assertEqual(keywords[name].default, value)
+        self.assertEqual(keywords["preserve"].annotation, "Literal['none', 'area', 'volume']")
+        self.assertEqual([name for name in inspect.signature(tracked_mcf.steps).parameters if name != "every"], names)
+        if sys.version_info >= (3, 10):  # with types such as `float | str`
+            for function in (tracked_mcf.smooth, tracked_mcf.steps, tracked_mcf.default_detail_size):
+                known = {*inspect.signature(function).parameters, "return"}
+                self.assertEqual(set(typing.get_type_hints(function)), known)
+        for name in names[2:]:
+            self.assertRegex(inspect.getdoc(tracked_mcf.smooth), f"\n    {name}\\b")
+        self.assertTrue((pathlib.Path(tracked_mcf.__file__).parent / "py.typed").exists())
+
+    def test_wrong_calls_get_short_errors(self):
+        for call in (lambda: tracked_mcf.smooth(VERTICES), lambda: tracked_mcf.smooth(VERTICES, FACES, 1),
+                     lambda: tracked_mcf.steps(VERTICES, FACES, oder=2),
+                     lambda: tracked_mcf.default_detail_size(VERTICES, FACES, order=2)):
+            with self.assertRaises(TypeError) as raised:
+                call()
+            self.assertLess(len(str(raised.exception)), 100)
 
     def test_readme(self):
         """The README's script does what the program does."""

@@ -13,8 +13,7 @@ plugin's bits, but coordinates that are -0 become 0. A method of the plugin that
 import numpy
 import pymeshlab
 
-from . import Error, default_detail_size, smooth
-from ._core import no_quality, pymeshlab_help, pymeshlab_parameters
+from . import Error, _core, default_detail_size, smooth
 
 __all__ = ["apply_coord_mean_curvature_flow"]
 
@@ -32,17 +31,17 @@ def _refuse(reason):
 
 def _option(parameter, value, layer):
     """Returns the value that smooth() takes for one of PyMeshLab's."""
-    if parameter["type"] == "real":
+    if parameter["type"] == "float":
         return _as_typed(value)
-    if parameter["type"] == "length":
+    if parameter["type"] == "float | str":
         if isinstance(value, pymeshlab.PercentageValue):  # with PyMeshLab's arithmetic, of floats
             diagonal = numpy.float32(layer.bounding_box().diagonal())
             return _as_typed(diagonal * (numpy.float32(value.value()) / numpy.float32(100)))
         if isinstance(value, pymeshlab.PureValue):
             return _as_typed(value.value())
         _refuse(f"{parameter['name']} is {value!r}; give a PercentageValue or a PureValue.")
-    if parameter["type"] == "choice":
-        names = parameter["choices"]
+    if parameter["choices"]:
+        names = dict(parameter["choices"])
         labels = list(names)
         if value in labels:
             return names[value]
@@ -88,7 +87,7 @@ def _result(report):
 
 
 def apply_coord_mean_curvature_flow(self, **parameters):
-    known = {parameter["name"]: parameter for parameter in pymeshlab_parameters}
+    known = {parameter["name"]: parameter for parameter in _core.parameters if parameter["label"]}
     layer = self.current_mesh()
     options = {}
     for name, value in parameters.items():
@@ -104,7 +103,7 @@ def apply_coord_mean_curvature_flow(self, **parameters):
         strength = None
         if options.pop("strength", False):
             if not layer.has_vertex_scalar():
-                _refuse(no_quality)
+                _refuse(_core.no_quality)
             strength = layer.vertex_scalar_array()
         moved, report = smooth(vertices, faces, selected=selected, strength=strength, **options)
     except Error as error:
@@ -119,6 +118,6 @@ def apply_coord_mean_curvature_flow(self, **parameters):
     return _result(report)
 
 
-apply_coord_mean_curvature_flow.__doc__ = pymeshlab_help
+apply_coord_mean_curvature_flow.__doc__ = _core.pymeshlab_help
 if not hasattr(pymeshlab.MeshSet, _FILTER):
     setattr(pymeshlab.MeshSet, _FILTER, apply_coord_mean_curvature_flow)

@@ -1,0 +1,40 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Does on a Dask cluster what smooth_folder.sh does on one machine: smooth_folder.py SCHEDULER INPUT OUTPUT [OPTION]...
+
+SCHEDULER is the address of Dask's scheduler. The workers need the program tracked_mcf in the PATH, and both folders under the
+paths that they have here. Each thread of a worker runs one program, which may have an equal share of the worker's memory.
+"""
+import pathlib
+import subprocess
+import sys
+import distributed
+
+
+def smooth(mesh, target, *options):
+    """Returns the program's messages. Raises RuntimeError with them if it fails."""
+    worker = distributed.get_worker()
+    memory = (worker.memory_manager.memory_limit or 0) // worker.state.nthreads or "unlimited"
+    command = ["prlimit", f"--data={memory}", "tracked_mcf", mesh, target, "--quiet", "--threads", "1", *options]
+    done = subprocess.run(command, stderr=subprocess.PIPE, text=True)
+    if done.returncode != 0:
+        raise RuntimeError(f"{done.stderr.rstrip()} (failed, exit code {done.returncode})")
+    return done.stderr.rstrip()
+
+
+def main(scheduler, source, target, *options):
+    source, target = pathlib.Path(source).resolve(), pathlib.Path(target).resolve()
+    if source == target:
+        return "smooth_folder.py: INPUT and OUTPUT are the same folder."
+    target.mkdir(parents=True, exist_ok=True)
+    with distributed.Client(scheduler) as client:
+        jobs = {client.submit(smooth, mesh, target / mesh.name, *options, pure=False): mesh.name for mesh in source.iterdir()
+                if mesh.suffix.lower() in (".ply", ".obj", ".off", ".stl") and not (target / mesh.name).exists()}
+        for job in distributed.as_completed(jobs):
+            if message := job.exception() or job.result():
+                print(f"{jobs[job]}: {message}", file=sys.stderr)
+        return int(any(job.status == "error" for job in jobs))
+
+
+if __name__ == "__main__":
+    sys.exit(main(*sys.argv[1:]) if len(sys.argv) > 3 else __doc__)

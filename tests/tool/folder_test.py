@@ -1,0 +1,120 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Smooths a folder by smooth_folder.sh or, on a Dask cluster of two workers, by smooth_folder.py: folder_test.py PROGRAM SCRIPT
+
+Ends with 77, which tells CTest that the test was skipped, where smooth_folder.py needs a package that is not installed.
+"""
+
+import contextlib
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+import unittest.mock
+
+try:
+    import distributed
+except ImportError as error:
+    if sys.argv[-1].endswith(".py"):
+        print(f"skipped: {sys.executable}: {error}; pip installs distributed")
+        sys.exit(77)
+
+OPTIONS = ["--detail-size", "20%"]
+
+# A pyramid without a base.
+MESH = """OFF
+5 4 0
+0 0 {height}
+1 0 0
+0 1 0
+-1 0 0
+0 -1 0
+3 0 1 2
+3 0 2 3
+3 0 3 4
+3 0 4 1
+"""
+
+# Runs the program, but dies as if memory were exhausted.
+WRAPPER = """#!/bin/sh
+case $1 in */killed.off) kill -KILL $$ ;; esac
+exec "{program}" "$@"
+"""
+
+
+class Folder(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        self.meshes, self.output = self.folder / "all scans", self.folder / "smooth"
+        self.meshes.mkdir()
+        for name, height in (("1.off", 1), ("two words.OFF", 2), ("killed.off", 3)):
+            (self.meshes / name).write_text(MESH.format(height=height), encoding="ascii")
+
+    @contextlib.contextmanager
+    def workers(self, program, megabytes):
+        """Yields the command that gives the folders to two workers, which have this memory together."""
+        path = f"{program.parent}{os.pathsep}{os.environ['PATH']}"
+        variables = {"PATH": path, "WORKERS": "2", "MEMORY": str(megabytes)}
+        with unittest.mock.patch.dict(os.environ, variables):
+            if SCRIPT.suffix == ".sh":
+                yield [SCRIPT]
+                return
+            with distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None,
+                                          memory_limit=megabytes * 500000) as cluster:
+                yield [sys.executable, SCRIPT, cluster.scheduler_address]
+
+    def smooth(self, *options, program=None, megabytes=2000, output=None):
+        """Returns the exit code and the messages."""
+        with self.workers(program or PROGRAM, megabytes) as command:
+            done = subprocess.run([*command, self.meshes, output or self.output, *OPTIONS, *options],
+                                  stderr=subprocess.PIPE, text=True, timeout=100)
+        return done.returncode, done.stderr
+
+    def outputs(self):
+        return {path.name: (path.stat().st_ino, path.read_bytes()) for path in self.output.iterdir()}
+
+    def test_a_second_run_makes_what_has_failed(self):
+        wrapper = self.folder / "bin" / "tracked_mcf"
+        wrapper.parent.mkdir()
+        wrapper.write_text(WRAPPER.format(program=PROGRAM), encoding="utf-8")
+        wrapper.chmod(0o755)
+        (self.meshes / "broken.off").write_text("no mesh", encoding="ascii")
+        (self.meshes / "notes.txt").write_text("no mesh", encoding="ascii")
+        code, messages = self.smooth(program=wrapper)
+        self.assertEqual(code, 1, messages)
+        self.assertRegex(messages, r"(?m)^broken.off: tracked_mcf: .*broken.off cannot be used.* \(failed, exit code 1\)$")
+        self.assertRegex(messages, r"(?m)^killed.off:  \(failed, exit code (137|-9)\)$")
+        first = self.outputs()
+        self.assertEqual(set(first), {"1.off", "two words.OFF"}, messages)
+
+        (self.meshes / "broken.off").write_text(MESH.format(height=4), encoding="ascii")
+        code, messages = self.smooth()
+        self.assertEqual(code, 0, messages)
+        second = self.outputs()
+        self.assertEqual(set(second), {*first, "broken.off", "killed.off"})
+        self.assertEqual({name: second[name] for name in first}, first)
+        for name, (_, data) in second.items():
+            subprocess.run([PROGRAM, self.meshes / name, self.folder / "expected.off", "--quiet", *OPTIONS], check=True)
+            self.assertEqual(data, (self.folder / "expected.off").read_bytes())
+
+    def test_each_worker_has_its_share_of_the_memory(self):
+        """A flow at depth 10 needs more than 2 GB."""
+        code, messages = self.smooth("--depth", "10", megabytes=1000)
+        self.assertEqual(code, 1, messages)
+        self.assertEqual(len(re.findall("(?m)^.*: tracked_mcf: Depth 10 would need .* Choose depth", messages)), 3)
+        self.assertEqual(self.outputs(), {})
+
+    def test_refuses_to_write_into_the_folder_of_the_meshes(self):
+        code, messages = self.smooth(output=self.meshes)
+        self.assertEqual(code, 1, messages)
+        self.assertIn("INPUT and OUTPUT are the same folder", messages)
+
+
+if __name__ == "__main__":
+    PROGRAM, SCRIPT = (pathlib.Path(word).resolve() for word in sys.argv[1:])
+    unittest.main(argv=sys.argv[:1], verbosity=2)
