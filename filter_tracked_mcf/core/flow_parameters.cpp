@@ -2,9 +2,6 @@
 #include "filter_tracked_mcf/core/flow_parameters.h"
 
 #include <cmath>
-#include <sstream>
-#include <string>
-#include <variant>
 
 #include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/parameter_table.h"
@@ -12,28 +9,6 @@
 namespace tracked_mcf {
 
 namespace {
-
-std::string shortest(double value) {
-    std::ostringstream text;
-    text.precision(10);  // enough for every int
-    text << value;
-    return text.str();
-}
-
-/// Returns the numbers of a range, such as "1 to 4".
-std::string text_of(const Range& range) {
-    const std::string smallest = shortest(range.smallest), largest = shortest(range.largest);
-    if (range.open) return "a number greater than " + smallest + " and less than " + largest;
-    return smallest + (range.largest < kFinite ? " to " + largest : " or more");
-}
-
-void check(const std::string& name, double value, const Range& range) {
-    const bool fits = range.open ? value > range.smallest && value < range.largest
-                                 : value >= range.smallest && value <= range.largest;
-    if (fits) return;  // a NaN does not
-    throw InvalidParameter(name + " is " + shortest(value) + "; give " + text_of(range) +
-                           range.advice + ".");
-}
 
 /// Returns h / (1 - h), the square of k √δ for the waves whose amplitude the steps halve.
 double halved_waves(int iterations, int order) {
@@ -65,12 +40,9 @@ double stabilization_of(const FlowParameters& parameters) {
 }
 
 void validate(const FlowParameters& parameters) {
-    for (const Parameter& parameter : parameter_table()) {
-        const auto as_double = [](auto value) { return static_cast<double>(value); };
-        check(parameter.name, std::visit(as_double, parameter.get(parameters)), parameter.range);
-    }
+    check_ranges(parameters);
     // No host offers this one.
-    check("boundary_penalty", parameters.boundary_penalty, {0, 1e6, ", such as 10", true});
+    check_range("boundary_penalty", parameters.boundary_penalty, {0, 1e6, ", such as 10", true});
     if (parameters.quality == Quality::MeanCurvature &&
         parameters.flow != FlowKind::MeanCurvature) {
         throw InvalidParameter(

@@ -1,172 +1,171 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "filter_tracked_mcf/core/parameter_table.h"
 
-#include <type_traits>
-#include <utility>
+#include <sstream>
+
+#include "filter_tracked_mcf/core/errors.h"
+#include "filter_tracked_mcf/core/parameter_rows.h"
 
 namespace tracked_mcf {
 
 namespace {
 
+using namespace parameter_rows;
 using Type = Parameter::Type;
 using P = FlowParameters;
 
-template <auto member>
-ParameterMember access(Type type, Range range) {
-    using Value = std::decay_t<decltype(std::declval<P>().*member)>;
-    using Held = std::conditional_t<std::is_enum_v<Value>, int, Value>;
-    return {type,
-            [](const P& p) -> ParameterValue { return static_cast<Held>(p.*member); },
-            [](P& p, const ParameterValue& value) {
-                p.*member = static_cast<Value>(std::get<Held>(value));
-            },
-            std::move(range),
-            {}};
+std::string shortest(double value) {
+    std::ostringstream text;
+    text.precision(10);  // enough for every int
+    text << value;
+    return text.str();
 }
 
-template <auto member>
-ParameterMember toggle() {
-    return access<member>(Type::Switch, {0, 1, ""});
-}
-
-template <auto member>
-ParameterMember integer(int smallest, int largest, const char* advice = "") {
-    return access<member>(Type::Integer, {double(smallest), double(largest), advice});
-}
-
-/// Returns an enumeration, whose enumerators count from 0.
-template <auto member>
-ParameterMember choice(std::vector<NamedChoice> choices) {
-    Range range = {0, static_cast<double>(choices.size() - 1), ":"};
-    for (const auto& [label, name] : choices) {
-        range.advice += ' ' + (label.empty() ? name : label) + ',';
-    }
-    range.advice.pop_back();
-    ParameterMember result = access<member>(Type::Choice, range);
-    result.choices = std::move(choices);
-    return result;
-}
-
-/// No member of FlowParameters.
-ParameterMember of_host(Type type) {
-    return {type,
-            [](const P&) -> ParameterValue { return false; },
-            [](P&, const ParameterValue&) {},
-            {0, 1, ""},
-            {}};
+/// Returns the numbers of a range, such as "1 to 4".
+std::string text_of(const Range& range) {
+    const std::string smallest = shortest(range.smallest), largest = shortest(range.largest);
+    if (range.open) return "a number greater than " + smallest + " and less than " + largest;
+    return smallest + (range.largest < kFinite ? " to " + largest : " or more");
 }
 
 /// The solver, and whether separate sheets move independently.
-ParameterMember method() {
+ParameterOf<P> method() {
     enum { Converged, SharedCells, Paper };
-    return {Type::Choice,
-            [](const P& p) -> ParameterValue {
-                if (p.solver == Solver::OneWCycle) return Paper;
-                if (p.solver == Solver::Converged)
-                    return p.separate_sheets ? Converged : SharedCells;
-                return static_cast<int>(p.solver);
-            },
-            [](P& p, const ParameterValue& value) {
-                const int method = std::get<int>(value);
-                const bool is_method = method >= Converged && method <= Paper;
-                // Another number stays one that validate() refuses.
-                p.solver = !is_method        ? static_cast<Solver>(method)
-                           : method == Paper ? Solver::OneWCycle
-                                             : Solver::Converged;
-                p.separate_sheets = method == Converged;
-            },
-            {0, 2, ": Converged, Shared cells, Paper"},
-            {{"Converged", "converged"}, {"Shared cells", "shared-cells"}, {"Paper", "paper"}}};
+    ParameterOf<P> row;
+    row.type = Type::Choice;
+    row.range = {0, 2, ": Converged, Shared cells, Paper"};
+    row.choices = {
+        {"Converged", "converged"}, {"Shared cells", "shared-cells"}, {"Paper", "paper"}};
+    row.get = [](const P& p) -> ParameterValue {
+        if (p.solver == Solver::OneWCycle) return Paper;
+        if (p.solver == Solver::Converged) return p.separate_sheets ? Converged : SharedCells;
+        return static_cast<int>(p.solver);
+    };
+    row.set = [](P& p, const ParameterValue& value) {
+        const int method = std::get<int>(value);
+        const bool is_method = method >= Converged && method <= Paper;
+        // Another number stays one that validate() refuses.
+        p.solver = !is_method        ? static_cast<Solver>(method)
+                   : method == Paper ? Solver::OneWCycle
+                                     : Solver::Converged;
+        p.separate_sheets = method == Converged;
+    };
+    return row;
 }
 
 /// Its value is the weight that is used, also where none was given.
-ParameterMember stabilization() {
-    return {Type::Real,
-            [](const P& p) -> ParameterValue { return stabilization_of(p); },
-            [](P& p, const ParameterValue& value) { p.stabilization = std::get<double>(value); },
-            {0, kMaximumStabilization, ", where 0 is none"},
-            {}};
+ParameterOf<P> stabilization() {
+    ParameterOf<P> row;
+    row.type = Type::Real;
+    row.range = {0, kMaximumStabilization, ", where 0 is none"};
+    row.get = [](const P& p) -> ParameterValue { return stabilization_of(p); };
+    row.set = [](P& p, const ParameterValue& value) { p.stabilization = std::get<double>(value); };
+    return row;
 }
 
 }  // namespace
 
-const std::vector<Parameter>& parameter_table() {
-    static const std::vector<Parameter> table = {
-        {access<&P::detail_size>(
-             Type::Length,
-             {0, kFinite, ", in units of the mesh, where 0 takes 2.5 mean edge lengths"}),
-         "detail_size", "Remove detail smaller than",
-         "Waves this long keep half their height, shorter ones less. 0 takes 2.5 mean edge "
-         "lengths."},
-        {access<&P::keep_edges>(Type::Real, {0, 179, " degrees, such as 25, where 0 keeps none"}),
-         "keep_edges", "Keep edges sharper than",
-         "In degrees: 25 for noise, with order 2. Takes many times the time and memory. 0 keeps "
-         "none."},
-        {toggle<&P::local_detail_size>(), "local_detail_size", "Larger where faces are larger",
-         "The detail size follows the local edge length, as noise of scans often does."},
-        {integer<&P::iterations>(1, kMaximumIterations), "iterations", "Smoothing steps",
-         "Steps in which the detail is removed, 1 to 1000000. More are more accurate."},
-        {integer<&P::order>(1, kMaximumOrder), "order", "Order (1 to 4)",
-         "1 is the flow itself, 4 keeps larger shapes best. Each order more takes another solve."},
-        {choice<&P::preserve>({{"None", "none"}, {"Area", "area"}, {"Volume", "volume"}}),
-         "preserve", "Preserve",
-         "Of each connected part. Area: no vertex may stay. Volume: also if some vertices stay."},
-        {choice<&P::boundary>(
-             {{"Locked", "locked"}, {"Locked cells (paper)", "locked-cells"}, {"Free", "free"}}),
-         "boundary", "Boundary",
-         "Locked: its vertices stay. Locked cells: all in its grid cells stays. Free: it moves "
-         "too."},
-        {of_host(Type::Selected), "selected", "Affect only selected faces",
-         "Vertices of other faces stay. Select a little more than needed, because the seam cannot "
-         "move."},
-        {of_host(Type::Strength), "strength", "Strength from vertex quality",
-         "A number from 0 to 1 at each vertex multiplies the detail size. A vertex with 0 stays."},
-        {choice<&P::quality>({{"Kept", "none"},
-                              {"Displacement", "displacement"},
-                              {"Mean curvature", "mean-curvature"}}),
-         "quality", "Vertex quality",
-         "For colours: how far the vertex moved along its normal, or the mean curvature after "
-         "smoothing."},
-        {access<&P::step_size>(
-             Type::Real, {0, kFinite, ", such as 1e-5, where 0 takes that of the detail size"}),
-         "step_size", "Step size (expert)",
-         "Time step, a squared length, for longest side 1. 0 takes that of the detail size."},
-        {toggle<&P::absolute>(), "absolute", "Absolute step size (expert)",
-         "The step size is in squared units of the mesh."},
-        {integer<&P::depth>(0, kMaximumDepth, ", where 0 chooses automatically"), "depth",
-         "Octree depth (expert)",
-         "2^depth grid cells a side, 1 to 12; one more: 4 times the time and memory. 0 is "
-         "automatic."},
-        {choice<&P::flow>(
-             {{"Mean curvature", "mean-curvature"}, {"Conformalized", "conformalized"}}),
-         "flow", "Flow (expert)",
-         "Mean curvature: thin parts pinch. Conformalized: if closed without handles, becomes a "
-         "sphere."},
-        {method(), "method", "Method (expert)",
-         "Shared cells: close parts stick together. Paper: also one W-cycle a step, only to "
-         "compare."},
-        {access<&P::tolerance>(Type::Real, {0, 1, ", such as 1e-3", true}), "tolerance", "",
-         "Except with method paper: a step is solved when the error estimate, relative to the "
-         "step in the energy norm, is at most this number; greater than 0, less than 1. A smaller "
-         "one takes more iterations. With the default, the grid's own error is larger."},
-        {stabilization(), "stabilization", "",
-         "Weight of the volume stabilisation, without unit, 0 to 1000. The stabilisation lets the "
-         "solver converge; a much larger weight slows the surface down. 0 is the paper's system, "
-         "for which the solver takes more iterations and may stop short. With method paper it "
-         "is 0 unless given."},
-        {integer<&P::cycles>(1, 1000), "cycles", "",
-         "With method paper: W-cycles of multigrid in each step, 1 to 1000. The paper uses "
-         "one. More solve the equations more exactly, and the time grows in proportion."},
-        {choice<&P::cubature>({{"", "1"}, {"", "3"}, {"", "12"}}), "cubature", "",
-         "Samples on each split triangle: 3 as in the paper, or 3 on a whole fragment of up to "
-         "half "
-         "a cell unless --method paper is given. Take 1, which is inaccurate, or 12, which is slow "
-         "and exact to degree 6, only to compare."},
-        {integer<&P::threads>(0, 1024, ", where 0 takes one for each processor"), "threads", "",
-         "Threads, up to 1024; 0 takes OMP_NUM_THREADS or, unless that is set, one for each "
-         "processor that the program may use. The "
-         "result does not depend on it; only processors with other vector instructions round "
-         "differently."},
+void check_range(const std::string& name, double value, const Range& range) {
+    const bool fits = range.open ? value > range.smallest && value < range.largest
+                                 : value >= range.smallest && value <= range.largest;
+    if (fits) return;  // a NaN does not
+    throw InvalidParameter(name + " is " + shortest(value) + "; give " + text_of(range) +
+                           range.advice + ".");
+}
+
+template <>
+const std::vector<ParameterOf<P>>& parameter_table() {
+    static const std::vector<ParameterOf<P>> table = {
+        named(access<&P::detail_size>(
+                  Type::Length,
+                  {0, kFinite, ", in units of the mesh, where 0 takes 2.5 mean edge lengths"}),
+              "detail_size", "Remove detail smaller than",
+              "Waves this long keep half their height, shorter ones less. 0 takes 2.5 mean edge "
+              "lengths."),
+        named(
+            access<&P::keep_edges>(Type::Real,
+                                   {0, 179, " degrees, such as 25, where 0 keeps none"}),
+            "keep_edges", "Keep edges sharper than",
+            "In degrees: 25 for noise, with order 2. Takes many times the time and memory. 0 keeps "
+            "none."),
+        named(toggle<&P::local_detail_size>(), "local_detail_size", "Larger where faces are larger",
+              "The detail size follows the local edge length, as noise of scans often does."),
+        named(integer<&P::iterations>(1, kMaximumIterations), "iterations", "Smoothing steps",
+              "Steps in which the detail is removed, 1 to 1000000. More are more accurate."),
+        named(integer<&P::order>(1, kMaximumOrder), "order", "Order (1 to 4)",
+              "1 is the flow itself, 4 keeps larger shapes best. Each order more takes another "
+              "solve."),
+        named(choice<&P::preserve>({{"None", "none"}, {"Area", "area"}, {"Volume", "volume"}}),
+              "preserve", "Preserve",
+              "Of each connected part. Area: no vertex may stay. Volume: also if some vertices "
+              "stay."),
+        named(
+            choice<&P::boundary>(
+                {{"Locked", "locked"}, {"Locked cells (paper)", "locked-cells"}, {"Free", "free"}}),
+            "boundary", "Boundary",
+            "Locked: its vertices stay. Locked cells: all in its grid cells stays. Free: it moves "
+            "too."),
+        named(of_host<P>(Type::Selected), "selected", "Affect only selected faces",
+              "Vertices of other faces stay. Select a little more than needed, because the seam "
+              "cannot "
+              "move."),
+        named(of_host<P>(Type::Strength), "strength", "Strength from vertex quality",
+              "A number from 0 to 1 at each vertex multiplies the detail size. A vertex with 0 "
+              "stays."),
+        named(choice<&P::quality>({{"Kept", "none"},
+                                   {"Displacement", "displacement"},
+                                   {"Mean curvature", "mean-curvature"}}),
+              "quality", "Vertex quality",
+              "For colours: how far the vertex moved along its normal, or the mean curvature after "
+              "smoothing."),
+        named(
+            access<&P::step_size>(
+                Type::Real, {0, kFinite, ", such as 1e-5, where 0 takes that of the detail size"}),
+            "step_size", "Step size (expert)",
+            "Time step, a squared length, for longest side 1. 0 takes that of the detail size."),
+        named(toggle<&P::absolute>(), "absolute", "Absolute step size (expert)",
+              "The step size is in squared units of the mesh."),
+        named(integer<&P::depth>(0, kMaximumDepth, ", where 0 chooses automatically"), "depth",
+              "Octree depth (expert)",
+              "2^depth grid cells a side, 1 to 12; one more: 4 times the time and memory. 0 is "
+              "automatic."),
+        named(
+            choice<&P::flow>(
+                {{"Mean curvature", "mean-curvature"}, {"Conformalized", "conformalized"}}),
+            "flow", "Flow (expert)",
+            "Mean curvature: thin parts pinch. Conformalized: if closed without handles, becomes a "
+            "sphere."),
+        named(method(), "method", "Method (expert)",
+              "Shared cells: close parts stick together. Paper: also one W-cycle a step, only to "
+              "compare."),
+        named(access<&P::tolerance>(Type::Real, {0, 1, ", such as 1e-3", true}), "tolerance", "",
+              "Except with method paper: a step is solved when the error estimate, relative to the "
+              "step in the energy norm, is at most this number; greater than 0, less than 1. A "
+              "smaller "
+              "one takes more iterations. With the default, the grid's own error is larger."),
+        named(stabilization(), "stabilization", "",
+              "Weight of the volume stabilisation, without unit, 0 to 1000. The stabilisation lets "
+              "the "
+              "solver converge; a much larger weight slows the surface down. 0 is the paper's "
+              "system, "
+              "for which the solver takes more iterations and may stop short. With method paper it "
+              "is 0 unless given."),
+        named(integer<&P::cycles>(1, 1000), "cycles", "",
+              "With method paper: W-cycles of multigrid in each step, 1 to 1000. The paper uses "
+              "one. More solve the equations more exactly, and the time grows in proportion."),
+        named(
+            choice<&P::cubature>({{"", "1"}, {"", "3"}, {"", "12"}}), "cubature", "",
+            "Samples on each split triangle: 3 as in the paper, or 3 on a whole fragment of up to "
+            "half "
+            "a cell unless --method paper is given. Take 1, which is inaccurate, or 12, which is "
+            "slow "
+            "and exact to degree 6, only to compare."),
+        named(integer<&P::threads>(0, 1024, ", where 0 takes one for each processor"), "threads",
+              "",
+              "Threads, up to 1024; 0 takes OMP_NUM_THREADS or, unless that is set, one for each "
+              "processor that the program may use. The "
+              "result does not depend on it; only processors with other vector instructions round "
+              "differently."),
     };
     return table;
 }

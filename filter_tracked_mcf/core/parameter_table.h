@@ -29,11 +29,11 @@ struct NamedChoice {
     std::string name;   ///< on the command line, in Python and reports, such as "locked-cells"
 };
 
-/// The member of FlowParameters that a parameter sets.
-struct ParameterMember {
+/// One parameter, and how hosts offer it.
+struct Parameter {
     enum class Type {
         Switch,    ///< bool, off by default; in the program a flag
-        Selected,  ///< bool; no member, because hosts select the faces that flow
+        Selected,  ///< bool; no member, because hosts select the faces that move
         Strength,  ///< bool; no member, because hosts give each vertex its strength
         Integer,
         Real,
@@ -42,24 +42,42 @@ struct ParameterMember {
     };
 
     Type type;
-    ParameterValue (*get)(const FlowParameters&);
-    void (*set)(FlowParameters&, const ParameterValue&);  ///< takes the type that `get` returns
     Range range;
     std::vector<NamedChoice> choices;  ///< in the order of the enumerators
-};
-
-/// One parameter of a flow, and how hosts offer it.
-///
-/// To add a parameter, add a member to FlowParameters and a row to the table. Dialog, scripts,
-/// PyMeshLab, the Python package, the program's options, help and report, and validate() follow the
-/// row.
-struct Parameter : ParameterMember {
     std::string name;  ///< in scripts and reports; with dashes, the program's option; never changes
-    std::string label;  ///< in a dialog; empty if MeshLab does not offer the parameter
-    std::string help;   ///< its meaning, its unit, and advice
+    std::string label;       ///< in a dialog; empty if MeshLab does not offer the parameter
+    std::string help;        ///< its meaning, its unit, and advice
+    ParameterValue initial;  ///< the default
 };
 
-/// Returns the parameters in the order of a dialog, then those of the program alone.
-const std::vector<Parameter>& parameter_table();
+/// A parameter with the member of `Parameters` that it sets.
+template <class Parameters>
+struct ParameterOf : Parameter {
+    ParameterValue (*get)(const Parameters&);
+    void (*set)(Parameters&, const ParameterValue&);  ///< takes the type that `get` returns
+};
+
+/// Returns the parameters of a filter in the order of its dialog, then those of the program alone.
+/// `Parameters` is FlowParameters.
+///
+/// To add a parameter, add a member and a row to the table. Dialog, scripts, PyMeshLab, the Python
+/// package, the program's options, help and report, and the check of the range follow the row.
+template <class Parameters>
+const std::vector<ParameterOf<Parameters>>& parameter_table();
+
+template <>
+const std::vector<ParameterOf<FlowParameters>>& parameter_table();
+
+/// Throws InvalidParameter unless `value` is in the range of the parameter `name`.
+void check_range(const std::string& name, double value, const Range& range);
+
+/// Throws InvalidParameter unless all values are in the ranges of their rows.
+template <class Parameters>
+void check_ranges(const Parameters& parameters) {
+    for (const ParameterOf<Parameters>& row : parameter_table<Parameters>()) {
+        const auto as_double = [](auto value) { return static_cast<double>(value); };
+        check_range(row.name, std::visit(as_double, row.get(parameters)), row.range);
+    }
+}
 
 }  // namespace tracked_mcf

@@ -1,23 +1,30 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "filter_tracked_mcf/core/flow_parameters.h"
+
 namespace tracked_mcf {
 
-/// The filter's name in menus and scripts.
-inline constexpr const char* kFilterName = "Mean Curvature Flow";
+/// How hosts present a filter.
+struct FilterNames {
+    const char* name;    ///< in menus and scripts
+    const char* python;  ///< in PyMeshLab, where filters that move vertices begin with apply_coord
+    const char* help;    ///< in the HTML that MeshLab shows
+};
 
-/// The filter's name in PyMeshLab, where names of filters that move vertices begin with
-/// apply_coord.
-inline constexpr const char* kPythonFilterName = "apply_coord_mean_curvature_flow";
+/// The names of the filter with these parameters.
+template <class Parameters>
+inline constexpr FilterNames kNames = {};
 
-/// The filter's help in the HTML that MeshLab shows.
-inline constexpr const char* kFilterHelp =
+template <>
+inline constexpr FilterNames kNames<FlowParameters> = {
+    "Mean Curvature Flow", "apply_coord_mean_curvature_flow",
     "Smooths the surface by <b>mean-curvature flow</b>, which removes noise and detail below a "
     "chosen size, and keeps sharp edges if asked to. Only positions and, if asked for, vertex "
     "qualities change.<br>See Ming Chuang and Michael Kazhdan: <b>Fast Mean-Curvature Flow via "
     "Finite-Elements Tracking</b>, 2011, <a "
     "href=\"https://doi.org/10.1111/j.1467-8659.2011.01899.x\">"
-    "doi:10.1111/j.1467-8659.2011.01899.x</a>.";
+    "doi:10.1111/j.1467-8659.2011.01899.x</a>."};
 
 /// Says what is wrong where a layer has no quality for the parameter `strength`.
 inline constexpr const char* kNoQuality =

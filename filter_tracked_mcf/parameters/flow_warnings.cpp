@@ -154,8 +154,8 @@ std::string changes(const FlowReport& report) {
     return text.str();
 }
 
-std::vector<std::string> flow_warnings(const FlowParameters& parameters, const FlowReport& report,
-                                       const std::string& advice) {
+std::vector<std::string> warnings_of(const FlowParameters& parameters, const FlowReport& report,
+                                     const std::string& advice) {
     std::vector<std::string> warnings;
     for (const std::string& warning :
          {early_stop(report, parameters.iterations), limited_step_size(report),

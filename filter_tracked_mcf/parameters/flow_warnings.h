@@ -21,7 +21,7 @@ std::string changes(const FlowReport& report);
 /// step removed more than a tenth of the area: how far, and what to do. If steps did not reach the
 /// tolerance: how many, which is the worst, its error estimate, and then `advice`, in which the
 /// host says what to do.
-std::vector<std::string> flow_warnings(const FlowParameters& parameters, const FlowReport& report,
-                                       const std::string& advice);
+std::vector<std::string> warnings_of(const FlowParameters& parameters, const FlowReport& report,
+                                     const std::string& advice);
 
 }  // namespace tracked_mcf

@@ -16,7 +16,7 @@ namespace {
 /// Returns a parameter's Python type and default, such as "int = 3". A default that depends on the
 /// mesh is left out.
 std::string python_type(const Parameter& parameter) {
-    const ParameterValue value = parameter.get({});
+    const ParameterValue& value = parameter.initial;
     std::ostringstream text;
     text << std::showpoint << std::setprecision(2);
     switch (parameter.type) {
@@ -44,10 +44,11 @@ std::string python_type(const Parameter& parameter) {
 
 }  // namespace
 
+template <class Parameters>
 std::string pymeshlab_help() {
-    const std::string html = std::regex_replace(kFilterHelp, std::regex("<br>"), "\n");
+    const std::string html = std::regex_replace(kNames<Parameters>.help, std::regex("<br>"), "\n");
     std::string text = std::regex_replace(html, std::regex("<[^>]*>"), "") + "\n\nParameters:\n";
-    for (const Parameter& parameter : parameter_table()) {
+    for (const auto& parameter : parameter_table<Parameters>()) {
         if (parameter.label.empty()) continue;
         text += "    " + parameter.name + ": " + python_type(parameter) + "\n        " +
                 parameter.label + ": " + parameter.help + "\n";
@@ -56,5 +57,7 @@ std::string pymeshlab_help() {
            "\nReturns a dictionary of numbers, such as largest_displacement, and the list "
            "warnings.\n";
 }
+
+template std::string pymeshlab_help<FlowParameters>();
 
 }  // namespace tracked_mcf

@@ -5,7 +5,8 @@
 
 namespace tracked_mcf {
 
-/// Returns the docstring of the filter's method in PyMeshLab, from the table of parameters.
+/// Returns the docstring of the filter's method in PyMeshLab, from the table of its parameters.
+template <class Parameters>
 std::string pymeshlab_help();
 
 }  // namespace tracked_mcf

@@ -26,14 +26,35 @@ ReportValue choice_value(const std::string& name) {
     return {name};
 }
 
-ReportValue parameter_value(const Parameter& parameter, const FlowParameters& parameters) {
-    const ParameterValue value = parameter.get(parameters);
+ReportValue parameter_value(const Parameter& parameter, const ParameterValue& value) {
     if (parameter.type == Parameter::Type::Choice) {
         return choice_value(parameter.choices.at(std::get<int>(value)).name);
     }
     if (const int* number = std::get_if<int>(&value)) return integer(*number);
     if (const bool* is_on = std::get_if<bool>(&value)) return {*is_on};
     return {std::get<double>(value)};
+}
+
+/// Returns all parameters of a filter.
+template <class Parameters>
+ReportObject parameter_values(const Parameters& parameters, const ReportValue& selected,
+                              const ReportValue& strength) {
+    ReportObject values;
+    for (const auto& row : parameter_table<Parameters>()) {
+        const auto value = [&] {
+            if (row.type == Parameter::Type::Selected) return selected;
+            if (row.type == Parameter::Type::Strength) return strength;
+            return parameter_value(row, row.get(parameters));
+        };
+        values.emplace_back(row.name, value());
+    }
+    return values;
+}
+
+ReportList texts(const std::vector<std::string>& lines) {
+    ReportList list;
+    for (const std::string& line : lines) list.push_back({line});
+    return list;
 }
 
 ReportValue stop_name(Stop stop) {
@@ -65,20 +86,10 @@ ReportValue step_values(const StepReport& step, Solver solver) {
 ReportObject report_values(const FlowParameters& parameters, const ReportValue& selected,
                            const ReportValue& strength, const FlowReport& report,
                            const std::vector<std::string>& warnings) {
-    ReportObject of_parameters;
-    for (const Parameter& parameter : parameter_table()) {
-        const auto value = [&] {
-            if (parameter.type == Parameter::Type::Selected) return selected;
-            if (parameter.type == Parameter::Type::Strength) return strength;
-            return parameter_value(parameter, parameters);
-        };
-        of_parameters.emplace_back(parameter.name, value());
-    }
-    ReportList steps, texts;
+    ReportList steps;
     for (const StepReport& step : report.steps)
         steps.push_back(step_values(step, parameters.solver));
-    for (const std::string& warning : warnings) texts.push_back({warning});
-    return {{"parameters", {of_parameters}},
+    return {{"parameters", {parameter_values(parameters, selected, strength)}},
             {"vertices", {report.vertices}},
             {"triangles", {report.triangles}},
             {"degenerate_triangles", {report.degenerate_triangles}},
@@ -107,7 +118,7 @@ ReportObject report_values(const FlowParameters& parameters, const ReportValue& 
             {"steps", {steps}},
             {"converged", {converged(report)}},
             {"stop", stop_name(report.stop)},
-            {"warnings", {texts}},
+            {"warnings", {texts(warnings)}},
             {"estimated_memory_bytes", {report.estimated_memory_bytes}},
             {"peak_memory_bytes", {report.peak_memory_bytes}}};
 }

@@ -29,11 +29,18 @@ QStringList labels(const std::vector<NamedChoice>& choices) {
     return result;
 }
 
+/// Returns the length that a dialog begins with.
+double initial_length(const ParameterOf<FlowParameters>& /*detail_size*/, const MeshModel& layer) {
+    return default_detail_size_of(layer.cm);
+}
+
 /// Adds a parameter, with its default, to a dialog.
-void add(RichParameterList& list, const Parameter& parameter, const MeshModel* layer) {
+template <class Parameters>
+void add(RichParameterList& list, const ParameterOf<Parameters>& parameter,
+         const MeshModel* layer) {
     const QString name = text(parameter.name), label = text(parameter.label);
     const QString help = rich(parameter.help);
-    const ParameterValue value = parameter.get({});
+    const ParameterValue& value = parameter.initial;
     const auto add_rich = [&list](const auto& rich_parameter) { list.addParam(rich_parameter); };
     switch (parameter.type) {
         case Parameter::Type::Switch:
@@ -49,7 +56,7 @@ void add(RichParameterList& list, const Parameter& parameter, const MeshModel* l
             return add_rich(
                 RichFloat(name, static_cast<Scalarm>(std::get<double>(value)), label, help));
         case Parameter::Type::Length: {
-            const double length = layer == nullptr ? 0 : default_detail_size_of(layer->cm);
+            const double length = layer == nullptr ? 0 : initial_length(parameter, *layer);
             const Scalarm diagonal = layer == nullptr ? 1 : layer->cm.bbox.Diag();
             return add_rich(
                 RichLength(name, static_cast<Scalarm>(length), 0, diagonal, label, help));
@@ -65,7 +72,7 @@ void add(RichParameterList& list, const Parameter& parameter, const MeshModel* l
 ParameterValue read(const RichParameterList& list, const Parameter& parameter) {
     if (list.hasParameter(text(parameter.name))) {
         const Value& value = list.getParameterByName(text(parameter.name)).value();
-        const ParameterValue initial = parameter.get({});
+        const ParameterValue& initial = parameter.initial;
         const bool is_choice = parameter.type == Parameter::Type::Choice;
         if (is_choice && holds_choice(value)) return choice_of(value);
         if (parameter.type == Parameter::Type::Integer && value.isInt()) return value.getInt();
@@ -118,28 +125,29 @@ Progress watched_progress(MeshDocument& document, const MeshModel& layer,
     };
 }
 
-}  // namespace
-
+template <class Parameters>
 RichParameterList rich_parameters(const MeshModel* layer) {
     RichParameterList list;
-    for (const Parameter& parameter : parameter_table()) {
+    for (const auto& parameter : parameter_table<Parameters>()) {
         if (!parameter.label.empty()) add(list, parameter, layer);
     }
     return list;
 }
 
-FilterOutcome smooth_current_layer(MeshDocument& document, const RichParameterList& parameters,
-                                   vcg::CallBackPos* callback) {
+/// See MeshLabFilter::apply.
+template <class Parameters>
+FilterOutcome apply_to_current_layer(MeshDocument& document, const RichParameterList& list,
+                                     vcg::CallBackPos* callback) {
     const auto work = [&] {
         const Run run;
         MeshModel* const layer = document.mm();
         if (layer == nullptr) throw InvalidMesh("There is no layer to smooth; open a mesh first.");
-        FlowParameters flow;
+        Parameters parameters;
         LayerInput from_layer;
-        for (const Parameter& parameter : parameter_table()) {
+        for (const auto& parameter : parameter_table<Parameters>()) {
             if (parameter.label.empty()) continue;
-            const ParameterValue value = read(parameters, parameter);
-            parameter.set(flow, value);
+            const ParameterValue value = read(list, parameter);
+            parameter.set(parameters, value);
             if (parameter.type == Parameter::Type::Selected)
                 from_layer.selected_only = std::get<bool>(value);
             if (parameter.type == Parameter::Type::Strength)
@@ -148,15 +156,27 @@ FilterOutcome smooth_current_layer(MeshDocument& document, const RichParameterLi
         if (from_layer.strength_by_quality && !layer->hasDataMask(MeshModel::MM_VERTQUALITY)) {
             throw InvalidMesh(kNoQuality);
         }
-        FilterOutcome outcome =
-            run_filter(layer->cm, flow, from_layer, watched_progress(document, *layer, callback));
+        FilterOutcome outcome = run_filter(layer->cm, parameters, from_layer,
+                                           watched_progress(document, *layer, callback));
         update_box_and_normals(*layer);
-        if (flow.quality != Quality::None) {
+        if (parameters.quality != Quality::None) {
             layer->updateDataMask(MeshModel::MM_VERTQUALITY);
         }
         return outcome;
     };
     return guard(work, !python_runs());
+}
+
+template <class Parameters>
+MeshLabFilter filter_of() {
+    return {kNames<Parameters>, rich_parameters<Parameters>, apply_to_current_layer<Parameters>};
+}
+
+}  // namespace
+
+const std::vector<MeshLabFilter>& meshlab_filters() {
+    static const std::vector<MeshLabFilter> filters = {filter_of<FlowParameters>()};
+    return filters;
 }
 
 }  // namespace tracked_mcf

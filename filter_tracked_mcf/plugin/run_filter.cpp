@@ -20,7 +20,7 @@ namespace {
 /// Appends the dialog's label of the parameter whose name begins the message.
 std::string with_label(const std::string& message) {
     const std::string name = message.substr(0, message.find(' '));
-    for (const Parameter& parameter : parameter_table()) {
+    for (const auto& parameter : parameter_table<FlowParameters>()) {
         if (parameter.name != name || parameter.label.empty()) continue;
         const bool is_zero = message.rfind(name + " is 0;", 0) == 0;
         return message + " In the dialog it is \"" + parameter.label + "\"." +
@@ -115,15 +115,15 @@ std::string summary(const FlowParameters& parameters, const FlowReport& report) 
     if (report.degenerate_triangles > 0) {
         text << " " << report.degenerate_triangles << " faces have zero area and were ignored.";
     }
-    for (const std::string& warning : flow_warnings(parameters, report, kAdvice)) {
+    for (const std::string& warning : warnings_of(parameters, report, kAdvice)) {
         text << " Warning: " << warning;
     }
     return text.str();
 }
 
-std::string warnings_of(const FlowParameters& parameters, const FlowReport& report) {
+std::string warning_lines(const FlowParameters& parameters, const FlowReport& report) {
     std::string lines;
-    for (const std::string& warning : flow_warnings(parameters, report, kAdvice)) {
+    for (const std::string& warning : warnings_of(parameters, report, kAdvice)) {
         lines += (lines.empty() ? "" : "\n") + warning;
     }
     return lines;

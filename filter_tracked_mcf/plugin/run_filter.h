@@ -10,6 +10,7 @@
 #include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/evolve.h"
 #include "filter_tracked_mcf/mesh_bridge/mesh_bridge.h"
+#include "filter_tracked_mcf/parameters/run.h"
 
 namespace tracked_mcf {
 
@@ -46,11 +47,11 @@ namespace run_filter_detail {
 /// Returns a checksum of the bits of all positions and triangles.
 std::uint64_t checksum(const TriangleMesh& mesh);
 
-/// Describes the report in a few sentences.
+/// Describes the report in a few sentences, with its warnings.
 std::string summary(const FlowParameters& parameters, const FlowReport& report);
 
-/// Returns the warnings of flow_warnings(), one a line.
-std::string warnings_of(const FlowParameters& parameters, const FlowReport& report);
+/// Returns the warnings, one a line.
+std::string warning_lines(const FlowParameters& parameters, const FlowReport& report);
 
 /// Returns, in units of the mesh and of the surface that flows:
 /// - `detail_size`, `step_size` (δ), `depth`, `cell_size`, `unknowns`,
@@ -74,26 +75,27 @@ double default_detail_size_of(const VcgMesh& mesh) {
     return run_filter_detail::default_detail_size_or_zero(to_triangle_mesh(mesh), selection);
 }
 
-/// What a flow takes from a layer besides its vertices and faces.
+/// What a filter takes from a layer besides its vertices and faces.
 struct LayerInput {
     bool selected_only = false;        ///< only the selected faces move
     bool strength_by_quality = false;  ///< the vertices' quality is TriangleMesh::strength
 };
 
-/// Flows a mesh of any vcglib type, or its selected faces only, and returns the message for the
-/// user. It throws what the core and `progress` throw, so call it under guard(). It writes nothing
-/// but positions and, if asked for, the vertices' quality, and writes them last: a failure or a
-/// cancelled run leaves the mesh as it was. Throws InvalidMesh if `progress` has changed a position
-/// or a face: a user may apply other filters meanwhile. The host updates normals and bounding box.
-template <class VcgMesh>
-FilterOutcome run_filter(VcgMesh& mesh, const FlowParameters& parameters, const LayerInput& input,
+/// Applies the filter of these parameters to a mesh of any vcglib type, or its selected faces only,
+/// and returns the message for the user. It throws what the core and `progress` throw, so call it
+/// under guard(). It writes nothing but positions and, if asked for, the vertices' quality, and
+/// writes them last: a failure or a cancelled run leaves the mesh as it was. Throws InvalidMesh if
+/// `progress` has changed a position or a face: a user may apply other filters meanwhile. The host
+/// updates normals and bounding box.
+template <class VcgMesh, class Parameters>
+FilterOutcome run_filter(VcgMesh& mesh, const Parameters& parameters, const LayerInput& input,
                          const Progress& progress) {
     using namespace run_filter_detail;
     const Selection selection = input.selected_only ? selected_faces(mesh) : Selection();
     TriangleMesh moved = to_triangle_mesh(mesh);
     if (input.strength_by_quality) moved.strength = vertex_quality(mesh);
     const std::uint64_t before = checksum(moved);
-    const FlowReport report = evolve(moved, selection, parameters, progress);
+    const auto report = run(moved, selection, parameters, progress);
     if (checksum(to_triangle_mesh(mesh)) != before) {
         throw InvalidMesh(
             "The layer changed while the filter ran, so the result was not written. Apply the "
@@ -102,7 +104,7 @@ FilterOutcome run_filter(VcgMesh& mesh, const FlowParameters& parameters, const 
     write_positions(moved, mesh);
     if (!report.quality.empty()) write_quality(report.quality, mesh);
     return {true, summary(parameters, report), outputs_of(parameters, report),
-            warnings_of(parameters, report)};
+            warning_lines(parameters, report)};
 }
 
 }  // namespace tracked_mcf

@@ -203,7 +203,7 @@ nb::tuple smooth(nb::handle vertices, nb::handle faces, const nb::object& on_ste
         report = evolve(mesh, selection, parameters, progress_by(progress),
                         observer_by(on_step, vertices));
     }
-    const std::vector<std::string> warnings = flow_warnings(parameters, report, kAdvice);
+    const std::vector<std::string> warnings = warnings_of(parameters, report, kAdvice);
 
     nb::dict values;
     values["version"] = TRACKED_MCF_VERSION;
@@ -250,7 +250,7 @@ NB_MODULE(_core, module) {
     using namespace tracked_mcf;
     module.attr("version") = TRACKED_MCF_VERSION;
     module.attr("no_quality") = kNoQuality;
-    module.attr("pymeshlab_help") = pymeshlab_help();
+    module.attr("pymeshlab_help") = pymeshlab_help<FlowParameters>();
     module.attr("parameters") = parameters();
     nb::register_exception_translator(translate);
     const auto vertices = "vertices"_a.none(), faces = "faces"_a.none();

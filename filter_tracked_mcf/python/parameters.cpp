@@ -101,7 +101,7 @@ int choice_of(const Parameter& parameter, nb::handle value) {
 bool depends_on_method(const Parameter& parameter) {
     FlowParameters paper;
     paper.solver = Solver::OneWCycle;
-    return parameter.type == Parameter::Type::Real && parameter.get(paper) != parameter.get({});
+    return parameter.type == Parameter::Type::Real && parameter.get(paper) != parameter.initial;
 }
 
 /// Returns the type that smooth() takes, as in its signature.
@@ -126,7 +126,7 @@ std::string annotation(const Parameter& parameter) {
 
 /// Returns the default of smooth(), or None if the core chooses it.
 nb::object default_of(const Parameter& parameter) {
-    const ParameterValue value = parameter.get({});
+    const ParameterValue value = parameter.initial;
     if (parameter.type == Parameter::Type::Selected ||
         parameter.type == Parameter::Type::Strength || depends_on_method(parameter))
         return nb::none();
@@ -143,7 +143,7 @@ std::string help_of(const Parameter& parameter) {
     if (parameter.type == Parameter::Type::Length)
         text = "In units of the mesh, or as '1%' of its bounding box's diagonal. ";
     if (depends_on_method(parameter))
-        text = "None takes " + code_of(nb::cast(std::get<double>(parameter.get({})))) + ". ";
+        text = "None takes " + code_of(nb::cast(std::get<double>(parameter.initial))) + ". ";
     return text + parameter.help;
 }
 
@@ -151,7 +151,7 @@ std::string help_of(const Parameter& parameter) {
 
 FlowParameters flow_parameters(const nb::dict& given, const TriangleMesh& mesh) {
     FlowParameters parameters;
-    for (const Parameter& parameter : parameter_table()) {
+    for (const auto& parameter : parameter_table<FlowParameters>()) {
         const nb::object value = given[parameter.name.c_str()];
         if (value.is_none() && depends_on_method(parameter)) continue;
         const auto set = [&](const ParameterValue& taken) { parameter.set(parameters, taken); };
@@ -185,7 +185,7 @@ FlowParameters flow_parameters(const nb::dict& given, const TriangleMesh& mesh) 
 
 nb::list parameters() {
     nb::list list;
-    for (const Parameter& parameter : parameter_table()) {
+    for (const auto& parameter : parameter_table<FlowParameters>()) {
         nb::list choices;
         for (const NamedChoice& choice : parameter.choices)
             choices.append(nb::make_tuple(choice.label, python_name(choice)));

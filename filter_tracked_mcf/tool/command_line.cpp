@@ -25,8 +25,7 @@ const char* const kDescription =
     "speed of the mean curvature, so that noise and small detail vanish first and large shapes "
     "last. Closed surfaces shrink and thin parts pinch; --keep-edges keeps sharp features.";
 
-const std::string kLength =
-    "Remove detail smaller than X, in units of the mesh, or X% of its bounding box's diagonal. ";
+const std::string kLength = " X, in units of the mesh, or X% of its bounding box's diagonal. ";
 
 const std::string kProperty =
     "Only selected faces move. PROPERTY is the name of a number that the faces of a PLY file have, "
@@ -88,24 +87,26 @@ std::string help_of(const std::string& text) {
     return wrapped(text, kTextColumns);
 }
 
-/// Returns the length that `text` gives, such as 1.5 or 0.5%.
-Length length_of(std::string text) {
+/// Returns the length that `text` gives to an option, such as 1.5 or 0.5%.
+Length length_of(const std::string& option, std::string text) {
     Length length;
     length.in_per_cent = !text.empty() && text.back() == '%';
     if (length.in_per_cent) text.pop_back();
     if (!CLI::detail::lexical_cast(text, length.value)) {
         throw CLI::ValidationError(
-            "--detail-size", "give a length such as 1.5, or 0.5% of the bounding box's diagonal");
+            option, "give a length such as 1.5, or 0.5% of the bounding box's diagonal");
     }
     return length;
 }
 
 /// Adds the option of a parameter. `line` and `parameter` must outlive `app`.
-void add_parameter(CLI::App& app, CommandLine& line, const Parameter& parameter) {
+template <class Parameters>
+void add_parameter(CLI::App& app, CommandLineOf<Parameters>& line,
+                   const ParameterOf<Parameters>& parameter) {
     std::string option = "--" + parameter.name;
     std::replace(option.begin(), option.end(), '_', '-');
     const std::string help = help_of(parameter.help);
-    const ParameterValue value = parameter.get({});
+    const ParameterValue& value = parameter.initial;
     const std::string first = std::visit([](auto v) { return CLI::detail::to_string(v); }, value);
     const auto set = [&line, &parameter](const ParameterValue& taken) {
         parameter.set(line.parameters, taken);
@@ -131,8 +132,11 @@ void add_parameter(CLI::App& app, CommandLine& line, const Parameter& parameter)
             break;
         case Parameter::Type::Length:
             app.add_option_function<std::string>(
-                   option, [&line](const std::string& text) { line.detail_size = length_of(text); },
-                   help_of(kLength + parameter.help))
+                   option,
+                   [&line, &parameter, option](const std::string& text) {
+                       line.lengths[parameter.name] = length_of(option, text);
+                   },
+                   help_of(parameter.label + kLength + parameter.help))
                 ->type_name("X|X%")
                 ->default_str(first);
             break;
@@ -152,14 +156,26 @@ void add_parameter(CLI::App& app, CommandLine& line, const Parameter& parameter)
     }
 }
 
-void add_parameters(CLI::App& app, CommandLine& line) {
-    for (const Parameter& parameter : parameter_table()) add_parameter(app, line, parameter);
+template <class Parameters>
+void add_rows(CLI::App& app, CommandLineOf<Parameters>& line) {
+    for (const auto& row : parameter_table<Parameters>()) add_parameter(app, line, row);
+}
+
+void add_parameters(CLI::App& app, CommandLineOf<FlowParameters>& line) {
+    add_rows(app, line);
     // Up to version 1.0.0, the rule with 12 samples was called 11, after the paper's 11-point rule.
     const auto rename = [](std::string& name) {
         if (name == "11") name = "12";
         return std::string();
     };
     app.get_option("--cubature")->transform(CLI::Validator(rename, ""));
+    app.add_option(
+           "--every", line.every,
+           help_of("Also write the surface after every N steps, for an animation or a "
+                   "hierarchy of scales, to files named after OUTPUT: step 10 of smooth.ply "
+                   "is smooth_0010.ply."))
+        ->type_name("N")
+        ->check(CLI::PositiveNumber.description(""));
 }
 
 /// Adds an option for a path, which is given in UTF-8.
@@ -176,13 +192,6 @@ void add_files(CLI::App& app, CommandLine& line) {
     add_path(app, "--report", line.report,
              help_of("Write sizes, times, residuals, error estimates and memory to a JSON file."))
         ->type_name("FILE.json");
-    app.add_option(
-           "--every", line.every,
-           help_of("Also write the surface after every N steps, for an animation or a "
-                   "hierarchy of scales, to files named after OUTPUT: step 10 of smooth.ply "
-                   "is smooth_0010.ply."))
-        ->type_name("N")
-        ->check(CLI::PositiveNumber.description(""));
     app.add_flag("--quiet", line.quiet,
                  help_of("No summary and no progress bar; errors and warnings only."));
 }
@@ -198,7 +207,7 @@ bool is_same_file(const fs::path& a, const fs::path& b) {
     return fs::equivalent(a, b, ignored) || follow_links(a, ignored) == follow_links(b, ignored);
 }
 
-void check_paths(const CommandLine& line) {
+void check_paths(const CommandLine& line, bool has_quality) {
     for (const fs::path& path : {line.input, line.output}) {
         if (format_of(path)) continue;
         throw InvalidParameter(path.u8string() +
@@ -212,7 +221,7 @@ void check_paths(const CommandLine& line) {
         throw InvalidParameter(
             "--strength needs a PLY file as INPUT: only PLY has numbers at vertices.");
     }
-    if (line.parameters.quality != Quality::None && format_of(line.output)->parse != parse_ply) {
+    if (has_quality && format_of(line.output)->parse != parse_ply) {
         throw InvalidParameter("--quality needs a PLY file as OUTPUT: only PLY can hold it.");
     }
     const StepFiles steps(line.output, line.every);
@@ -231,8 +240,9 @@ void check_paths(const CommandLine& line) {
 
 }  // namespace
 
-CommandLine parse_command_line(std::vector<std::string> arguments) {
-    CommandLine line;
+template <class Parameters>
+CommandLineOf<Parameters> parse_command_line(std::vector<std::string> arguments) {
+    CommandLineOf<Parameters> line;
     CLI::App app(wrapped(kDescription, kNameColumns + kTextColumns) + "\n", "tracked_mcf");
     app.allow_windows_style_options(false);  // on Windows, "/scan.ply" would be an option
     app.get_formatter()->column_width(kNameColumns);
@@ -253,8 +263,10 @@ CommandLine parse_command_line(std::vector<std::string> arguments) {
     } catch (const CLI::ParseError& error) {
         throw InvalidParameter(std::string(error.what()) + ". Run tracked_mcf --help.");
     }
-    check_paths(line);
+    check_paths(line, line.parameters.quality != Quality::None);
     return line;
 }
+
+template CommandLineOf<FlowParameters> parse_command_line(std::vector<std::string> arguments);
 
 }  // namespace tracked_mcf

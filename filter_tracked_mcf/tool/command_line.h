@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -10,12 +11,11 @@
 
 namespace tracked_mcf {
 
-/// What a call of the program asks for.
+/// What a call of the program asks for, whatever the filter.
 struct CommandLine {
     std::filesystem::path input, output;
-    std::filesystem::path report;  ///< empty for none
-    FlowParameters parameters;     ///< but for the detail size
-    Length detail_size;
+    std::filesystem::path report;           ///< empty for none
+    std::map<std::string, Length> lengths;  ///< those that were given, by the parameter's name
     std::string selected;  ///< property of INPUT that selects faces; empty for all faces
     std::string strength;  ///< property of INPUT's vertices; empty for none
     int every = 0;         ///< every how many steps the surface is written, too; 0 for never
@@ -25,9 +25,16 @@ struct CommandLine {
     std::string answer;
 };
 
-/// Parses the arguments of the program, without its name. Throws InvalidParameter for unknown
-/// options, values that are no values of their option, and unknown formats. validate() checks the
-/// ranges of parameters.
-CommandLine parse_command_line(std::vector<std::string> arguments);
+/// What a call asks of the filter of these parameters.
+template <class Parameters>
+struct CommandLineOf : CommandLine {
+    Parameters parameters;  ///< but for the lengths
+};
+
+/// Parses the arguments of the program, without its name and the filter's. `Parameters` is
+/// FlowParameters. Throws InvalidParameter for unknown options, values that are no values of their
+/// option, and unknown formats. validate() checks the ranges of parameters.
+template <class Parameters>
+CommandLineOf<Parameters> parse_command_line(std::vector<std::string> arguments);
 
 }  // namespace tracked_mcf

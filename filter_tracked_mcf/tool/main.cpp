@@ -8,8 +8,9 @@
 #include <new>
 #include <optional>
 
-#include "filter_tracked_mcf/core/evolve.h"
+#include "filter_tracked_mcf/core/parameter_table.h"
 #include "filter_tracked_mcf/parameters/length.h"
+#include "filter_tracked_mcf/parameters/run.h"
 #include "filter_tracked_mcf/tool/command_line.h"
 #include "filter_tracked_mcf/tool/file_error.h"
 #include "filter_tracked_mcf/tool/interrupts.h"
@@ -27,12 +28,13 @@ using namespace tracked_mcf;
 enum ExitCode { Done = 0, BadMesh = 1, BadUsage = 2, Unwritable = 3 };
 
 /// Shows a progress bar on a terminal. An interrupt cancels the flow and wipes the bar.
-FlowReport evolve_with_progress(TriangleMesh& mesh, const Selection& selection,
-                                const CommandLine& line, const StepObserver& on_step) {
+template <class Parameters>
+auto run_with_progress(TriangleMesh& mesh, const Selection& selection,
+                       const CommandLineOf<Parameters>& line, const StepObserver& on_step) {
     const InterruptHold hold;
     std::optional<ProgressBar> bar;
     if (!line.quiet && writes_to_terminal()) bar.emplace(std::cerr);
-    return evolve(
+    return tracked_mcf::run(
         mesh, selection, line.parameters,
         [&bar](double fraction, std::string_view phase) {
             if (bar) bar->show(fraction, phase);
@@ -49,8 +51,20 @@ void complain(std::string message) {
     std::cerr << "tracked_mcf: " << message << '\n';
 }
 
-void run(CommandLine line) {
-    line.parameters.detail_size = line.detail_size.value;
+/// Sets the lengths, or those in units of the mesh if there is a mesh.
+template <class Parameters>
+void set_lengths(CommandLineOf<Parameters>& line, const TriangleMesh* mesh) {
+    for (const auto& row : parameter_table<Parameters>()) {
+        const auto length = line.lengths.find(row.name);
+        if (length == line.lengths.end()) continue;
+        row.set(line.parameters,
+                mesh == nullptr ? length->second.value : in_mesh_units(length->second, *mesh));
+    }
+}
+
+template <class Parameters>
+void smooth(CommandLineOf<Parameters> line) {
+    set_lengths(line, nullptr);
     validate(line.parameters);
     // A file that cannot be written is reported before the long work begins.
     OutputFile output(line.output);
@@ -59,7 +73,7 @@ void run(CommandLine line) {
 
     MeshFile file(line.input);
     TriangleMesh mesh = file.triangle_mesh();
-    line.parameters.detail_size = in_mesh_units(line.detail_size, mesh);
+    set_lengths(line, &mesh);
     Selection selection;
     if (!line.selected.empty()) selection = file.selection_by(line.selected);
     if (!line.strength.empty()) mesh.strength = file.strength_by(line.strength);
@@ -72,8 +86,8 @@ void run(CommandLine line) {
             });
         };
     }
-    const FlowReport report = evolve_with_progress(mesh, selection, line, on_step);
-    step_files.remove_after(static_cast<int>(report.steps.size()));
+    const auto report = run_with_progress(mesh, selection, line, on_step);
+    step_files.remove_after(steps_of(report));
 
     file.set_quality(report.quality);
     output.write([&](std::ostream& out) { file.write(mesh, out, line.output); });
@@ -91,6 +105,16 @@ void run(CommandLine line) {
     for (const std::string& warning : all_warnings) complain("warning: " + warning);
 }
 
+/// Does what the arguments ask of the filter of these parameters.
+template <class Parameters>
+void answer_or_smooth(std::vector<std::string> arguments) {
+    const auto line = parse_command_line<Parameters>(std::move(arguments));
+    if (line.answer.empty())
+        smooth(line);
+    else
+        std::cout << line.answer << std::flush;
+}
+
 int fail(ExitCode code, std::string message) {
     complain(std::move(message));
     return code;
@@ -102,11 +126,7 @@ int main(int argc, char** argv) {
     report_file_limits();
     handle_interrupts();
     try {
-        const CommandLine line = parse_command_line(utf8_arguments(argc, argv));
-        if (line.answer.empty())
-            run(line);
-        else
-            std::cout << line.answer << std::flush;
+        answer_or_smooth<FlowParameters>(utf8_arguments(argc, argv));
         if (!std::cout) {
             throw UnwritableFile("cannot write to the standard output; the disk may be full.");
         }

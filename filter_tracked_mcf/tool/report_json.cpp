@@ -67,7 +67,7 @@ double total_seconds(const FlowReport& report) {
 
 }  // namespace
 
-std::string report_json(const CommandLine& line, const FlowReport& report,
+std::string report_json(const CommandLineOf<FlowParameters>& line, const FlowReport& report,
                         const std::vector<std::string>& warnings) {
     ReportValue selected, strength;
     if (!line.selected.empty()) selected.value = line.selected;
@@ -81,7 +81,7 @@ std::string report_json(const CommandLine& line, const FlowReport& report,
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-std::string summary(const CommandLine& line, const FlowReport& report) {
+std::string summary(const CommandLineOf<FlowParameters>& line, const FlowReport& report) {
     std::ostringstream text;
     text << line.input.u8string() << ": " << report.vertices << " vertices, " << report.triangles
          << " triangles";
@@ -106,11 +106,12 @@ std::string summary(const CommandLine& line, const FlowReport& report) {
     return text.str();
 }
 
-std::vector<std::string> warnings(const CommandLine& line, const FlowReport& report) {
+std::vector<std::string> warnings(const CommandLineOf<FlowParameters>& line,
+                                  const FlowReport& report) {
     const char* const advice = stabilization_of(line.parameters) < kDefaultStabilization
                                    ? "Give a larger --stabilization or --tolerance."
                                    : "Give a larger --tolerance or a smaller --detail-size.";
-    return flow_warnings(line.parameters, report, advice);
+    return warnings_of(line.parameters, report, advice);
 }
 
 }  // namespace tracked_mcf

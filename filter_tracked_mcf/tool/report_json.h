@@ -10,13 +10,14 @@
 namespace tracked_mcf {
 
 /// Returns the version, file names and report_values() as indented JSON.
-std::string report_json(const CommandLine& line, const FlowReport& report,
+std::string report_json(const CommandLineOf<FlowParameters>& line, const FlowReport& report,
                         const std::vector<std::string>& warnings);
 
 /// Returns the main numbers of the report in a few lines for a person.
-std::string summary(const CommandLine& line, const FlowReport& report);
+std::string summary(const CommandLineOf<FlowParameters>& line, const FlowReport& report);
 
 /// Returns warnings, one line each, that are printed even without a summary.
-std::vector<std::string> warnings(const CommandLine& line, const FlowReport& report);
+std::vector<std::string> warnings(const CommandLineOf<FlowParameters>& line,
+                                  const FlowReport& report);
 
 }  // namespace tracked_mcf

@@ -24,7 +24,7 @@ TEST(ParameterTable, NamesTheValuesOfEachChoiceInTheirOrder) {
         {"preserve", {static_cast<int>(Preserve::Volume), "Volume"}},
         {"quality", {static_cast<int>(Quality::MeanCurvature), "Mean curvature"}},
         {"method", {2, "Paper"}}};
-    for (const Parameter& parameter : parameter_table()) {
+    for (const auto& parameter : parameter_table<FlowParameters>()) {
         if (parameter.type != Parameter::Type::Choice || parameter.label.empty()) continue;
         const auto& [value, label] = labels.at(parameter.name);
         EXPECT_EQ(parameter.choices.at(static_cast<std::size_t>(std::get<int>(value))).label,
@@ -154,16 +154,16 @@ TEST(Summary, NamesTheFirstStepAboveTheToleranceAndTheRemedy) {
 }
 
 TEST(Warnings, AreOneALine) {
-    using run_filter_detail::warnings_of;
+    using run_filter_detail::warning_lines;
     FlowReport report;
     report.steps.resize(2);
-    EXPECT_EQ(warnings_of({}, report), "");
+    EXPECT_EQ(warning_lines({}, report), "");
     report.steps[0].area = 10;
     report.steps[1].area = report.area_after = 5;
-    const std::string loss = warnings_of({}, report);
+    const std::string loss = warning_lines({}, report);
     EXPECT_EQ(loss.rfind("Step 1 removed 50 % of the area.", 0), 0u) << loss;
     report.steps[1].reached_tolerance = false;
-    EXPECT_EQ(warnings_of({}, report).rfind(loss + "\nThe solver stopped short of", 0), 0u);
+    EXPECT_EQ(warning_lines({}, report).rfind(loss + "\nThe solver stopped short of", 0), 0u);
 }
 
 TEST(Summary, NamesTheFlowAndTheConstrainedVertices) {
@@ -249,7 +249,7 @@ TEST(EarlyStop, NamesTheStepTheReasonAndTheRemedy) {
     parameters.iterations = 10;
     FlowReport report;
     const auto early_stop = [&] {
-        const std::vector<std::string> warnings = flow_warnings(parameters, report, "");
+        const std::vector<std::string> warnings = warnings_of(parameters, report, "");
         return warnings.empty() ? "" : warnings.front();
     };
     EXPECT_EQ(early_stop(), "");
@@ -289,7 +289,7 @@ TEST(Warnings, TellOfALimitedStepADetailBelowACellAndASuddenLoss) {
     report.steps.resize(2);
     report.steps[0].area = 10;
     report.steps[1].area = report.area_after = 9.1;
-    const auto warnings = [&] { return flow_warnings({}, report, ""); };
+    const auto warnings = [&] { return warnings_of({}, report, ""); };
     EXPECT_TRUE(warnings().empty());
     report.asked_step_size = 4;
     ASSERT_EQ(warnings().size(), 1U);

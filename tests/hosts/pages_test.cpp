@@ -33,7 +33,7 @@ Rows matches(const std::string& text, const std::string& pattern) {
 }
 
 std::string default_in_words(const Parameter& parameter) {
-    const ParameterValue value = parameter.get({});
+    const ParameterValue value = parameter.initial;
     if (parameter.type == Parameter::Type::Length) return "2.5 mean edge lengths";
     if (parameter.type == Parameter::Type::Selected) return "on if faces are selected";
     const bool is_switch =
@@ -53,7 +53,7 @@ std::string default_in_words(const Parameter& parameter) {
 void expect_table(const std::string& file, const std::string& heading, const std::string& pattern,
                   bool in_dialogs) {
     Rows expected;
-    for (const Parameter& parameter : parameter_table()) {
+    for (const auto& parameter : parameter_table<FlowParameters>()) {
         if (parameter.label.empty() == in_dialogs) continue;
         std::string name = parameter.name;
         // The program's options have dashes.
@@ -72,14 +72,14 @@ TEST(Pages, TablesHaveTheNamesAndDefaultsOfAllParameters) {
 
 TEST(Pages, TheFilterScriptSetsAllParametersToTheirDefaults) {
     Rows expected;
-    for (const Parameter& parameter : parameter_table()) {
+    for (const auto& parameter : parameter_table<FlowParameters>()) {
         if (parameter.label.empty()) continue;
         const auto in_xml = [](auto value) -> std::string {
             std::ostringstream text;
             text << std::boolalpha << value;
             return text.str();
         };
-        expected.emplace_back(parameter.name, std::visit(in_xml, parameter.get({})));
+        expected.emplace_back(parameter.name, std::visit(in_xml, parameter.initial));
     }
     const std::string text = page("filter_tracked_mcf/plugin/README.md");
     EXPECT_EQ(matches(text, "<Param type=\"\\w+\" name=\"(\\w+)\" value=\"([^\"]*)\""), expected);

@@ -22,8 +22,8 @@ namespace {
 TEST_F(Plugin, DeclaresItselfAsAPreviewableSmoother) {
     const host::Declaration declaration = filter().declaration();
     EXPECT_EQ(filter().filters_in_plugin(), 1);
-    EXPECT_EQ(declaration.name, kFilterName);
-    EXPECT_TRUE(contains(declaration.help, kFilterHelp));
+    EXPECT_EQ(declaration.name, kNames<FlowParameters>.name);
+    EXPECT_TRUE(contains(declaration.help, kNames<FlowParameters>.help));
     EXPECT_TRUE(declaration.smooths);
     EXPECT_TRUE(declaration.takes_one_layer);
     EXPECT_EQ(declaration.requirements, MeshModel::MM_NONE);
@@ -45,7 +45,8 @@ TEST_F(Plugin, IsApplicableToFacesOnly) {
 
 /// Returns the rows of the table that dialogs and scripts offer.
 std::vector<Parameter> offered_parameters() {
-    std::vector<Parameter> rows = parameter_table();
+    const auto& table = parameter_table<FlowParameters>();
+    std::vector<Parameter> rows(table.begin(), table.end());
     const auto is_hidden = [](const Parameter& parameter) { return parameter.label.empty(); };
     rows.erase(std::remove_if(rows.begin(), rows.end(), is_hidden), rows.end());
     return rows;
@@ -53,7 +54,7 @@ std::vector<Parameter> offered_parameters() {
 
 /// Expects a parameter of the plugin to have the default, the range and the labels of its row.
 void expect_row(const RichParameter& actual, const Parameter& row, Scalarm diagonal) {
-    const ParameterValue initial = row.get({});
+    const ParameterValue initial = row.initial;
     switch (row.type) {
         case Parameter::Type::Switch:
         case Parameter::Type::Strength:

@@ -14,8 +14,8 @@ namespace {
 
 using ::testing::HasSubstr;
 
-CommandLine parse(const std::vector<const char*>& arguments) {
-    return parse_command_line({arguments.begin(), arguments.end()});
+CommandLineOf<FlowParameters> parse(const std::vector<const char*>& arguments) {
+    return parse_command_line<FlowParameters>({arguments.begin(), arguments.end()});
 }
 
 std::string complaint(const std::vector<const char*>& arguments) {
@@ -38,14 +38,14 @@ std::string unwrapped(const std::string& text) {
 }
 
 TEST(CommandLine, DefaultsAreThoseOfTheFlow) {
-    const CommandLine line = parse({"a.ply", "b.obj"});
+    const auto line = parse({"a.ply", "b.obj"});
     const FlowParameters defaults;
     EXPECT_EQ(line.input, "a.ply");
     EXPECT_EQ(line.output, "b.obj");
     EXPECT_EQ(line.report, "");
     EXPECT_FALSE(line.quiet);
-    EXPECT_EQ(line.detail_size.value, defaults.detail_size);
-    EXPECT_FALSE(line.detail_size.in_per_cent);
+    EXPECT_TRUE(line.lengths.empty());
+    EXPECT_EQ(line.parameters.detail_size, defaults.detail_size);
     EXPECT_EQ(line.parameters.local_detail_size, defaults.local_detail_size);
     EXPECT_EQ(line.parameters.order, defaults.order);
     EXPECT_EQ(line.parameters.depth, defaults.depth);
@@ -66,46 +66,46 @@ TEST(CommandLine, DefaultsAreThoseOfTheFlow) {
 }
 
 TEST(CommandLine, EveryOptionIsTaken) {
-    const CommandLine line = parse({"a.PLY",
-                                    "b.Stl",
-                                    "--detail-size",
-                                    "0.75%",
-                                    "--local-detail-size",
-                                    "--order",
-                                    "4",
-                                    "--depth",
-                                    "7",
-                                    "--step-size",
-                                    "2.5e-4",
-                                    "--absolute",
-                                    "--iterations=3",
-                                    "--flow",
-                                    "conformalized",
-                                    "--boundary",
-                                    "free",
-                                    "--selected",
-                                    "my quality",
-                                    "--preserve",
-                                    "volume",
-                                    "--method",
-                                    "paper",
-                                    "--keep-edges",
-                                    "25",
-                                    "--tolerance",
-                                    "1e-10",
-                                    "--stabilization",
-                                    "0.5",
-                                    "--cubature",
-                                    "12",
-                                    "--cycles",
-                                    "4",
-                                    "--threads",
-                                    "2",
-                                    "--report",
-                                    "r.json",
-                                    "--quiet"});
-    EXPECT_EQ(line.detail_size.value, 0.75);
-    EXPECT_TRUE(line.detail_size.in_per_cent);
+    const auto line = parse({"a.PLY",
+                             "b.Stl",
+                             "--detail-size",
+                             "0.75%",
+                             "--local-detail-size",
+                             "--order",
+                             "4",
+                             "--depth",
+                             "7",
+                             "--step-size",
+                             "2.5e-4",
+                             "--absolute",
+                             "--iterations=3",
+                             "--flow",
+                             "conformalized",
+                             "--boundary",
+                             "free",
+                             "--selected",
+                             "my quality",
+                             "--preserve",
+                             "volume",
+                             "--method",
+                             "paper",
+                             "--keep-edges",
+                             "25",
+                             "--tolerance",
+                             "1e-10",
+                             "--stabilization",
+                             "0.5",
+                             "--cubature",
+                             "12",
+                             "--cycles",
+                             "4",
+                             "--threads",
+                             "2",
+                             "--report",
+                             "r.json",
+                             "--quiet"});
+    EXPECT_EQ(line.lengths.at("detail_size").value, 0.75);
+    EXPECT_TRUE(line.lengths.at("detail_size").in_per_cent);
     EXPECT_TRUE(line.parameters.local_detail_size);
     EXPECT_EQ(line.parameters.order, 4);
     EXPECT_EQ(line.parameters.depth, 7);
@@ -129,11 +129,11 @@ TEST(CommandLine, EveryOptionIsTaken) {
 }
 
 TEST(CommandLine, EveryValueOfAChoiceHasTheNameThatSelectsIt) {
-    const auto value = [](const Parameter& parameter, const std::string& name) {
+    const auto value = [](const ParameterOf<FlowParameters>& parameter, const std::string& name) {
         const std::string option = "--" + parameter.name;
         return parameter.get(parse({"a.ply", "b.ply", option.c_str(), name.c_str()}).parameters);
     };
-    for (const Parameter& parameter : parameter_table()) {
+    for (const auto& parameter : parameter_table<FlowParameters>()) {
         for (std::size_t i = 0; i < parameter.choices.size(); ++i) {
             const std::string& name = parameter.choices[i].name;
             EXPECT_EQ(value(parameter, name), ParameterValue(static_cast<int>(i))) << name;
@@ -143,7 +143,7 @@ TEST(CommandLine, EveryValueOfAChoiceHasTheNameThatSelectsIt) {
 
 TEST(CommandLine, ALengthIsInUnitsOfTheMeshOrInPerCent) {
     const auto length = [](const char* text) {
-        return parse({"a.ply", "b.ply", "--detail-size", text}).detail_size;
+        return parse({"a.ply", "b.ply", "--detail-size", text}).lengths.at("detail_size");
     };
     const auto expect = [&](const char* text, double value, bool in_per_cent) {
         EXPECT_EQ(length(text).value, value) << text;
@@ -179,7 +179,7 @@ TEST(CommandLine, OnlyAPlyHasPropertiesToSelectBy) {
 
 TEST(CommandLine, NegativeNumbersAndNotANumberReachTheFlowsOwnCheck) {
     const auto detail_size = [](const char* text) {
-        return parse({"a.ply", "b.ply", "--detail-size", text}).detail_size.value;
+        return parse({"a.ply", "b.ply", "--detail-size", text}).lengths.at("detail_size").value;
     };
     EXPECT_EQ(detail_size("-1"), -1);
     EXPECT_EQ(detail_size("-1%"), -1);
@@ -277,7 +277,7 @@ TEST(CommandLine, HelpNamesEveryOptionAndExplainsTheSharedParameters) {
                                "PLY, OBJ, OFF and STL"}) {
         EXPECT_THAT(help, HasSubstr(option));
     }
-    for (const Parameter& parameter : parameter_table()) {
+    for (const auto& parameter : parameter_table<FlowParameters>()) {
         EXPECT_THAT(unwrapped(help), HasSubstr(parameter.help)) << parameter.name;
     }
 }

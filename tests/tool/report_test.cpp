@@ -16,7 +16,7 @@ namespace {
 using Json = nlohmann::json;
 
 TEST(Report, HoldsEveryMemberUnderItsName) {
-    CommandLine line;
+    CommandLineOf<FlowParameters> line;
     line.input = "in.ply";
     line.output = "out.obj";
     line.parameters.detail_size = 0.375;
@@ -97,7 +97,7 @@ TEST(Report, HoldsEveryMemberUnderItsName) {
 }
 
 TEST(Report, HoldsTheStabilizationThatIsUsed) {
-    CommandLine line;
+    CommandLineOf<FlowParameters> line;
     const auto stabilization = [&] {
         return Json::parse(report_json(line, {}, {}))["parameters"]["stabilization"];
     };
@@ -107,7 +107,7 @@ TEST(Report, HoldsTheStabilizationThatIsUsed) {
 }
 
 TEST(Report, WCyclesKnowNoTolerance) {
-    CommandLine line;
+    CommandLineOf<FlowParameters> line;
     line.parameters.solver = Solver::OneWCycle;
     FlowReport report;
     report.steps.resize(1);
@@ -139,7 +139,7 @@ TEST(Report, SaysWhetherAllStepsConverged) {
 }
 
 std::string line_on_solving(Solver solver, const std::vector<int>& iterations) {
-    CommandLine line;
+    CommandLineOf<FlowParameters> line;
     line.parameters.solver = solver;
     FlowReport report;
     for (const int count : iterations) {
@@ -191,7 +191,7 @@ TEST(Report, SelectedIsNullUnlessGiven) {
 }
 
 TEST(Warnings, NameTheWorstStepThatStoppedShort) {
-    CommandLine line;
+    CommandLineOf<FlowParameters> line;
     FlowReport report;
     report.steps.resize(4);
     EXPECT_TRUE(warnings(line, report).empty());
@@ -239,7 +239,7 @@ TEST(Warnings, NameTheFirstStepThatRemovedMuchOfTheArea) {
 }
 
 TEST(Warnings, SayThatTheFlowStopped) {
-    CommandLine line;
+    CommandLineOf<FlowParameters> line;
     line.parameters.iterations = 10;
     FlowReport report;
     report.steps.resize(4);
@@ -278,7 +278,7 @@ TEST(Report, HoldsEveryWarningThatIsPrinted) {
 }
 
 TEST(Report, IsJsonWhateverTheFileNames) {
-    CommandLine line;
+    CommandLineOf<FlowParameters> line;
     line.input = "\xff\"\n.ply";
     EXPECT_TRUE(Json::accept(report_json(line, {}, {})));
 }

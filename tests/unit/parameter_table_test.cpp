@@ -12,7 +12,7 @@ namespace {
 
 /// Returns a value in the parameter's range that is not its default.
 ParameterValue other_value(const Parameter& parameter) {
-    const ParameterValue value = parameter.get({});
+    const ParameterValue value = parameter.initial;
     if (const bool* const flag = std::get_if<bool>(&value)) return !*flag;
     if (const int* const number = std::get_if<int>(&value)) {
         return *number < parameter.range.largest ? *number + 1 : *number - 1;
@@ -26,23 +26,23 @@ bool is_of_host(const Parameter& parameter) {
 }
 
 TEST(ParameterTable, ARowSetsItsMemberAndNoOther) {
-    for (const Parameter& set : parameter_table()) {
+    for (const auto& set : parameter_table<FlowParameters>()) {
         if (is_of_host(set)) continue;
         const ParameterValue value = other_value(set);
         FlowParameters parameters;
         set.set(parameters, value);
         EXPECT_NO_THROW(validate(parameters)) << set.name;
-        for (const Parameter& other : parameter_table()) {
+        for (const auto& other : parameter_table<FlowParameters>()) {
             // The default of the stabilisation depends on the method.
             if (set.name == "method" && other.name == "stabilization") continue;
-            EXPECT_EQ(other.get(parameters), &other == &set ? value : other.get({}))
+            EXPECT_EQ(other.get(parameters), &other == &set ? value : other.initial)
                 << set.name << ' ' << other.name;
         }
     }
 }
 
 TEST(ParameterTable, AMethodComesBackAndANumberThatIsNoneIsRefused) {
-    for (const Parameter& parameter : parameter_table()) {
+    for (const auto& parameter : parameter_table<FlowParameters>()) {
         if (parameter.name != "method") continue;
         for (int number = -1; number <= 3; ++number) {
             FlowParameters parameters;
@@ -58,7 +58,7 @@ TEST(ParameterTable, AMethodComesBackAndANumberThatIsNoneIsRefused) {
 }
 
 TEST(ParameterTable, WhatHostsTakeFromTheMeshIsNoMember) {
-    for (const Parameter& parameter : parameter_table()) {
+    for (const auto& parameter : parameter_table<FlowParameters>()) {
         if (!is_of_host(parameter)) continue;
         FlowParameters parameters;
         parameter.set(parameters, true);
@@ -68,7 +68,7 @@ TEST(ParameterTable, WhatHostsTakeFromTheMeshIsNoMember) {
 
 TEST(ParameterTable, NamesDiffer) {
     std::set<std::string> names;
-    for (const Parameter& parameter : parameter_table()) {
+    for (const auto& parameter : parameter_table<FlowParameters>()) {
         EXPECT_TRUE(names.insert(parameter.name).second) << parameter.name;
     }
 }

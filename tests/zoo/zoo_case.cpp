@@ -172,13 +172,13 @@ Case case_of(std::uint64_t seed, std::int64_t number) {
 
 std::string options_of(const Case& described) {
     std::ostringstream text;
-    for (const Parameter& parameter : parameter_table()) {
+    for (const auto& parameter : parameter_table<FlowParameters>()) {
         if (parameter.type == Parameter::Type::Selected ||
             parameter.type == Parameter::Type::Strength)
             continue;
         const ParameterValue value = parameter.get(described.parameters);
         // The default of the stabilisation depends on the method.
-        if (value == parameter.get({}) && parameter.name != "stabilization") continue;
+        if (value == parameter.initial && parameter.name != "stabilization") continue;
         std::string option = parameter.name;
         std::replace(option.begin(), option.end(), '_', '-');
         text << (text.tellp() > 0 ? " --" : "--") << option;

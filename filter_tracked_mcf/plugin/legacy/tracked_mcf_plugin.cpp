@@ -3,15 +3,15 @@
 
 namespace tracked_mcf {
 
-void TrackedMcfPlugin::initParameterSet(QAction*, MeshDocument& document,
+void TrackedMcfPlugin::initParameterSet(QAction* action, MeshDocument& document,
                                         RichParameterList& parameters) {
-    parameters = rich_parameters(document.mm());
+    parameters = filter(ID(action)).parameters(document.mm());
 }
 
-bool TrackedMcfPlugin::applyFilter(QAction*, MeshDocument& document,
+bool TrackedMcfPlugin::applyFilter(QAction* action, MeshDocument& document,
                                    const RichParameterList& parameters,
                                    vcg::CallBackPos* callback) {
-    const FilterOutcome outcome = smooth_current_layer(document, parameters, callback);
+    const FilterOutcome outcome = filter(ID(action)).apply(document, parameters, callback);
     if (!outcome.succeeded) errorMessage = QString::fromStdString(outcome.message);
     // Of failures, too: meshlabserver does not print errorMessage.
     Log(kBuild + (": " + outcome.message));

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "filter_tracked_mcf/parameters/filter_names.h"
 #include "filter_tracked_mcf/plugin/meshlab_filter.h"
 
 namespace tracked_mcf {
 
-/// The filter for MeshLab 2020.09. It only translates between MeshLab's types and ours.
+/// The filters for MeshLab 2020.09. It only translates between MeshLab's types and ours.
 class TrackedMcfPlugin : public QObject, public MeshFilterInterface {
     Q_OBJECT
     MESHLAB_PLUGIN_IID_EXPORTER(MESH_FILTER_INTERFACE_IID)
@@ -14,14 +13,16 @@ class TrackedMcfPlugin : public QObject, public MeshFilterInterface {
 
 public:
     TrackedMcfPlugin() {
-        typeList << 0;
-        actionList << new QAction(kFilterName, this);
+        for (const MeshLabFilter& filter : meshlab_filters()) {
+            typeList << typeList.size();
+            actionList << new QAction(filter.names.name, this);
+        }
     }
 
     QString pluginName() const override { return "FilterTrackedMcf"; }
-    QString filterName(FilterIDType) const override { return kFilterName; }
-    QString filterInfo(FilterIDType) const override {
-        return QString(kFilterHelp) + "<br>" + kBuild + ".";
+    QString filterName(FilterIDType id) const override { return filter(id).names.name; }
+    QString filterInfo(FilterIDType id) const override {
+        return QString(filter(id).names.help) + "<br>" + kBuild + ".";
     }
     FilterClass getClass(QAction*) override { return Smoothing; }
     FILTER_ARITY filterArity(QAction*) const override { return SINGLE_MESH; }
@@ -38,6 +39,9 @@ public:
                           RichParameterList& parameters) override;
     bool applyFilter(QAction* action, MeshDocument& document, const RichParameterList& parameters,
                      vcg::CallBackPos* callback) override;
+
+private:
+    static const MeshLabFilter& filter(FilterIDType id) { return meshlab_filters().at(id); }
 };
 
 }  // namespace tracked_mcf

@@ -3,24 +3,24 @@
 
 namespace tracked_mcf {
 
-RichParameterList TrackedMcfPlugin::initParameterList(const QAction*,
+RichParameterList TrackedMcfPlugin::initParameterList(const QAction* action,
                                                       const MeshDocument& document) {
-    return rich_parameters(document.mm());
+    return filter(ID(action)).parameters(document.mm());
 }
 
-std::map<std::string, QVariant> TrackedMcfPlugin::applyFilter(const QAction*,
+std::map<std::string, QVariant> TrackedMcfPlugin::applyFilter(const QAction* action,
                                                               const RichParameterList& parameters,
                                                               MeshDocument& document,
                                                               unsigned int& post_condition_mask,
                                                               vcg::CallBackPos* callback) {
-    const FilterOutcome outcome = smooth_current_layer(document, parameters, callback);
+    const FilterOutcome outcome = filter(ID(action)).apply(document, parameters, callback);
     // Python raises an exception when it gets control. After an MLException, PyMeshLab would raise
     // one of its own, and keep a log that may dangle.
     if (outcome.interrupted) return {};
     // MLException is the only exception that hosts expect.
     if (!outcome.succeeded) throw MLException(QString::fromStdString(outcome.message));
     log(kBuild + (": " + outcome.message));
-    post_condition_mask = static_cast<unsigned int>(postCondition(nullptr));
+    post_condition_mask = static_cast<unsigned int>(postCondition(action));
     std::map<std::string, QVariant> outputs;
     for (const auto& [name, output] : outcome.outputs) {
         outputs[name] = std::visit([](auto number) { return QVariant(number); }, output);

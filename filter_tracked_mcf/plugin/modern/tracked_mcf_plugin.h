@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "filter_tracked_mcf/parameters/filter_names.h"
 #include "filter_tracked_mcf/plugin/meshlab_filter.h"
 
 namespace tracked_mcf {
 
-/// The filter for MeshLab 2022.02 and later, and for PyMeshLab. It only translates between their
+/// The filters for MeshLab 2022.02 and later, and for PyMeshLab. It only translates between their
 /// types and ours.
 class TrackedMcfPlugin : public QObject, public FilterPlugin {
     Q_OBJECT
@@ -15,16 +14,18 @@ class TrackedMcfPlugin : public QObject, public FilterPlugin {
 
 public:
     TrackedMcfPlugin() {
-        typeList = {0};
-        actionList = {new QAction(kFilterName, this)};
+        for (const MeshLabFilter& filter : meshlab_filters()) {
+            typeList.push_back(static_cast<ActionIDType>(typeList.size()));
+            actionList.push_back(new QAction(filter.names.name, this));
+        }
     }
 
     QString pluginName() const override { return "FilterTrackedMcf"; }
     QString vendor() const override { return "Filter Tracked MCF"; }
-    QString filterName(ActionIDType) const override { return kFilterName; }
-    QString pythonFilterName(ActionIDType) const override { return kPythonFilterName; }
-    QString filterInfo(ActionIDType) const override {
-        return QString(kFilterHelp) + "<br>" + kBuild + ".";
+    QString filterName(ActionIDType id) const override { return filter(id).names.name; }
+    QString pythonFilterName(ActionIDType id) const override { return filter(id).names.python; }
+    QString filterInfo(ActionIDType id) const override {
+        return QString(filter(id).names.help) + "<br>" + kBuild + ".";
     }
     FilterClass getClass(const QAction*) const override { return Smoothing; }
     FilterArity filterArity(const QAction*) const override { return SINGLE_MESH; }
@@ -44,6 +45,11 @@ public:
                                                 MeshDocument& document,
                                                 unsigned int& post_condition_mask,
                                                 vcg::CallBackPos* callback) override;
+
+private:
+    static const MeshLabFilter& filter(ActionIDType id) {
+        return meshlab_filters().at(static_cast<std::size_t>(id));
+    }
 };
 
 }  // namespace tracked_mcf

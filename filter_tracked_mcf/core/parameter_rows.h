@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "filter_tracked_mcf/core/parameter_table.h"
+
+/// What the tables of parameters are written with.
+namespace tracked_mcf::parameter_rows {
+
+template <class Member>
+struct ClassOf;
+template <class Value, class Class>
+struct ClassOf<Value Class::*> {
+    using Type = Class;
+};
+
+/// The class of which `member` is a member.
+template <auto member>
+using Owner = typename ClassOf<decltype(member)>::Type;
+
+/// A row without its texts, for a member that is a bool, a number or an enumeration.
+template <auto member>
+ParameterOf<Owner<member>> access(Parameter::Type type, Range range) {
+    using P = Owner<member>;
+    using Value = std::decay_t<decltype(std::declval<P>().*member)>;
+    using Held = std::conditional_t<std::is_enum_v<Value>, int, Value>;
+    ParameterOf<P> row;
+    row.type = type;
+    row.range = std::move(range);
+    row.get = [](const P& p) -> ParameterValue { return static_cast<Held>(p.*member); };
+    row.set = [](P& p, const ParameterValue& value) {
+        p.*member = static_cast<Value>(std::get<Held>(value));
+    };
+    return row;
+}
+
+template <auto member>
+ParameterOf<Owner<member>> toggle() {
+    return access<member>(Parameter::Type::Switch, {0, 1, ""});
+}
+
+template <auto member>
+ParameterOf<Owner<member>> integer(int smallest, int largest, const char* advice = "") {
+    return access<member>(Parameter::Type::Integer, {double(smallest), double(largest), advice});
+}
+
+/// An enumeration, whose enumerators count from 0.
+template <auto member>
+ParameterOf<Owner<member>> choice(std::vector<NamedChoice> choices) {
+    Range range = {0, static_cast<double>(choices.size() - 1), ":"};
+    for (const auto& [label, name] : choices) {
+        range.advice += ' ' + (label.empty() ? name : label) + ',';
+    }
+    range.advice.pop_back();
+    ParameterOf<Owner<member>> row = access<member>(Parameter::Type::Choice, range);
+    row.choices = std::move(choices);
+    return row;
+}
+
+/// A row that sets no member.
+template <class P>
+ParameterOf<P> of_host(Parameter::Type type) {
+    ParameterOf<P> row;
+    row.type = type;
+    row.range = {0, 1, ""};
+    row.get = [](const P&) -> ParameterValue { return false; };
+    row.set = [](P&, const ParameterValue&) {};
+    return row;
+}
+
+/// Completes a row.
+template <class P>
+ParameterOf<P> named(ParameterOf<P> row, std::string name, std::string label, std::string help) {
+    row.name = std::move(name);
+    row.label = std::move(label);
+    row.help = std::move(help);
+    row.initial = row.get(P());
+    return row;
+}
+
+}  // namespace tracked_mcf::parameter_rows

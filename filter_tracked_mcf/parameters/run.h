@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "filter_tracked_mcf/core/evolve.h"
+
+namespace tracked_mcf {
+
+/// Applies the filter of these parameters. See evolve().
+inline FlowReport run(TriangleMesh& mesh, const Selection& selection,
+                      const FlowParameters& parameters, const Progress& progress,
+                      const StepObserver& on_step = {}) {
+    return evolve(mesh, selection, parameters, progress, on_step);
+}
+
+/// Returns the number of steps that the filter has kept.
+inline int steps_of(const FlowReport& report) {
+    return static_cast<int>(report.steps.size());
+}
+
+}  // namespace tracked_mcf
