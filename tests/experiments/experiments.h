@@ -27,6 +27,9 @@ void add_iterations(CLI::App& app);
 /// Measures the distance to a minimal surface that a locked boundary spans.
 void add_minimal(CLI::App& app);
 
+/// Removes the noise of a mesh.
+void add_noise(CLI::App& app);
+
 /// Measures pinched parts in long flows.
 void add_pinches(CLI::App& app);
 

@@ -17,6 +17,7 @@ int main(int argc, char** argv) {
     add_cells(app);
     add_iterations(app);
     add_minimal(app);
+    add_noise(app);
     add_pieces(app);
     add_pinches(app);
     add_progress(app);

@@ -26,6 +26,13 @@ std::string in_words(double bytes) {
 
 }  // namespace
 
+void check_free_memory(double bytes, const std::string& task, const std::string& advice) {
+    const auto available = static_cast<double>(available_memory_bytes());
+    if (available == 0 || bytes <= available) return;
+    throw NotEnoughMemory(task + " would need about " + in_words(bytes) + " of memory, but only " +
+                          in_words(available) + " are free. " + advice);
+}
+
 bool MemoryCheck::is_free(double bytes) const {
     return available_ == 0 || bytes <= static_cast<double>(available_);
 }

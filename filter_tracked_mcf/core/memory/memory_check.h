@@ -2,12 +2,17 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 #include "filter_tracked_mcf/core/cells/grid.h"
 #include "filter_tracked_mcf/core/flow_parameters.h"
 #include "filter_tracked_mcf/core/memory/memory_estimate.h"
 
 namespace tracked_mcf {
+
+/// Throws NotEnoughMemory if `task` ("Removing noise") needs these bytes and fewer are free. The
+/// message ends with `advice`.
+void check_free_memory(double bytes, const std::string& task, const std::string& advice);
 
 /// Refuses depths that need more memory than is available, before the work on them begins.
 class MemoryCheck {

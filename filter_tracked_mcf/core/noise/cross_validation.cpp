@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "filter_tracked_mcf/core/noise/cross_validation.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "filter_tracked_mcf/core/noise/sharpening.h"
+
+namespace tracked_mcf {
+
+namespace {
+
+// The treatments that are tried. They were chosen on fandisk, cube, hand_8k, nefertiti_50k and
+// armadillo_50k with noise of 0.05 to 0.7 edges.
+
+/// Lengths s of the metric, relative to that at which the least crease is as wide as an edge.
+constexpr std::array<double, 4> kNormalLengths = {0.65, 1.3, 2.6, 3.9};
+constexpr std::array<double, 5> kStepSizes = {0.15, 0.3, 0.6, 1.2, 2.4};
+constexpr int kMostSteps = 4;
+/// Steps if the user gives the detail size.
+constexpr int kStepsToDetailSize = 2;
+constexpr std::array<int, 2> kSharpenings = {5, 15};
+/// The width of sharpening, relative to the least crease.
+constexpr double kSharpeningWidth = 0.46;
+
+/// Normals are smoothed the more the larger the noise is, beginning with this one.
+constexpr double kNormalStepSize = 2;
+constexpr double kSmallNoise = 0.2;
+
+/// The trial that measures the noise takes this length of the metric and this step size.
+constexpr double kTrialNormalLength = 2.6, kTrialStepSize = 0.15;
+
+/// The perturbation ε: relative to the noise, and the least one that exceeds rounding by far.
+constexpr double kPerturbation = 0.05, kLeastPerturbation = 1e-4;
+constexpr double kTrialPerturbation = 5e-3;
+
+const double kTwoPi = 2 * std::acos(-1.0);
+
+/// Returns (δ k²)² for the waves whose amplitude `steps` steps halve.
+double halved_waves(int steps) {
+    return std::expm1(std::log(2.0) / steps);
+}
+
+/// Returns a random sign for each vertex (splitmix64).
+float sign_of(std::int32_t vertex) {
+    std::uint64_t bits = (static_cast<std::uint64_t>(vertex) + 1) * 0x9e3779b97f4a7c15U;
+    bits = (bits ^ (bits >> 30U)) * 0xbf58476d1ce4e5b9U;
+    bits = (bits ^ (bits >> 27U)) * 0x94d049bb133111ebU;
+    return (bits >> 63U) != 0 ? 1.0F : -1.0F;
+}
+
+/// What a treatment does to the heights of the sample's vertices.
+struct Effect {
+    double square = 0;       ///< mean square of the movement
+    double divergence = 0;   ///< mean
+    double sign_square = 0;  ///< mean square of what is taken from heights of random sign
+};
+
+/// Positions after a treatment of the sample, and of the sample with perturbed heights.
+struct Twins {
+    Positions plain, perturbed;
+};
+
+/// The best treatment so far.
+struct Attempt {
+    double score = std::numeric_limits<double>::infinity();
+    Treatment treatment;
+    Effect effect;
+    Twins twins;
+};
+
+/// Tries treatments on a sample.
+class Trials {
+public:
+    Trials(const Sample& sample, const NoiseWishes& wishes)
+        : sample_(sample),
+          wishes_(wishes),
+          smoothing_(sample.surface),
+          unit_length_(wishes.crease > 0 ? 1 / wishes.crease : 0),
+          noise_(wishes.noise) {
+        count_ = std::count(sample.counts.begin(), sample.counts.end(), 1);
+        perturb(kTrialPerturbation);
+        // The second time with the normals that the noise needs.
+        for (int i = 0; i < 2; ++i) measure_noise();
+        perturb(std::max(kPerturbation * noise_, kLeastPerturbation));
+    }
+
+    Treatment best() {
+        if (wishes_.detail_size > 0) {
+            for (std::size_t i = 0; i < kNormalLengths.size(); ++i) try_steps(i, 0);
+        } else {
+            descend();
+        }
+        if (wishes_.crease > 0) {
+            const Attempt smooth = best_;
+            for (const int iterations : kSharpenings) try_sharpening(smooth, iterations);
+        }
+        // Steps take from noise what they take from random signs.
+        const Effect& effect = best_.effect;
+        if (effect.sign_square > 0) {
+            best_.treatment.noise = std::sqrt(effect.square / effect.sign_square);
+        }
+        return best_.treatment;
+    }
+
+private:
+    StepSettings settings_for(double normal_length, double step_size) const {
+        return {normal_length * unit_length_, step_size,
+                kNormalStepSize * std::max(1.0, noise_ / kSmallNoise)};
+    }
+
+    /// Sets the heights' normals and their perturbation.
+    void perturb(double perturbation) {
+        const Positions& positions = sample_.surface.positions;
+        normals_ = smoothing_.smooth_normals(positions, settings_for(kTrialNormalLength, 0));
+        perturbation_ = perturbation;
+        start_ = {positions, positions};
+        parallel_for_rows(sample_.surface.stars.count(), [&](std::int32_t vertex) {
+            start_.perturbed[vertex] += perturbation * sign_of(vertex) * normal(vertex);
+        });
+    }
+
+    void measure_noise() {
+        if (wishes_.noise > 0) return;
+        Twins twins = start_;
+        step(settings_for(kTrialNormalLength, kTrialStepSize), twins);
+        const Effect effect = effect_of(twins);
+        noise_ = effect.sign_square > 0 ? std::sqrt(effect.square / effect.sign_square) : 0;
+    }
+
+    Eigen::Vector3d normal(std::int32_t vertex) const {
+        return normals_[vertex].head<3>().cast<double>();
+    }
+
+    void step(const StepSettings& settings, Twins& twins) {
+        smoothing_.step(settings, twins.plain);
+        smoothing_.step(settings, twins.perturbed);
+    }
+
+    Effect effect_of(const Twins& twins) const {
+        const Positions& positions = sample_.surface.positions;
+        const auto mean = [&](const auto& body) {
+            const double sum =
+                sum_over_rows(sample_.surface.stars.count(), [&](std::int32_t vertex) {
+                    return sample_.counts[vertex] != 0 ? body(vertex) : 0;
+                });
+            return count_ > 0 ? sum / static_cast<double>(count_) : 0;
+        };
+        const auto response = [&](std::int32_t vertex) {
+            return (twins.perturbed[vertex] - twins.plain[vertex]).dot(normal(vertex)) /
+                   perturbation_;
+        };
+        Effect effect;
+        effect.square = mean([&](std::int32_t vertex) {
+            const double height = (twins.plain[vertex] - positions[vertex]).dot(normal(vertex));
+            return height * height;
+        });
+        effect.divergence =
+            mean([&](std::int32_t vertex) { return sign_of(vertex) * response(vertex); });
+        effect.sign_square = mean([&](std::int32_t vertex) {
+            const double taken = sign_of(vertex) - response(vertex);
+            return taken * taken;
+        });
+        return effect;
+    }
+
+    double score_of(const Effect& effect) const {
+        if (wishes_.noise > 0) {
+            return effect.square + 2 * noise_ * noise_ * effect.divergence;
+        }
+        const double rest = 1 - effect.divergence;
+        return rest > 0 ? effect.square / (rest * rest) : std::numeric_limits<double>::infinity();
+    }
+
+    /// Keeps an attempt if it is better than the best one. Returns its score.
+    double judge(const Treatment& treatment, const Twins& twins) {
+        const Effect effect = effect_of(twins);
+        const double score = score_of(effect);
+        if (score < best_.score) best_ = {score, treatment, effect, twins};
+        return score;
+    }
+
+    /// Tries steps with these settings, one more after the other until they do not get better.
+    void try_steps(std::size_t length, std::size_t size) {
+        Twins twins = start_;
+        Treatment treatment;
+        if (wishes_.detail_size > 0) {
+            const double wave = wishes_.detail_size / kTwoPi;
+            treatment.settings = settings_for(
+                kNormalLengths[length], wave * wave * std::sqrt(halved_waves(kStepsToDetailSize)));
+            treatment.steps = kStepsToDetailSize;
+            for (int i = 0; i < kStepsToDetailSize; ++i) step(treatment.settings, twins);
+            judge(treatment, twins);
+            return;
+        }
+        treatment.settings = settings_for(kNormalLengths[length], kStepSizes[size]);
+        double last = std::numeric_limits<double>::infinity();
+        while (treatment.steps < kMostSteps) {
+            step(treatment.settings, twins);
+            ++treatment.steps;
+            const double score = judge(treatment, twins);
+            if (!(score < last)) return;
+            last = score;
+        }
+    }
+
+    /// Walks over the grid of lengths and step sizes, to the better neighbour each time.
+    void descend() {
+        const int lengths = wishes_.crease > 0 ? static_cast<int>(kNormalLengths.size()) : 1;
+        const int sizes = static_cast<int>(kStepSizes.size());
+        std::vector<std::uint8_t> tried(kNormalLengths.size() * kStepSizes.size(), 0);
+        const auto improves = [&](int length, int size) {
+            if (length < 0 || length >= lengths || size < 0 || size >= sizes) return false;
+            std::uint8_t& mark = tried[static_cast<std::size_t>(length * sizes + size)];
+            if (std::exchange(mark, std::uint8_t{1}) != 0) return false;
+            const double before = best_.score;
+            try_steps(static_cast<std::size_t>(length), static_cast<std::size_t>(size));
+            return best_.score < before;
+        };
+        int length = lengths / 2, size = sizes / 2;
+        improves(length, size);
+        for (bool moved = true; moved;) {
+            moved = false;
+            for (const auto& [dl, ds] : {std::pair(0, -1), {0, 1}, {-1, 0}, {1, 0}}) {
+                if (!improves(length + dl, size + ds)) continue;
+                length += dl;
+                size += ds;
+                moved = true;
+            }
+        }
+    }
+
+    void try_sharpening(const Attempt& smooth, int iterations) {
+        Treatment treatment = smooth.treatment;
+        treatment.sharpening_width = kSharpeningWidth * wishes_.crease;
+        treatment.sharpenings = iterations;
+        Twins twins = smooth.twins;
+        sharpen(sample_.surface, treatment.sharpening_width, iterations, twins.plain);
+        sharpen(sample_.surface, treatment.sharpening_width, iterations, twins.perturbed);
+        judge(treatment, twins);
+    }
+
+    const Sample& sample_;
+    const NoiseWishes wishes_;
+    Smoothing smoothing_;
+    double unit_length_;  ///< s at which the least crease is as wide as an edge
+    double noise_;
+    std::int64_t count_ = 0;
+    Vectors normals_;
+    double perturbation_ = 0;
+    Twins start_;
+    Attempt best_;
+};
+
+}  // namespace
+
+double detail_size_of(const Treatment& treatment) {
+    if (treatment.steps == 0) return 0;
+    return kTwoPi *
+           std::sqrt(treatment.settings.step_size / std::sqrt(halved_waves(treatment.steps)));
+}
+
+Treatment best_treatment(const Sample& sample, const NoiseWishes& wishes) {
+    return Trials(sample, wishes).best();
+}
+
+}  // namespace tracked_mcf

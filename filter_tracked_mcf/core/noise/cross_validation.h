@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "filter_tracked_mcf/core/noise/noisy_surface.h"
+#include "filter_tracked_mcf/core/noise/smoothing.h"
+
+namespace tracked_mcf {
+
+/// What the user asks for. Lengths are in edges.
+struct NoiseWishes {
+    double crease = 0;       ///< difference of unit normals across the least crease; 0: no creases
+    double noise = 0;        ///< standard deviation; 0: unknown
+    double detail_size = 0;  ///< see NoiseParameters::detail_size; 0: what the noise needs
+};
+
+/// How noise is removed from a surface. Lengths are in edges.
+struct Treatment {
+    StepSettings settings;  ///< of every step
+    int steps = 0;
+    double sharpening_width = 0;  ///< see sharpen()
+    int sharpenings = 0;          ///< iterations of sharpen(); 0: none
+    double noise = 0;             ///< the standard deviation that the sample shows
+};
+
+/// Returns the length of the waves whose amplitude the steps of a treatment halve.
+double detail_size_of(const Treatment& treatment);
+
+/// Returns the treatment that suits a sample best.
+///
+/// A treatment F, a function of n noisy heights x, is the better the smaller its generalised
+/// cross-validation is, |F(x) - x|² / n / (1 - div F / n)² (Golub, Heath and Wahba, 1979), which
+/// needs no knowledge of the noise. If the noise σ is known, this is Stein's estimate of the risk,
+/// |F(x) - x|² / n + 2 σ² div F / n (1981). Both need the divergence of F, which F(x + ε z) tells
+/// for random signs z (Ramani, Blu and Unser, "Monte-Carlo SURE", 2008).
+Treatment best_treatment(const Sample& sample, const NoiseWishes& wishes);
+
+}  // namespace tracked_mcf

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "filter_tracked_mcf/core/noise/noisy_surface.h"
+
+namespace tracked_mcf {
+
+/// Mass and stiffness of linear elements on a surface, and the systems of a step.
+///
+/// The metric is that of (X, s N), where N are normals and every side of X counts as one edge: the
+/// square of a side is 1 + s² |ΔN|². A crease, across which N turns, is wide. The lengths of the
+/// noisy surface itself are of no use: noise makes them longer, so the noisiest parts would be
+/// smoothed least.
+class LinearElements {
+public:
+    /// `surface` must outlive the elements.
+    explicit LinearElements(const NoisySurface& surface);
+
+    /// Takes the metric of normals N and the length s, in edges.
+    void assemble(const Vectors& normals, double normal_length);
+
+    /// Solves (M + δ L) x = M b, from the given x, to the accuracy that normals need. Returns the
+    /// number of iterations.
+    int smooth(double step_size, const Vectors& b, Vectors& x);
+
+    /// Finds the displacements d that solve (F M + δ² L M⁻¹ L) (X + d) = F M X, where F are
+    /// the fidelities and vertices without one stay: a wave with the eigenvalue k keeps
+    /// 1 / (1 + (δ k)²) where F is 1. Returns the number of iterations.
+    int displace(double step_size, const Positions& positions, Vectors& d);
+
+private:
+    Eigen::Vector4f stiffness(const Vectors& x, std::int32_t vertex) const;
+    template <class Product>
+    int solve(const Product& multiply, double limit, Vectors& x);
+    double residual_square() const;
+
+    const NoisySurface& surface_;
+    RawVector<std::array<float, 4>> weights_;  ///< per triangle: cot / 2 at each corner, mass
+    RawVector<float> values_;                  ///< per entry of Stars::neighbours: -L
+    RawVector<float> masses_, diagonal_;       ///< of M and of L
+    RawVector<float> inverse_;                 ///< the preconditioner: of a diagonal, or 0
+    Vectors residual_, direction_, product_, inner_;
+};
+
+}  // namespace tracked_mcf

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "filter_tracked_mcf/core/noise/noisy_surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "filter_tracked_mcf/core/errors.h"
+#include "filter_tracked_mcf/core/mesh/measures.h"
+
+namespace tracked_mcf {
+
+namespace {
+
+/// Vertices of a patch of a sample.
+constexpr std::int32_t kPatch = 500;
+
+/// The least strength that still moves a vertex, so that fidelities are finite.
+constexpr double kLeastStrength = 1e-3;
+
+/// A side of a triangle.
+struct Side {
+    std::int32_t triangle;
+    bool forwards;  ///< from the edge's smaller vertex to the larger one
+};
+
+/// Lists the sides of each edge.
+struct SidesOfEdges {
+    explicit SidesOfEdges(const MeshTopology& topology)
+        : begin(static_cast<std::size_t>(topology.edge_count) + 1, 0) {
+        const auto for_each_side = [&](const auto& visit) {
+            for (std::int32_t t = 0; t < static_cast<std::int32_t>(topology.edges.size()); ++t) {
+                for (int side = 0; side < 3; ++side) {
+                    const std::int32_t edge = topology.edges[t][side];
+                    if (edge == MeshTopology::kNoEdge) continue;
+                    const Triangle& corners = topology.triangles[t];
+                    visit(edge, Side{t, corners[side] < corners[(side + 1) % 3]});
+                }
+            }
+        };
+        for_each_side([&](std::int32_t edge, Side /*side*/) { ++begin[edge + 1]; });
+        std::partial_sum(begin.begin(), begin.end(), begin.begin());
+        sides.resize(begin.back());
+        std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
+        for_each_side([&](std::int32_t edge, Side side) { sides[next[edge]++] = side; });
+    }
+
+    std::vector<std::uint32_t> begin;  ///< per edge, and the end
+    RawVector<Side> sides;
+};
+
+/// Returns the triangles, those of each component oriented like its first one, by a search in
+/// breadth. A surface with one side gets a seam.
+RawVector<Triangle> oriented_triangles(const MeshTopology& topology) {
+    RawVector<Triangle> triangles = topology.triangles;
+    if (topology.is_oriented_consistently()) return triangles;
+    const SidesOfEdges edges(topology);
+    constexpr std::uint8_t unknown = 2;
+    std::vector<std::uint8_t> flipped(topology.triangles.size(), unknown);
+    std::vector<std::int32_t> queue;
+    const auto visit_neighbours = [&](std::int32_t triangle) {
+        for (int side = 0; side < 3; ++side) {
+            const std::int32_t edge = topology.edges[triangle][side];
+            if (edge == MeshTopology::kNoEdge) continue;
+            const Side* const sides = edges.sides.data() + edges.begin[edge];
+            // Where more than two triangles meet, none continues another.
+            if (edges.begin[edge + 1] - edges.begin[edge] != 2) continue;
+            const Side& other = sides[sides[0].triangle == triangle ? 1 : 0];
+            if (flipped[other.triangle] != unknown) continue;
+            const bool alike = sides[0].forwards != sides[1].forwards;
+            const std::uint8_t here = flipped[triangle];
+            flipped[other.triangle] = alike ? here : static_cast<std::uint8_t>(1 - here);
+            queue.push_back(other.triangle);
+        }
+    };
+    for (std::size_t first = 0; first < flipped.size(); ++first) {
+        if (flipped[first] != unknown) continue;
+        flipped[first] = 0;
+        queue.assign(1, static_cast<std::int32_t>(first));
+        for (std::size_t i = 0; i < queue.size(); ++i) {
+            visit_neighbours(queue[i]);
+            poll_progress();
+        }
+    }
+    for (std::size_t t = 0; t < flipped.size(); ++t) {
+        if (flipped[t] == 1) std::swap(triangles[t][1], triangles[t][2]);
+    }
+    return triangles;
+}
+
+bool has_three_vertices(const Triangle& t) {
+    return t[0] != t[1] && t[1] != t[2] && t[2] != t[0];
+}
+
+/// Returns new numbers, from 0, for the vertices that have a mark, and -1 for the others.
+std::vector<std::int32_t> numbers_of(const std::vector<std::uint8_t>& marked) {
+    std::vector<std::int32_t> numbers(marked.size(), -1);
+    std::int32_t count = 0;
+    for (std::size_t i = 0; i < marked.size(); ++i) {
+        if (marked[i] != 0) numbers[i] = count++;
+    }
+    return numbers;
+}
+
+/// Returns the triangles whose vertices all have a number, with these numbers.
+RawVector<Triangle> renumbered(const RawVector<Triangle>& triangles,
+                               const std::vector<std::int32_t>& numbers) {
+    RawVector<Triangle> result;
+    result.reserve(triangles.size());
+    for (const Triangle& t : triangles) {
+        const Triangle renamed = {numbers[t[0]], numbers[t[1]], numbers[t[2]]};
+        if (std::min({renamed[0], renamed[1], renamed[2]}) >= 0 && has_three_vertices(t)) {
+            result.push_back(renamed);
+        }
+    }
+    return result;
+}
+
+/// A vertex with strength r keeps the waves that others keep of r times their length.
+float fidelity_of(double strength) {
+    const double square = strength * strength;
+    return static_cast<float>(1 / (square * square));
+}
+
+/// Returns the mean length of the sides of triangles, 0 if there are none.
+double mean_side(const std::vector<Eigen::Vector3d>& positions,
+                 const RawVector<Triangle>& triangles) {
+    if (triangles.empty()) return 0;
+    const auto perimeter = [&](std::int32_t i) {
+        const auto [a, b, c] = corners_of(positions, triangles[i]);
+        return (b - a).stableNorm() + (c - b).stableNorm() + (a - c).stableNorm();
+    };
+    const auto count = static_cast<std::int32_t>(triangles.size());
+    return sum_over_rows(count, perimeter) / (3.0 * count);
+}
+
+}  // namespace
+
+SurfaceOfMesh surface_of(const Domain& domain) {
+    const TriangleMesh& mesh = domain.mesh();
+    const RawVector<Triangle> triangles = oriented_triangles(domain.topology());
+    std::vector<std::uint8_t> used(mesh.positions.size(), 0);
+    for (const Triangle& t : triangles) {
+        if (!has_three_vertices(t)) continue;
+        for (const std::int32_t vertex : t) used[vertex] = 1;
+    }
+    SurfaceOfMesh result{{{{}, 0}, {}, {}}, numbers_of(used), 0};
+    result.edge = mean_side(mesh.positions, triangles);
+    if (!(result.edge > 0)) {
+        throw InvalidMesh("All faces are single points; there is no surface to smooth.");
+    }
+    NoisySurface& surface = result.surface;
+    std::int32_t origin = -1;  // keeps coordinates small where a mesh is far from 0
+    for (std::size_t i = 0; i < used.size(); ++i) {
+        if (used[i] == 0) continue;
+        if (origin < 0) origin = static_cast<std::int32_t>(i);
+        const auto vertex = static_cast<std::int32_t>(i);
+        const bool fixed = domain.constrained_vertices()[i] != 0;
+        const double strength = std::max(domain.strength(vertex), kLeastStrength);
+        surface.fidelity.push_back(fixed ? 0 : fidelity_of(strength));
+        surface.positions.emplace_back((mesh.positions[i] - mesh.positions[origin]) / result.edge);
+    }
+    const auto count = static_cast<std::int32_t>(surface.positions.size());
+    surface.stars = Stars(renumbered(triangles, result.vertices), count);
+    for (std::size_t i = 0; i < used.size(); ++i) {
+        result.vertices[i] = result.vertices[domain.topology().welded[i]];
+    }
+    return result;
+}
+
+namespace {
+
+/// Marks the kPatch vertices nearest to `seed`, counted in sides.
+void mark_patch(const Stars& stars, std::int32_t seed, std::vector<std::uint8_t>& marked) {
+    std::vector<std::int32_t> queue(1, seed);
+    marked[seed] = 1;
+    for (std::size_t i = 0; i < queue.size() && queue.size() < kPatch; ++i) {
+        const std::int32_t vertex = queue[i];
+        for (std::uint32_t k = stars.neighbour_begin[vertex];
+             k < stars.neighbour_begin[vertex + 1] && queue.size() < kPatch; ++k) {
+            const std::int32_t neighbour = stars.neighbours[k];
+            if (marked[neighbour] != 0) continue;
+            marked[neighbour] = 1;
+            queue.push_back(neighbour);
+        }
+    }
+}
+
+}  // namespace
+
+Sample sample_of(const NoisySurface& surface, std::int32_t vertex_count) {
+    const Stars& stars = surface.stars;
+    const std::int32_t all = stars.count();
+    std::vector<std::uint8_t> marked(static_cast<std::size_t>(all), 1);
+    if (all > 2 * vertex_count) {
+        std::fill(marked.begin(), marked.end(), std::uint8_t{0});
+        const std::int32_t patches = vertex_count / kPatch;
+        for (std::int32_t i = 0; i < patches; ++i) {
+            const std::int64_t seed = (2 * i + 1) * std::int64_t{all} / (2 * patches);
+            mark_patch(stars, static_cast<std::int32_t>(seed), marked);
+        }
+    }
+    const std::vector<std::int32_t> numbers = numbers_of(marked);
+    Sample sample{{{{}, 0}, {}, {}}, {}};
+    std::vector<std::uint32_t> star_sizes;
+    for (std::int32_t i = 0; i < all; ++i) {
+        if (marked[i] == 0) continue;
+        sample.surface.positions.push_back(surface.positions[i]);
+        sample.surface.fidelity.push_back(surface.fidelity[i]);
+        star_sizes.push_back(stars.corner_begin[i + 1] - stars.corner_begin[i]);
+    }
+    const auto count = static_cast<std::int32_t>(star_sizes.size());
+    sample.surface.stars = Stars(renumbered(stars.triangles, numbers), count);
+    const std::vector<std::uint32_t>& begin = sample.surface.stars.corner_begin;
+    for (std::int32_t i = 0; i < count; ++i) {
+        const bool whole = begin[i + 1] - begin[i] == star_sizes[i];
+        sample.counts.push_back(whole && !sample.surface.is_fixed(i) ? 1 : 0);
+    }
+    return sample;
+}
+
+}  // namespace tracked_mcf

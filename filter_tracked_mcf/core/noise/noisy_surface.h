@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "filter_tracked_mcf/core/mesh/domain.h"
+#include "filter_tracked_mcf/core/noise/stars.h"
+
+namespace tracked_mcf {
+
+/// Positions of a surface's vertices, in edges: mean lengths of its sides.
+using Positions = std::vector<Eigen::Vector3d>;
+
+/// One vector per vertex. The fourth component is 0, and makes arithmetic four wide.
+using Vectors = RawVector<Eigen::Vector4f>;
+
+/// A surface as noise is removed from it. Its vertices are those that its triangles use, coincident
+/// ones once. Its lengths are in edges.
+struct NoisySurface {
+    Stars stars;  ///< of triangles that are oriented alike
+    Positions positions;
+    /// Per vertex: how much more than others it keeps its position; 0 if it keeps its bits.
+    std::vector<float> fidelity;
+
+    bool is_fixed(std::int32_t vertex) const { return fidelity[vertex] == 0; }
+};
+
+/// A surface, and the way back from it to the mesh.
+struct SurfaceOfMesh {
+    NoisySurface surface;
+    std::vector<std::int32_t> vertices;  ///< of the mesh: the surface's vertex, or -1
+    double edge = 0;                     ///< mean length, mesh units
+};
+
+/// Returns the surface of a domain. Throws InvalidMesh if all its sides have length 0.
+SurfaceOfMesh surface_of(const Domain& domain);
+
+/// Part of a surface.
+struct Sample {
+    NoisySurface surface;
+    /// Per vertex: whether the sample has all of its star, and it may move.
+    std::vector<std::uint8_t> counts;
+};
+
+/// Returns patches that are spread over the surface and have about so many vertices together; all
+/// of a surface that is not much larger.
+Sample sample_of(const NoisySurface& surface, std::int32_t vertex_count);
+
+}  // namespace tracked_mcf

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "filter_tracked_mcf/core/remove_noise.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "filter_tracked_mcf/core/memory/memory_check.h"
+#include "filter_tracked_mcf/core/mesh/measures.h"
+#include "filter_tracked_mcf/core/noise/cross_validation.h"
+#include "filter_tracked_mcf/core/noise/sharpening.h"
+#include "filter_tracked_mcf/core/parallel/stopwatch.h"
+
+namespace tracked_mcf {
+
+namespace {
+
+/// Vertices of the sample on which treatments are tried.
+constexpr std::int32_t kSample = 4000;
+
+/// Bytes for each vertex and each triangle, beside the mesh.
+constexpr double kBytesPerVertex = 260, kBytesPerTriangle = 90;
+
+const double kRadian = std::acos(-1.0) / 180;
+
+void check_length(const char* name, double value) {
+    if (value >= 0 && value <= std::numeric_limits<double>::max()) return;  // a NaN is neither
+    throw InvalidParameter(std::string(name) + " is " + std::to_string(value) +
+                           "; give a length, in units of the mesh, or 0.");
+}
+
+void validate(const NoiseParameters& parameters) {
+    if (!(parameters.crease_angle >= 0 && parameters.crease_angle < 180)) {
+        throw InvalidParameter("crease_angle is " + std::to_string(parameters.crease_angle) +
+                               "; give 0, or degrees less than 180.");
+    }
+    check_length("noise", parameters.noise);
+    check_length("detail_size", parameters.detail_size);
+    check_length("largest_movement", parameters.largest_movement);
+    if (parameters.threads < 0) {
+        throw InvalidParameter("threads is " + std::to_string(parameters.threads) +
+                               "; give a number of threads, or 0.");
+    }
+}
+
+void check_memory(const TriangleMesh& mesh) {
+    check_free_memory(kBytesPerVertex * static_cast<double>(mesh.positions.size()) +
+                          kBytesPerTriangle * static_cast<double>(mesh.triangles.size()),
+                      "Removing noise", "Simplify the mesh, or take a part of it.");
+}
+
+/// Returns the length of the difference of two unit normals across a crease of this angle.
+double crease_of(double angle) {
+    return 2 * std::sin(angle * kRadian / 2);
+}
+
+/// Returns the share of the area in triangles whose vertices' normals differ by a crease.
+double crease_share(const NoisySurface& surface, const Vectors& normals, double crease) {
+    const auto least = static_cast<float>(crease * crease);
+    double all = 0, sharp = 0;
+    for (const Triangle& t : surface.stars.triangles) {
+        const Eigen::Vector4f &a = normals[t[0]], &b = normals[t[1]], &c = normals[t[2]];
+        const auto [p, q, r] = corners_of(surface.positions, t);
+        const double area = twice_vector_area(p, q, r).norm();
+        const float turn =
+            std::max({(a - b).squaredNorm(), (b - c).squaredNorm(), (c - a).squaredNorm()});
+        all += area;
+        if (turn >= least) sharp += area;
+    }
+    return all > 0 ? sharp / all : 0;
+}
+
+/// Moves the surface's vertices as the parameters ask, and reports how.
+void treat(NoisySurface& surface, double edge, const NoiseParameters& parameters,
+           NoiseReport& report) {
+    const double crease = crease_of(parameters.crease_angle);
+    enter_phase(0.1, "Measuring the noise");
+    const Treatment treatment =
+        best_treatment(sample_of(surface, kSample),
+                       {crease, parameters.noise / edge, parameters.detail_size / edge});
+    Smoothing smoothing(surface);
+    for (int step = 0; step < treatment.steps; ++step) {
+        enter_phase(0.3 + 0.6 * step / treatment.steps,
+                    "Step " + std::to_string(step + 1) + " of " + std::to_string(treatment.steps));
+        smoothing.step(treatment.settings, surface.positions);
+    }
+    if (crease > 0) {
+        report.crease_share = crease_share(
+            surface, smoothing.smooth_normals(surface.positions, treatment.settings), crease);
+    }
+    if (treatment.sharpenings > 0) {
+        enter_phase(0.9, "Sharpening the creases");
+        sharpen(surface, treatment.sharpening_width, treatment.sharpenings, surface.positions);
+    }
+    report.noise = parameters.noise > 0 ? parameters.noise : edge * treatment.noise;
+    report.detail_size = edge * detail_size_of(treatment);
+    report.steps = treatment.steps;
+    report.sharpenings = treatment.sharpenings;
+    report.iterations = smoothing.iterations();
+}
+
+/// Returns `from` moved by `movement`, or only by as much of it as does not exceed the bound, after
+/// rounding. Sets `stopped` if it does.
+Eigen::Vector3d bounded(const Eigen::Vector3d& from, Eigen::Vector3d movement, double bound,
+                        bool& stopped) {
+    Eigen::Vector3d to = from + movement;
+    if (bound == 0) return to;
+    for (double scale = bound / (to - from).stableNorm(); (to - from).stableNorm() > bound;
+         scale *= 1 - 1e-15) {
+        stopped = true;
+        to = from + scale * movement;
+    }
+    return to;
+}
+
+/// Returns the mesh's positions after its surface has moved. Vertices that do not move keep their
+/// bits.
+std::vector<Eigen::Vector3d> moved_positions(const TriangleMesh& mesh, const SurfaceOfMesh& moved,
+                                             const Positions& before, double bound,
+                                             NoiseReport& report) {
+    std::vector<Eigen::Vector3d> after = mesh.positions;
+    for (std::size_t i = 0; i < after.size(); ++i) {
+        const std::int32_t vertex = moved.vertices[i];
+        if (vertex < 0 || moved.surface.is_fixed(vertex)) continue;
+        bool stopped = false;
+        after[i] = bounded(mesh.positions[i],
+                           moved.edge * (moved.surface.positions[vertex] - before[vertex]), bound,
+                           stopped);
+        if (stopped) ++report.bounded_vertices;
+    }
+    return after;
+}
+
+void measure_change(const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& after,
+                    const Selection& selection, NoiseReport& report) {
+    double squares = 0;
+    for (std::size_t i = 0; i < after.size(); ++i) {
+        if (!after[i].allFinite()) continue;  // a vertex that no triangle uses
+        const double distance = (after[i] - mesh.positions[i]).stableNorm();
+        report.largest_displacement = std::max(report.largest_displacement, distance);
+        squares += distance * distance;
+    }
+    report.rms_displacement = std::sqrt(squares / static_cast<double>(report.vertices));
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        if (!selection.empty() && selection[i] == 0) continue;
+        report.volume_change += swept_volume(corners_of(mesh.positions, mesh.triangles[i]),
+                                             corners_of(after, mesh.triangles[i]));
+    }
+    report.area_before = surface_area(mesh, selection);
+    report.area_after = surface_area({after, mesh.triangles}, selection);
+}
+
+/// Returns the surface of the mesh's triangles, and reports on it.
+SurfaceOfMesh read_surface(const TriangleMesh& mesh, const Selection& selection,
+                           const NoiseParameters& parameters, NoiseReport& report) {
+    const Domain domain(
+        mesh, selection,
+        parameters.lock_boundary ? BoundaryCondition::Locked : BoundaryCondition::Free);
+    SurfaceOfMesh result = surface_of(domain);
+    report.vertices = result.surface.stars.count();
+    report.triangles = static_cast<std::int64_t>(domain.surface().triangles.size());
+    report.boundary_edges = domain.boundary_edge_count();
+    report.oriented_consistently = domain.topology().is_oriented_consistently();
+    for (const float fidelity : result.surface.fidelity) {
+        if (fidelity == 0) ++report.constrained_vertices;
+    }
+    for (const Triangle& t : domain.surface().triangles) {
+        if (twice_vector_area(domain.surface(), t).isZero(0)) ++report.degenerate_triangles;
+    }
+    return result;
+}
+
+}  // namespace
+
+NoiseReport remove_noise(TriangleMesh& mesh, const Selection& selection,
+                         const NoiseParameters& parameters, const Progress& progress) {
+    std::optional<ProgressMeter> meter;
+    if (progress) meter.emplace(progress);
+    validate(parameters);
+    const ThreadCountScope threads(parameters.threads);
+    const Stopwatch watch;
+    enter_phase(0, "Checking the mesh");
+    validate(mesh);
+    check_selection(mesh, selection);
+    check_memory(mesh);
+    const Selection moving = without_zero_strength(mesh, selection);
+    NoiseReport report;
+    enter_phase(0.01, "Finding the edges");
+    SurfaceOfMesh moved = read_surface(mesh, moving, parameters, report);
+    const Positions before = moved.surface.positions;
+    if (report.constrained_vertices < report.vertices) {
+        treat(moved.surface, moved.edge, parameters, report);
+    }
+    enter_phase(0.95, "Moving the vertices");
+    std::vector<Eigen::Vector3d> after =
+        moved_positions(mesh, moved, before, parameters.largest_movement, report);
+    measure_change(mesh, after, moving, report);
+    if (parameters.measure_displacement) {
+        std::vector<Eigen::Vector3d> vectors(after.size());
+        for (std::size_t i = 0; i < after.size(); ++i) vectors[i] = after[i] - mesh.positions[i];
+        report.displacement = along_normals(vectors, {after, mesh.triangles}, moving);
+    }
+    report.seconds = watch.seconds();
+    enter_phase(1, "Done");
+    // Nothing can fail from here on.
+    mesh.positions.swap(after);
+    return report;
+}
+
+}  // namespace tracked_mcf

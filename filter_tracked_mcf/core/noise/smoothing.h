@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "filter_tracked_mcf/core/noise/linear_elements.h"
+
+namespace tracked_mcf {
+
+/// What a step does. Lengths are in edges.
+struct StepSettings {
+    double normal_length = 0;     ///< s of the metric (linear_elements.h)
+    double step_size = 0;         ///< δ for positions, a squared length
+    double normal_step_size = 0;  ///< δ for normals
+};
+
+/// Smooths surfaces that differ from one another only in their positions.
+class Smoothing {
+public:
+    /// `surface` must outlive the smoothing; its positions are not used.
+    explicit Smoothing(const NoisySurface& surface) : surface_(surface), elements_(surface) {}
+
+    /// Returns unit normals of the vertices, or zeros where there are none: N solves
+    /// (M + δ L) N = M n, normalised, where n are the mean normals of the stars. This is solved
+    /// twice, the second time in the metric of (X, s N). Valid until the next call.
+    const Vectors& smooth_normals(const Positions& positions, const StepSettings& settings);
+
+    /// Makes a step: smooths the normals, and then the positions in their metric.
+    void step(const StepSettings& settings, Positions& positions);
+
+    /// Returns the iterations of conjugate gradients so far.
+    int iterations() const { return iterations_; }
+
+private:
+    const NoisySurface& surface_;
+    LinearElements elements_;
+    Vectors averages_, normals_, displacements_;
+    int iterations_ = 0;
+};
+
+}  // namespace tracked_mcf

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "filter_tracked_mcf/core/parallel/parallel.h"
+#include "filter_tracked_mcf/core/parallel/raw_vector.h"
+#include "filter_tracked_mcf/core/triangle_mesh.h"
+
+namespace tracked_mcf {
+
+/// The triangles around each vertex of a surface, and the vertices that these join to it.
+struct Stars {
+    /// Takes triangles with three different vertices each, numbered from 0 to vertex_count - 1.
+    Stars(RawVector<Triangle> surface_triangles, std::int32_t vertex_count);
+
+    std::int32_t count() const { return static_cast<std::int32_t>(corner_begin.size()) - 1; }
+
+    RawVector<Triangle> triangles;
+    std::vector<std::uint32_t> corner_begin;  ///< per vertex, and the end
+    RawVector<std::uint32_t> corners;  ///< 3 × triangle + corner, increasing for each vertex
+    std::vector<std::uint32_t> neighbour_begin;  ///< per vertex, and the end
+    RawVector<std::int32_t> neighbours;          ///< increasing for each vertex; without itself
+    /// Per entry of `corners`: the places in `neighbours` of the triangle's next and last corner.
+    RawVector<std::array<std::uint32_t, 2>> places;
+
+private:
+    void find_corners(std::int32_t vertex_count);
+    void find_neighbours();
+};
+
+/// Calls visit(triangle, corner) for each triangle of a vertex's star, and the vertex's corner.
+template <class Visit>
+void for_each_corner(const Stars& stars, std::int32_t vertex, const Visit& visit) {
+    for (std::uint32_t i = stars.corner_begin[vertex]; i < stars.corner_begin[vertex + 1]; ++i) {
+        visit(stars.corners[i] / 3, stars.corners[i] % 3);
+    }
+}
+
+/// Returns the sum of body(row) over the rows, in an order that does not depend on the threads.
+template <class Body>
+double sum_over_rows(std::int32_t rows, const Body& body) {
+    return parallel_sum(rows, 0.0, [&](std::int64_t begin, std::int64_t end) {
+        double sum = 0;
+        for (auto row = static_cast<std::int32_t>(begin); row < end; ++row) sum += body(row);
+        return sum;
+    });
+}
+
+}  // namespace tracked_mcf

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "filter_tracked_mcf/core/errors.h"
+#include "filter_tracked_mcf/core/progress.h"
+#include "filter_tracked_mcf/core/triangle_mesh.h"
+
+namespace tracked_mcf {
+
+/// The parameters of remove_noise(). The defaults need no knowledge of the mesh.
+struct NoiseParameters {
+    /// Creases are kept where the surface turns by more than this angle, in degrees, at least 0 and
+    /// less than 180. 0 keeps no creases.
+    double crease_angle = 25;
+
+    /// Standard deviation of the noise along the normals, mesh units. 0 lets the mesh itself choose
+    /// how much to smooth.
+    double noise = 0;
+
+    /// Greater than 0: waves of this length, mesh units, lose half their amplitude where the
+    /// surface is flat and its edges are of mean length. 0 takes what the noise needs.
+    double detail_size = 0;
+
+    /// Greater than 0: no vertex moves farther than this, mesh units. 0 is no bound.
+    double largest_movement = 0;
+
+    /// Whether vertices on the boundary of an open mesh keep their bits.
+    bool lock_boundary = true;
+
+    /// Whether NoiseReport::displacement is wanted.
+    bool measure_displacement = false;
+
+    /// Number of threads; 0 leaves the choice to the machine. The result has the same bits for any
+    /// number.
+    int threads = 0;
+};
+
+/// What remove_noise() has measured and done.
+struct NoiseReport {
+    std::int64_t vertices = 0;              ///< of the smoothed triangles, coincident ones once
+    std::int64_t triangles = 0;             ///< that were smoothed
+    std::int64_t degenerate_triangles = 0;  ///< of these, with zero area
+    std::int64_t boundary_edges = 0;
+    std::int64_t constrained_vertices = 0;  ///< of the vertices above that keep their bits
+
+    double noise = 0;         ///< standard deviation along the normals, mesh units
+    double crease_share = 0;  ///< share of the area in triangles that a crease crosses
+    double detail_size = 0;   ///< see NoiseParameters::detail_size; 0 if there was nothing to do
+    int steps = 0;
+    int sharpenings = 0;  ///< iterations of the bilateral filter after the steps; 0 if it was worse
+    int iterations = 0;   ///< of conjugate gradients, all steps
+
+    double rms_displacement = 0;  ///< of the vertices above, mesh units
+    double largest_displacement = 0;
+    std::int64_t bounded_vertices = 0;  ///< stopped by NoiseParameters::largest_movement
+    double area_before = 0, area_after = 0;  ///< of the smoothed triangles, mesh units²
+    /// Volume between the initial and the final surface, mesh units³, see FlowReport.
+    double volume_change = 0;
+    bool oriented_consistently = true;
+    /// Per vertex of the mesh: how far it has moved along the normal of the result, mesh units.
+    /// Empty unless it was asked for.
+    std::vector<double> displacement;
+    double seconds = 0;
+};
+
+/// Removes noise from `mesh`, or only from its selected triangles, and keeps creases. Noise is what
+/// single vertices do independently of their neighbours.
+///
+/// Each vertex smooths as much as TriangleMesh::strength says. Positions are written at the very
+/// end, after the last call of `progress` has returned true. Vertices that do not move keep their
+/// bits: those of the locked boundary, of unselected triangles, with strength 0, and in no
+/// triangle.
+///
+/// Throws InvalidMesh, InvalidParameter, NotEnoughMemory or Cancelled (errors.h) and leaves the
+/// mesh unchanged.
+NoiseReport remove_noise(TriangleMesh& mesh, const Selection& selection,
+                         const NoiseParameters& parameters, const Progress& progress = {});
+
+}  // namespace tracked_mcf
