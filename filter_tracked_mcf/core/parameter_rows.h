@@ -83,4 +83,11 @@ ParameterOf<P> named(ParameterOf<P> row, std::string name, std::string label, st
     return row;
 }
 
+inline constexpr int kMaximumThreads = 1024;
+
+inline constexpr const char* kThreadsHelp =
+    "Threads, up to 1024; 0 takes OMP_NUM_THREADS or, unless that is set, one for each processor "
+    "that the program may use. The result does not depend on it; only processors with other vector "
+    "instructions round differently.";
+
 }  // namespace tracked_mcf::parameter_rows

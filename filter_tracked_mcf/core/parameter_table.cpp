@@ -160,12 +160,8 @@ const std::vector<ParameterOf<P>>& parameter_table() {
             "a cell unless --method paper is given. Take 1, which is inaccurate, or 12, which is "
             "slow "
             "and exact to degree 6, only to compare."),
-        named(integer<&P::threads>(0, 1024, ", where 0 takes one for each processor"), "threads",
-              "",
-              "Threads, up to 1024; 0 takes OMP_NUM_THREADS or, unless that is set, one for each "
-              "processor that the program may use. The "
-              "result does not depend on it; only processors with other vector instructions round "
-              "differently."),
+        named(integer<&P::threads>(0, kMaximumThreads, ", where 0 takes one for each processor"),
+              "threads", "", kThreadsHelp),
     };
     return table;
 }

@@ -5,38 +5,11 @@
 #include <vector>
 
 #include "filter_tracked_mcf/core/errors.h"
+#include "filter_tracked_mcf/core/noise_parameters.h"
 #include "filter_tracked_mcf/core/progress.h"
 #include "filter_tracked_mcf/core/triangle_mesh.h"
 
 namespace tracked_mcf {
-
-/// The parameters of remove_noise(). The defaults need no knowledge of the mesh.
-struct NoiseParameters {
-    /// Creases are kept where the surface turns by more than this angle, in degrees, at least 0 and
-    /// less than 180. 0 keeps no creases.
-    double crease_angle = 25;
-
-    /// Standard deviation of the noise along the normals, mesh units. 0 lets the mesh itself choose
-    /// how much to smooth.
-    double noise = 0;
-
-    /// Greater than 0: waves of this length, mesh units, lose half their amplitude where the
-    /// surface is flat and its edges are of mean length. 0 takes what the noise needs.
-    double detail_size = 0;
-
-    /// Greater than 0: no vertex moves farther than this, mesh units. 0 is no bound.
-    double largest_movement = 0;
-
-    /// Whether vertices on the boundary of an open mesh keep their bits.
-    bool lock_boundary = true;
-
-    /// Whether NoiseReport::displacement is wanted.
-    bool measure_displacement = false;
-
-    /// Number of threads; 0 leaves the choice to the machine. The result has the same bits for any
-    /// number.
-    int threads = 0;
-};
 
 /// What remove_noise() has measured and done.
 struct NoiseReport {
@@ -55,15 +28,16 @@ struct NoiseReport {
 
     double rms_displacement = 0;  ///< of the vertices above, mesh units
     double largest_displacement = 0;
-    std::int64_t bounded_vertices = 0;  ///< stopped by NoiseParameters::largest_movement
+    std::int64_t bounded_vertices = 0;       ///< stopped by NoiseParameters::largest_movement
     double area_before = 0, area_after = 0;  ///< of the smoothed triangles, mesh units²
     /// Volume between the initial and the final surface, mesh units³, see FlowReport.
     double volume_change = 0;
     bool oriented_consistently = true;
     /// Per vertex of the mesh: how far it has moved along the normal of the result, mesh units.
-    /// Empty unless it was asked for.
-    std::vector<double> displacement;
+    /// Empty unless NoiseParameters::quality asks for it.
+    std::vector<double> quality;
     double seconds = 0;
+    std::int64_t peak_memory_bytes = 0;  ///< of the process
 };
 
 /// Removes noise from `mesh`, or only from its selected triangles, and keeps creases. Noise is what

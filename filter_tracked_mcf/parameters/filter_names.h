@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "filter_tracked_mcf/core/flow_parameters.h"
+#include "filter_tracked_mcf/core/noise_parameters.h"
 
 namespace tracked_mcf {
 
@@ -25,6 +25,14 @@ inline constexpr FilterNames kNames<FlowParameters> = {
     "Finite-Elements Tracking</b>, 2011, <a "
     "href=\"https://doi.org/10.1111/j.1467-8659.2011.01899.x\">"
     "doi:10.1111/j.1467-8659.2011.01899.x</a>."};
+
+template <>
+inline constexpr FilterNames kNames<NoiseParameters> = {
+    "Remove Noise", "apply_coord_remove_noise",
+    "Removes <b>noise</b> from scans and parts, and keeps creases and larger detail. It measures "
+    "the "
+    "noise, so the defaults suit most meshes; a mesh without noise hardly changes. Only positions "
+    "and, if asked for, vertex qualities change."};
 
 /// Says what is wrong where a layer has no quality for the parameter `strength`.
 inline constexpr const char* kNoQuality =

@@ -59,5 +59,6 @@ std::string pymeshlab_help() {
 }
 
 template std::string pymeshlab_help<FlowParameters>();
+template std::string pymeshlab_help<NoiseParameters>();
 
 }  // namespace tracked_mcf

@@ -123,4 +123,30 @@ ReportObject report_values(const FlowParameters& parameters, const ReportValue& 
             {"peak_memory_bytes", {report.peak_memory_bytes}}};
 }
 
+ReportObject report_values(const NoiseParameters& parameters, const ReportValue& selected,
+                           const ReportValue& strength, const NoiseReport& report,
+                           const std::vector<std::string>& warnings) {
+    return {{"parameters", {parameter_values(parameters, selected, strength)}},
+            {"vertices", {report.vertices}},
+            {"triangles", {report.triangles}},
+            {"degenerate_triangles", {report.degenerate_triangles}},
+            {"boundary_edges", {report.boundary_edges}},
+            {"constrained_vertices", {report.constrained_vertices}},
+            {"noise", {report.noise}},
+            {"crease_share", {report.crease_share}},
+            {"detail_size", {report.detail_size}},
+            {"steps", integer(report.steps)},
+            {"sharpenings", integer(report.sharpenings)},
+            {"iterations", integer(report.iterations)},
+            {"area_before", {report.area_before}},
+            {"area_after", {report.area_after}},
+            {"volume_change", unless(!report.oriented_consistently, {report.volume_change})},
+            {"largest_displacement", {report.largest_displacement}},
+            {"rms_displacement", {report.rms_displacement}},
+            {"bounded_vertices", {report.bounded_vertices}},
+            {"seconds", {report.seconds}},
+            {"warnings", {texts(warnings)}},
+            {"peak_memory_bytes", {report.peak_memory_bytes}}};
+}
+
 }  // namespace tracked_mcf

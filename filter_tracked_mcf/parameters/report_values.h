@@ -9,6 +9,7 @@
 
 #include "filter_tracked_mcf/core/flow_parameters.h"
 #include "filter_tracked_mcf/core/flow_report.h"
+#include "filter_tracked_mcf/core/remove_noise.h"
 
 namespace tracked_mcf {
 
@@ -29,6 +30,11 @@ struct ReportValue {
 /// of their steps are null.
 ReportObject report_values(const FlowParameters& parameters, const ReportValue& selected,
                            const ReportValue& strength, const FlowReport& report,
+                           const std::vector<std::string>& warnings);
+
+/// Returns the same of a removal of noise.
+ReportObject report_values(const NoiseParameters& parameters, const ReportValue& selected,
+                           const ReportValue& strength, const NoiseReport& report,
                            const std::vector<std::string>& warnings);
 
 }  // namespace tracked_mcf

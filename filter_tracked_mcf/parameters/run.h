@@ -2,6 +2,7 @@
 #pragma once
 
 #include "filter_tracked_mcf/core/evolve.h"
+#include "filter_tracked_mcf/core/remove_noise.h"
 
 namespace tracked_mcf {
 
@@ -15,6 +16,17 @@ inline FlowReport run(TriangleMesh& mesh, const Selection& selection,
 /// Returns the number of steps that the filter has kept.
 inline int steps_of(const FlowReport& report) {
     return static_cast<int>(report.steps.size());
+}
+
+/// Applies the filter of these parameters, which has no steps to observe. See remove_noise().
+inline NoiseReport run(TriangleMesh& mesh, const Selection& selection,
+                       const NoiseParameters& parameters, const Progress& progress,
+                       const StepObserver& /*on_step*/ = {}) {
+    return remove_noise(mesh, selection, parameters, progress);
+}
+
+inline int steps_of(const NoiseReport& report) {
+    return report.steps;
 }
 
 }  // namespace tracked_mcf

@@ -34,6 +34,10 @@ double initial_length(const ParameterOf<FlowParameters>& /*detail_size*/, const 
     return default_detail_size_of(layer.cm);
 }
 
+double initial_length(const ParameterOf<NoiseParameters>& length, const MeshModel& /*layer*/) {
+    return std::get<double>(length.initial);
+}
+
 /// Adds a parameter, with its default, to a dialog.
 template <class Parameters>
 void add(RichParameterList& list, const ParameterOf<Parameters>& parameter,
@@ -175,7 +179,8 @@ MeshLabFilter filter_of() {
 }  // namespace
 
 const std::vector<MeshLabFilter>& meshlab_filters() {
-    static const std::vector<MeshLabFilter> filters = {filter_of<FlowParameters>()};
+    static const std::vector<MeshLabFilter> filters = {filter_of<FlowParameters>(),
+                                                       filter_of<NoiseParameters>()};
     return filters;
 }
 

@@ -12,21 +12,31 @@
 #include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/parameter_table.h"
 #include "filter_tracked_mcf/parameters/flow_warnings.h"
+#include "filter_tracked_mcf/parameters/noise_warnings.h"
 
 namespace tracked_mcf {
 
 namespace {
 
-/// Appends the dialog's label of the parameter whose name begins the message.
+/// Returns the dialog's label of a parameter, or nothing if no dialog of these has it.
+template <class Parameters>
+std::string label_of(const std::string& name) {
+    for (const auto& parameter : parameter_table<Parameters>()) {
+        if (parameter.name == name) return parameter.label;
+    }
+    return {};
+}
+
+/// Appends the dialog's label of the parameter whose name begins the message. A name has the same
+/// label in all dialogs.
 std::string with_label(const std::string& message) {
     const std::string name = message.substr(0, message.find(' '));
-    for (const auto& parameter : parameter_table<FlowParameters>()) {
-        if (parameter.name != name || parameter.label.empty()) continue;
-        const bool is_zero = message.rfind(name + " is 0;", 0) == 0;
-        return message + " In the dialog it is \"" + parameter.label + "\"." +
-               (is_zero ? " MeshLab reads a number with a decimal comma as 0: use a point." : "");
-    }
-    return message;
+    std::string label = label_of<FlowParameters>(name);
+    if (label.empty()) label = label_of<NoiseParameters>(name);
+    if (label.empty()) return message;
+    const bool is_zero = message.rfind(name + " is 0;", 0) == 0;
+    return message + " In the dialog it is \"" + label + "\"." +
+           (is_zero ? " MeshLab reads a number with a decimal comma as 0: use a point." : "");
 }
 
 }  // namespace
@@ -64,6 +74,24 @@ double seconds_of(const std::vector<StepReport>& steps) {
     return std::accumulate(steps.begin(), steps.end(), 0.0, [](double sum, const StepReport& step) {
         return sum + step.assemble_seconds + step.solve_seconds;
     });
+}
+
+std::string after_summary(const std::vector<std::string>& warnings) {
+    std::string text;
+    for (const std::string& warning : warnings) text += " Warning: " + warning;
+    return text;
+}
+
+std::string joined(const std::vector<std::string>& warnings) {
+    std::string lines;
+    for (const std::string& warning : warnings) lines += (lines.empty() ? "" : "\n") + warning;
+    return lines;
+}
+
+template <class Report>
+double volume_change(const Report& report) {
+    return report.oriented_consistently ? report.volume_change
+                                        : std::numeric_limits<double>::quiet_NaN();
 }
 
 std::string constrained(std::int64_t count) {
@@ -115,26 +143,29 @@ std::string summary(const FlowParameters& parameters, const FlowReport& report) 
     if (report.degenerate_triangles > 0) {
         text << " " << report.degenerate_triangles << " faces have zero area and were ignored.";
     }
-    for (const std::string& warning : warnings_of(parameters, report, kAdvice)) {
-        text << " Warning: " << warning;
-    }
+    return text.str() + after_summary(warnings_of(parameters, report, kAdvice));
+}
+
+std::string summary(const NoiseParameters& parameters, const NoiseReport& report) {
+    std::ostringstream text;
+    text.precision(3);
+    text << "Removed noise from " << report.vertices << " vertices"
+         << constrained(report.constrained_vertices) << " in " << report.seconds << " s. "
+         << changes(report) << after_summary(warnings_of(parameters, report, kAdvice));
     return text.str();
 }
 
 std::string warning_lines(const FlowParameters& parameters, const FlowReport& report) {
-    std::string lines;
-    for (const std::string& warning : warnings_of(parameters, report, kAdvice)) {
-        lines += (lines.empty() ? "" : "\n") + warning;
-    }
-    return lines;
+    return joined(warnings_of(parameters, report, kAdvice));
+}
+
+std::string warning_lines(const NoiseParameters& parameters, const NoiseReport& report) {
+    return joined(warnings_of(parameters, report, kAdvice));
 }
 
 Outputs outputs_of(const FlowParameters& parameters, const FlowReport& report) {
     const double error =
         report.steps.empty() ? 0 : error_estimate(parameters.solver, report.steps.back());
-    const double volume_change = report.oriented_consistently
-                                     ? report.volume_change
-                                     : std::numeric_limits<double>::quiet_NaN();
     return {{"detail_size", report.detail_size},
             {"step_size", report.step_size},
             {"depth", report.depth},
@@ -148,7 +179,19 @@ Outputs outputs_of(const FlowParameters& parameters, const FlowReport& report) {
             {"rms_displacement", report.rms_displacement},
             {"area_before", report.area_before},
             {"area_after", report.area_after},
-            {"volume_change", volume_change}};
+            {"volume_change", volume_change(report)}};
+}
+
+Outputs outputs_of(const NoiseParameters& /*parameters*/, const NoiseReport& report) {
+    return {{"noise", report.noise},
+            {"crease_share", report.crease_share},
+            {"detail_size", report.detail_size},
+            {"steps", report.steps},
+            {"largest_displacement", report.largest_displacement},
+            {"rms_displacement", report.rms_displacement},
+            {"area_before", report.area_before},
+            {"area_after", report.area_after},
+            {"volume_change", volume_change(report)}};
 }
 
 }  // namespace run_filter_detail

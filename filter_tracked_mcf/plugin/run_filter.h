@@ -49,9 +49,11 @@ std::uint64_t checksum(const TriangleMesh& mesh);
 
 /// Describes the report in a few sentences, with its warnings.
 std::string summary(const FlowParameters& parameters, const FlowReport& report);
+std::string summary(const NoiseParameters& parameters, const NoiseReport& report);
 
 /// Returns the warnings, one a line.
 std::string warning_lines(const FlowParameters& parameters, const FlowReport& report);
+std::string warning_lines(const NoiseParameters& parameters, const NoiseReport& report);
 
 /// Returns, in units of the mesh and of the surface that flows:
 /// - `detail_size`, `step_size` (δ), `depth`, `cell_size`, `unknowns`,
@@ -61,6 +63,11 @@ std::string warning_lines(const FlowParameters& parameters, const FlowReport& re
 /// - `largest_displacement`, `rms_displacement` (of the vertices),
 /// - `area_before`, `area_after`, `volume_change` (NaN unless the faces are oriented consistently).
 Outputs outputs_of(const FlowParameters& parameters, const FlowReport& report);
+
+/// Returns, in units of the mesh: `noise`, `crease_share`, `detail_size`, `steps`,
+/// `largest_displacement`, `rms_displacement`, `area_before`, `area_after`, `volume_change` (NaN
+/// unless the faces are oriented consistently).
+Outputs outputs_of(const NoiseParameters& parameters, const NoiseReport& report);
 
 /// Returns default_detail_size(), or 0 if the mesh is not valid.
 double default_detail_size_or_zero(const TriangleMesh& mesh, const Selection& selection);

@@ -20,11 +20,6 @@ namespace {
 
 constexpr std::size_t kNameColumns = 26, kTextColumns = 70;
 
-const char* const kDescription =
-    "Smooths a triangle mesh by mean-curvature flow: every point moves along the normal with the "
-    "speed of the mean curvature, so that noise and small detail vanish first and large shapes "
-    "last. Closed surfaces shrink and thin parts pinch; --keep-edges keeps sharp features.";
-
 const std::string kLength = " X, in units of the mesh, or X% of its bounding box's diagonal. ";
 
 const std::string kProperty =
@@ -36,20 +31,52 @@ const std::string kStrength =
     "PROPERTY is the name of a number that the vertices of a PLY file have; MeshLab's vertex "
     "quality is 'quality'. ";
 
-const char* const kExamples =
-    "Examples:\n"
-    "  tracked_mcf scan.ply smooth.ply\n"
-    "      the defaults: removes the finest noise\n"
-    "  tracked_mcf scan.ply smooth.ply --detail-size 0.5% --order 2\n"
-    "      removes detail smaller than 0.5 % of the model's diagonal and keeps larger shapes\n"
-    "  tracked_mcf face.obj face_smooth.obj --depth 8 --boundary free\n"
-    "      resolves finer detail, and lets the rim move\n"
-    "  tracked_mcf scan.ply smooth.ply --preserve volume\n"
-    "      smooths a scan without shrinking it\n"
-    "  tracked_mcf scan.ply smooth.ply --selected flags\n"
-    "      smooths only the faces that were selected in MeshLab and saved with their flags\n"
-    "  tracked_mcf scan.ply smooth.stl --quiet --report smooth.json\n"
-    "      in a script: converts, prints no summary, and writes a report\n"
+/// What --help says about the filter of these parameters, and how it is called.
+template <class Parameters>
+struct ProgramTexts;
+
+template <>
+struct ProgramTexts<FlowParameters> {
+    static constexpr const char* kCommand = "tracked_mcf";
+    static constexpr const char* kDescription =
+        "Smooths a triangle mesh by mean-curvature flow: every point moves along the normal with "
+        "the speed of the mean curvature, so that noise and small detail vanish first and large "
+        "shapes last. Closed surfaces shrink and thin parts pinch; --keep-edges keeps sharp "
+        "features. To remove noise from scans and parts, see tracked_mcf remove-noise --help.";
+    static constexpr const char* kExamples =
+        "Examples:\n"
+        "  tracked_mcf scan.ply smooth.ply\n"
+        "      the defaults: removes the finest noise\n"
+        "  tracked_mcf scan.ply smooth.ply --detail-size 0.5% --order 2\n"
+        "      removes detail smaller than 0.5 % of the model's diagonal and keeps larger shapes\n"
+        "  tracked_mcf face.obj face_smooth.obj --depth 8 --boundary free\n"
+        "      resolves finer detail, and lets the rim move\n"
+        "  tracked_mcf scan.ply smooth.ply --preserve volume\n"
+        "      smooths a scan without shrinking it\n"
+        "  tracked_mcf scan.ply smooth.ply --selected flags\n"
+        "      smooths only the faces that were selected in MeshLab and saved with their flags\n"
+        "  tracked_mcf scan.ply smooth.stl --quiet --report smooth.json\n"
+        "      in a script: converts, prints no summary, and writes a report\n";
+};
+
+template <>
+struct ProgramTexts<NoiseParameters> {
+    static constexpr const char* kCommand = "tracked_mcf remove-noise";
+    static constexpr const char* kDescription =
+        "Removes noise from a triangle mesh, and keeps creases and larger detail. Noise is what "
+        "single vertices do independently of their neighbours. The program measures it, so the "
+        "defaults suit most meshes.";
+    static constexpr const char* kExamples =
+        "Examples:\n"
+        "  tracked_mcf remove-noise scan.ply clean.ply\n"
+        "      the defaults\n"
+        "  tracked_mcf remove-noise part.stl clean.stl --largest-movement 0.05\n"
+        "      moves no vertex farther than the tolerance of the scanner\n"
+        "  tracked_mcf remove-noise scan.ply clean.ply --detail-size 2% --crease-angle 40\n"
+        "      also removes the layers of a print, and keeps only sharper creases\n";
+};
+
+const char* const kFooter =
     "\n"
     "Files: PLY, OBJ, OFF and STL, by extension; PLY and STL are written as binary. If OUTPUT has\n"
     "the format of INPUT, only positions and normals change. Another format gets the positions,\n"
@@ -178,6 +205,10 @@ void add_parameters(CLI::App& app, CommandLineOf<FlowParameters>& line) {
         ->check(CLI::PositiveNumber.description(""));
 }
 
+void add_parameters(CLI::App& app, CommandLineOf<NoiseParameters>& line) {
+    add_rows(app, line);
+}
+
 /// Adds an option for a path, which is given in UTF-8.
 CLI::Option* add_path(CLI::App& app, const std::string& name, fs::path& path,
                       const std::string& help) {
@@ -243,10 +274,11 @@ void check_paths(const CommandLine& line, bool has_quality) {
 template <class Parameters>
 CommandLineOf<Parameters> parse_command_line(std::vector<std::string> arguments) {
     CommandLineOf<Parameters> line;
-    CLI::App app(wrapped(kDescription, kNameColumns + kTextColumns) + "\n", "tracked_mcf");
+    using Texts = ProgramTexts<Parameters>;
+    CLI::App app(wrapped(Texts::kDescription, kNameColumns + kTextColumns) + "\n", Texts::kCommand);
     app.allow_windows_style_options(false);  // on Windows, "/scan.ply" would be an option
     app.get_formatter()->column_width(kNameColumns);
-    app.footer(kExamples);
+    app.footer(std::string(Texts::kExamples) + kFooter);
     app.set_version_flag("--version", "tracked_mcf " TRACKED_MCF_VERSION);
     add_parameters(app, line);
     add_files(app, line);
@@ -261,12 +293,13 @@ CommandLineOf<Parameters> parse_command_line(std::vector<std::string> arguments)
         line.answer = app.version() + "\n";
         return line;
     } catch (const CLI::ParseError& error) {
-        throw InvalidParameter(std::string(error.what()) + ". Run tracked_mcf --help.");
+        throw InvalidParameter(std::string(error.what()) + ". Run " + Texts::kCommand + " --help.");
     }
     check_paths(line, line.parameters.quality != Quality::None);
     return line;
 }
 
 template CommandLineOf<FlowParameters> parse_command_line(std::vector<std::string> arguments);
+template CommandLineOf<NoiseParameters> parse_command_line(std::vector<std::string> arguments);
 
 }  // namespace tracked_mcf

@@ -126,7 +126,13 @@ int main(int argc, char** argv) {
     report_file_limits();
     handle_interrupts();
     try {
-        answer_or_smooth<FlowParameters>(utf8_arguments(argc, argv));
+        std::vector<std::string> arguments = utf8_arguments(argc, argv);
+        if (!arguments.empty() && arguments[0] == "remove-noise") {
+            arguments.erase(arguments.begin());
+            answer_or_smooth<NoiseParameters>(std::move(arguments));
+        } else {
+            answer_or_smooth<FlowParameters>(std::move(arguments));
+        }
         if (!std::cout) {
             throw UnwritableFile("cannot write to the standard output; the disk may be full.");
         }

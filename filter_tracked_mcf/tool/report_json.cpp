@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "filter_tracked_mcf/parameters/flow_warnings.h"
+#include "filter_tracked_mcf/parameters/noise_warnings.h"
 #include "filter_tracked_mcf/parameters/report_values.h"
 
 namespace tracked_mcf {
@@ -65,10 +66,27 @@ double total_seconds(const FlowReport& report) {
     return seconds;
 }
 
-}  // namespace
+template <class Report>
+std::string counts(const CommandLine& line, const Report& report) {
+    std::ostringstream text;
+    text << line.input.u8string() << ": " << report.vertices << " vertices, " << report.triangles
+         << " triangles";
+    if (report.degenerate_triangles > 0) {
+        text << ", of which " << report.degenerate_triangles << " have zero area and were ignored";
+    }
+    return text.str();
+}
 
-std::string report_json(const CommandLineOf<FlowParameters>& line, const FlowReport& report,
-                        const std::vector<std::string>& warnings) {
+template <class Report>
+std::string constrained(const Report& report) {
+    if (report.constrained_vertices == 0) return {};
+    return "\n" + std::to_string(report.constrained_vertices) +
+           " vertices are constrained: they keep their positions";
+}
+
+template <class Parameters, class Report>
+std::string json_of(const CommandLineOf<Parameters>& line, const Report& report,
+                    const std::vector<std::string>& warnings) {
     ReportValue selected, strength;
     if (!line.selected.empty()) selected.value = line.selected;
     if (!line.strength.empty()) strength.value = line.strength;
@@ -81,21 +99,25 @@ std::string report_json(const CommandLineOf<FlowParameters>& line, const FlowRep
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
+}  // namespace
+
+std::string report_json(const CommandLineOf<FlowParameters>& line, const FlowReport& report,
+                        const std::vector<std::string>& warnings) {
+    return json_of(line, report, warnings);
+}
+
+std::string report_json(const CommandLineOf<NoiseParameters>& line, const NoiseReport& report,
+                        const std::vector<std::string>& warnings) {
+    return json_of(line, report, warnings);
+}
+
 std::string summary(const CommandLineOf<FlowParameters>& line, const FlowReport& report) {
     std::ostringstream text;
-    text << line.input.u8string() << ": " << report.vertices << " vertices, " << report.triangles
-         << " triangles";
-    if (report.degenerate_triangles > 0) {
-        text << ", of which " << report.degenerate_triangles << " have zero area and were ignored";
-    }
-    text << "\ndepth " << report.depth << ": " << report.cells << " cells, " << report.unknowns
-         << " unknowns";
+    text << counts(line, report) << "\ndepth " << report.depth << ": " << report.cells << " cells, "
+         << report.unknowns << " unknowns";
     if (report.constrained_unknowns > 0)
         text << ", of which " << report.constrained_unknowns << " are constrained";
-    if (report.constrained_vertices > 0)
-        text << "\n"
-             << report.constrained_vertices
-             << " vertices are constrained: they keep their positions";
+    text << constrained(report);
     if (!report.steps.empty())
         text << "\nsolved by " << effort(line.parameters, report.steps) << " in each step";
     text << "\n"
@@ -106,12 +128,28 @@ std::string summary(const CommandLineOf<FlowParameters>& line, const FlowReport&
     return text.str();
 }
 
+std::string summary(const CommandLineOf<NoiseParameters>& line, const NoiseReport& report) {
+    std::ostringstream text;
+    text << counts(line, report) << constrained(report) << "\n"
+         << changes(report) << "\n"
+         << report.steps << (report.steps == 1 ? " step" : " steps");
+    if (report.sharpenings > 0) text << ", then creases sharpened,";
+    text << " in " << std::fixed << std::setprecision(1) << report.seconds
+         << " s: " << line.output.u8string() << "\n";
+    return text.str();
+}
+
 std::vector<std::string> warnings(const CommandLineOf<FlowParameters>& line,
                                   const FlowReport& report) {
     const char* const advice = stabilization_of(line.parameters) < kDefaultStabilization
                                    ? "Give a larger --stabilization or --tolerance."
                                    : "Give a larger --tolerance or a smaller --detail-size.";
     return warnings_of(line.parameters, report, advice);
+}
+
+std::vector<std::string> warnings(const CommandLineOf<NoiseParameters>& line,
+                                  const NoiseReport& report) {
+    return warnings_of(line.parameters, report, "");
 }
 
 }  // namespace tracked_mcf

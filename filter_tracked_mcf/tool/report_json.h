@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "filter_tracked_mcf/core/flow_report.h"
+#include "filter_tracked_mcf/core/remove_noise.h"
 #include "filter_tracked_mcf/tool/command_line.h"
 
 namespace tracked_mcf {
@@ -12,12 +13,18 @@ namespace tracked_mcf {
 /// Returns the version, file names and report_values() as indented JSON.
 std::string report_json(const CommandLineOf<FlowParameters>& line, const FlowReport& report,
                         const std::vector<std::string>& warnings);
+std::string report_json(const CommandLineOf<NoiseParameters>& line, const NoiseReport& report,
+                        const std::vector<std::string>& warnings);
 
 /// Returns the main numbers of the report in a few lines for a person.
 std::string summary(const CommandLineOf<FlowParameters>& line, const FlowReport& report);
+std::string summary(const CommandLineOf<NoiseParameters>& line, const NoiseReport& report);
 
 /// Returns warnings, one line each, that are printed even without a summary.
 std::vector<std::string> warnings(const CommandLineOf<FlowParameters>& line,
                                   const FlowReport& report);
+
+std::vector<std::string> warnings(const CommandLineOf<NoiseParameters>& line,
+                                  const NoiseReport& report);
 
 }  // namespace tracked_mcf

@@ -186,8 +186,8 @@ TEST(Report, NamesEveryWayToStop) {
 }
 
 TEST(Report, SelectedIsNullUnlessGiven) {
-    EXPECT_TRUE(Json::parse(report_json({}, {}, {}))["parameters"]["selected"].is_null());
-    EXPECT_TRUE(Json::parse(report_json({}, {}, {}))["parameters"]["strength"].is_null());
+    EXPECT_TRUE(Json::parse(report_json({}, FlowReport(), {}))["parameters"]["selected"].is_null());
+    EXPECT_TRUE(Json::parse(report_json({}, FlowReport(), {}))["parameters"]["strength"].is_null());
 }
 
 TEST(Warnings, NameTheWorstStepThatStoppedShort) {

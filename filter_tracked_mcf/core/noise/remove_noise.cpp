@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "filter_tracked_mcf/core/memory/memory_check.h"
+#include "filter_tracked_mcf/core/memory/process_memory.h"
 #include "filter_tracked_mcf/core/mesh/measures.h"
 #include "filter_tracked_mcf/core/noise/cross_validation.h"
 #include "filter_tracked_mcf/core/noise/sharpening.h"
@@ -26,26 +27,6 @@ constexpr std::int32_t kSample = 4000;
 constexpr double kBytesPerVertex = 260, kBytesPerTriangle = 90;
 
 const double kRadian = std::acos(-1.0) / 180;
-
-void check_length(const char* name, double value) {
-    if (value >= 0 && value <= std::numeric_limits<double>::max()) return;  // a NaN is neither
-    throw InvalidParameter(std::string(name) + " is " + std::to_string(value) +
-                           "; give a length, in units of the mesh, or 0.");
-}
-
-void validate(const NoiseParameters& parameters) {
-    if (!(parameters.crease_angle >= 0 && parameters.crease_angle < 180)) {
-        throw InvalidParameter("crease_angle is " + std::to_string(parameters.crease_angle) +
-                               "; give 0, or degrees less than 180.");
-    }
-    check_length("noise", parameters.noise);
-    check_length("detail_size", parameters.detail_size);
-    check_length("largest_movement", parameters.largest_movement);
-    if (parameters.threads < 0) {
-        throw InvalidParameter("threads is " + std::to_string(parameters.threads) +
-                               "; give a number of threads, or 0.");
-    }
-}
 
 void check_memory(const TriangleMesh& mesh) {
     check_free_memory(kBytesPerVertex * static_cast<double>(mesh.positions.size()) +
@@ -157,9 +138,9 @@ void measure_change(const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>
 /// Returns the surface of the mesh's triangles, and reports on it.
 SurfaceOfMesh read_surface(const TriangleMesh& mesh, const Selection& selection,
                            const NoiseParameters& parameters, NoiseReport& report) {
-    const Domain domain(
-        mesh, selection,
-        parameters.lock_boundary ? BoundaryCondition::Locked : BoundaryCondition::Free);
+    const Domain domain(mesh, selection,
+                        parameters.boundary == NoiseBoundary::Free ? BoundaryCondition::Free
+                                                                   : BoundaryCondition::Locked);
     SurfaceOfMesh result = surface_of(domain);
     report.vertices = result.surface.stars.count();
     report.triangles = static_cast<std::int64_t>(domain.surface().triangles.size());
@@ -181,7 +162,7 @@ NoiseReport remove_noise(TriangleMesh& mesh, const Selection& selection,
     std::optional<ProgressMeter> meter;
     if (progress) meter.emplace(progress);
     validate(parameters);
-    const ThreadCountScope threads(parameters.threads);
+    const ThreadTeam team(parameters.threads);
     const Stopwatch watch;
     enter_phase(0, "Checking the mesh");
     validate(mesh);
@@ -199,12 +180,13 @@ NoiseReport remove_noise(TriangleMesh& mesh, const Selection& selection,
     std::vector<Eigen::Vector3d> after =
         moved_positions(mesh, moved, before, parameters.largest_movement, report);
     measure_change(mesh, after, moving, report);
-    if (parameters.measure_displacement) {
+    if (parameters.quality == Quality::Displacement) {
         std::vector<Eigen::Vector3d> vectors(after.size());
         for (std::size_t i = 0; i < after.size(); ++i) vectors[i] = after[i] - mesh.positions[i];
-        report.displacement = along_normals(vectors, {after, mesh.triangles}, moving);
+        report.quality = along_normals(vectors, {after, mesh.triangles}, moving);
     }
     report.seconds = watch.seconds();
+    report.peak_memory_bytes = peak_memory_bytes();
     enter_phase(1, "Done");
     // Nothing can fail from here on.
     mesh.positions.swap(after);

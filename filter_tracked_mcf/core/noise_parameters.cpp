@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "filter_tracked_mcf/core/noise_parameters.h"
+
+#include "filter_tracked_mcf/core/parameter_rows.h"
+
+namespace tracked_mcf {
+
+template <>
+const std::vector<ParameterOf<NoiseParameters>>& parameter_table() {
+    using namespace parameter_rows;
+    using Type = Parameter::Type;
+    using P = NoiseParameters;
+    static const std::vector<ParameterOf<P>> table = {
+        named(access<&P::crease_angle>(Type::Real,
+                                       {0, 179, " degrees, such as 25, where 0 keeps none"}),
+              "crease_angle", "Keep creases sharper than",
+              "In degrees. Where the smoothed surface turns by more, a crease is kept. 0 keeps "
+              "none."),
+        named(access<&P::noise>(Type::Length,
+                                {0, kFinite, ", in units of the mesh, where 0 measures it"}),
+              "noise", "Noise",
+              "Standard deviation of the noise along the normals. 0 measures it."),
+        named(access<&P::detail_size>(
+                  Type::Length,
+                  {0, kFinite, ", in units of the mesh, where 0 takes what the noise needs"}),
+              "detail_size", "Remove detail smaller than",
+              "Waves this long keep half their height, shorter ones less. 0 takes what the noise "
+              "needs."),
+        named(access<&P::largest_movement>(
+                  Type::Length, {0, kFinite, ", in units of the mesh, where 0 is no bound"}),
+              "largest_movement", "Move no vertex farther than",
+              "A bound that no vertex exceeds. 0 is no bound."),
+        named(choice<&P::boundary>({{"Locked", "locked"}, {"Free", "free"}}), "boundary",
+              "Boundary", "Locked: the vertices of an open rim stay. Free: they move too."),
+        named(of_host<P>(Type::Selected), "selected", "Affect only selected faces",
+              "Vertices of other faces stay."),
+        named(of_host<P>(Type::Strength), "strength", "Strength from vertex quality",
+              "A number from 0 to 1 at each vertex: 0 keeps the vertex, 1 smooths it as "
+              "elsewhere."),
+        named(choice<&P::quality>({{"Kept", "none"}, {"Displacement", "displacement"}}), "quality",
+              "Vertex quality", "For colours: how far the vertex moved along its normal."),
+        named(integer<&P::threads>(0, kMaximumThreads, ", where 0 takes one for each processor"),
+              "threads", "", kThreadsHelp),
+    };
+    return table;
+}
+
+void validate(const NoiseParameters& parameters) {
+    check_ranges(parameters);
+}
+
+}  // namespace tracked_mcf
