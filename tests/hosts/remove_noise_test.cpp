@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Tests the filter Remove Noise of the real plugin. What it shares with the other filter is tested
+// in plugin_test.cpp.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "filter_tracked_mcf/core/parameter_table.h"
+#include "filter_tracked_mcf/parameters/filter_names.h"
+#include "tests/hosts/plugin_fixture.h"
+
+namespace tracked_mcf {
+
+namespace {
+
+class RemoveNoise : public testing::Test {
+protected:
+    RemoveNoise()
+        : filter_(TRACKED_MCF_PLUGIN_FILE, kNames<NoiseParameters>.name),
+          layer(host::add_layer(document, "layer")) {
+        make_layer(layer);
+        parameters = filter_.parameters(document);
+        parameters.setValue("selected", BoolValue(false));
+    }
+
+    bool apply() {
+        outcome = filter_.apply(document, parameters);
+        return outcome.succeeded;
+    }
+
+    /// Moves each vertex by up to `most` in each coordinate.
+    void add_noise(double most) {
+        std::mt19937 random(1);
+        std::uniform_real_distribution<double> noise(-most, most);
+        for (CVertexO& vertex : layer.cm.vert) {
+            for (int axis = 0; axis < 3; ++axis) vertex.P()[axis] += Scalarm(noise(random));
+        }
+    }
+
+    host::Filter filter_;
+    MeshDocument document;
+    MeshModel& layer;
+    RichParameterList parameters;
+    host::Outcome outcome{};
+};
+
+TEST_F(RemoveNoise, HasItsOwnNameHelpAndParameters) {
+    const host::Declaration declaration = filter_.declaration();
+    EXPECT_EQ(declaration.name, kNames<NoiseParameters>.name);
+    EXPECT_TRUE(contains(declaration.help, kNames<NoiseParameters>.help));
+    EXPECT_TRUE(declaration.smooths);
+    EXPECT_TRUE(declaration.takes_one_layer);
+    std::size_t shown = 0;
+    for (const Parameter& row : parameter_table<NoiseParameters>()) {
+        if (row.label.empty()) continue;
+        ++shown;
+        ASSERT_TRUE(parameters.hasParameter(QString::fromStdString(row.name))) << row.name;
+        const auto& rich = parameters.getParameterByName(QString::fromStdString(row.name));
+        EXPECT_EQ(rich.fieldDescription().toStdString(), row.label);
+        if (row.type == Parameter::Type::Length) EXPECT_EQ(rich.value().getFloat(), 0) << row.name;
+    }
+    EXPECT_EQ(parameters.size(), shown);
+}
+
+TEST_F(RemoveNoise, MovesTheSurfaceTowardsTheOneWithoutNoiseAndChangesNothingElse) {
+    const auto clean = layer.cm.vert;
+    const auto distance = [&] {
+        double squares = 0;
+        for (std::size_t i = 0; i < clean.size(); ++i) {
+            squares += vcg::SquaredDistance(layer.cm.vert[i].cP(), clean[i].cP());
+        }
+        return std::sqrt(squares / double(clean.size()));
+    };
+    add_noise(0.03);
+    const double noisy = distance();
+    const Belongings belongings(layer);
+    ASSERT_TRUE(apply()) << outcome.message;
+    EXPECT_LT(distance(), 0.8 * noisy);
+    EXPECT_TRUE(Belongings(layer) == belongings);
+    EXPECT_TRUE(contains(outcome.log, ": Removed noise from 1800 vertices")) << outcome.log;
+}
+
+TEST_F(RemoveNoise, MovesNoVertexFartherThanTheBound) {
+    add_noise(0.05);
+    const auto before = layer.cm.vert;
+    const float bound = 0.01F;
+    host::set_length(parameters, "largest_movement", bound);
+    ASSERT_TRUE(apply()) << outcome.message;
+    double largest = 0;
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        double square = 0;
+        for (int axis = 0; axis < 3; ++axis) {
+            const double moved = double(layer.cm.vert[i].cP()[axis]) - double(before[i].cP()[axis]);
+            square += moved * moved;
+        }
+        largest = std::max(largest, std::sqrt(square));
+    }
+    EXPECT_LE(largest, double(bound)) << "after rounding to the layer's precision";
+    EXPECT_GT(largest, 0.99 * double(bound)) << "some vertices reach the bound";
+}
+
+TEST_F(RemoveNoise, UsesTheSelectionTheStrengthAndTheQuality) {
+    add_noise(0.05);
+    const auto original = layer.cm.vert;
+    parameters.setValue("selected", BoolValue(true));
+    auto before = position_bits(layer);
+    ASSERT_TRUE(apply()) << outcome.message;
+    auto after = position_bits(layer);
+    EXPECT_NE(after, before);
+    for (const CFaceO& face : layer.cm.face) {
+        if (face.IsD() || face.IsS()) continue;
+        for (int corner = 0; corner < 3; ++corner) {
+            const auto i = std::size_t(face.cV(corner) - &layer.cm.vert[0]);
+            EXPECT_EQ(after[i], before[i]) << "a vertex of a face that is not selected";
+        }
+    }
+    for (std::size_t i = 0; i < original.size(); ++i) layer.cm.vert[i].P() = original[i].cP();
+    parameters.setValue("selected", BoolValue(false));
+    parameters.setValue("strength", BoolValue(true));
+    for (CVertexO& vertex : layer.cm.vert) vertex.Q() = 0;
+    before = position_bits(layer);
+    ASSERT_TRUE(apply()) << outcome.message;
+    EXPECT_EQ(position_bits(layer), before) << "strength 0";
+    EXPECT_TRUE(contains(outcome.log, "Nothing has moved")) << outcome.log;
+
+    parameters.setValue("strength", BoolValue(false));
+    parameters.setValue("quality", *host::choice(1));
+    ASSERT_TRUE(apply()) << outcome.message;
+    const auto moved = [](const CVertexO& vertex) { return vertex.cQ() != 0; };
+    EXPECT_GT(std::count_if(layer.cm.vert.begin(), layer.cm.vert.end(), moved), 1700);
+}
+
+TEST_F(RemoveNoise, RefusesBadParametersAndNamesTheirLabels) {
+    const auto before = position_bits(layer);
+    parameters.setValue("crease_angle", FloatValue(200));
+    EXPECT_FALSE(apply());
+    EXPECT_TRUE(contains(outcome.message, "crease_angle is 200")) << outcome.message;
+    EXPECT_TRUE(contains(outcome.message, "Keep creases sharper than")) << outcome.message;
+    EXPECT_EQ(position_bits(layer), before);
+}
+
+TEST(ParameterTables, ANameHasTheSameLabelInAllDialogs) {
+    for (const Parameter& noise : parameter_table<NoiseParameters>()) {
+        for (const Parameter& flow : parameter_table<FlowParameters>()) {
+            if (noise.name == flow.name) EXPECT_EQ(noise.label, flow.label) << noise.name;
+        }
+    }
+}
+
+}  // namespace
+
+}  // namespace tracked_mcf
