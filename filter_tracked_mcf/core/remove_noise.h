@@ -27,8 +27,8 @@ struct NoiseParameters {
     /// Greater than 0: no vertex moves farther than this, mesh units. 0 is no bound.
     double largest_movement = 0;
 
-    /// Whether vertices on the boundary of an open mesh keep their bits.
-    bool lock_boundary = true;
+    /// Whether vertices on the boundary of an open mesh keep their bits. They then keep their noise.
+    bool lock_boundary = false;
 
     /// Whether NoiseReport::displacement is wanted.
     bool measure_displacement = false;
