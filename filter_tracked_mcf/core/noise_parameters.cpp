@@ -31,7 +31,9 @@ const std::vector<ParameterOf<NoiseParameters>>& parameter_table() {
               "largest_movement", "Move no vertex farther than",
               "A bound that no vertex exceeds. 0 is no bound."),
         named(choice<&P::boundary>({{"Locked", "locked"}, {"Free", "free"}}), "boundary",
-              "Boundary", "Locked: the vertices of an open rim stay. Free: they move too."),
+              "Boundary",
+              "Free: the rim of an open mesh is smoothed, too. Locked: its vertices stay, with "
+              "their noise."),
         named(of_host<P>(Type::Selected), "selected", "Affect only selected faces",
               "Vertices of other faces stay."),
         named(of_host<P>(Type::Strength), "strength", "Strength from vertex quality",

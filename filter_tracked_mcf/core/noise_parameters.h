@@ -7,7 +7,7 @@ namespace tracked_mcf {
 
 /// What happens to the boundary of an open mesh while noise is removed.
 enum class NoiseBoundary {
-    Locked,  ///< its vertices keep their bits
+    Locked,  ///< its vertices keep their bits, and their noise
     Free     ///< its vertices move like all others
 };
 
@@ -28,7 +28,7 @@ struct NoiseParameters {
     /// Greater than 0: no vertex moves farther than this, mesh units. 0 is no bound.
     double largest_movement = 0;
 
-    NoiseBoundary boundary = NoiseBoundary::Locked;
+    NoiseBoundary boundary = NoiseBoundary::Free;
 
     /// None or Displacement: what NoiseReport::quality holds.
     Quality quality = Quality::None;

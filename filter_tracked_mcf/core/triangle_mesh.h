@@ -21,6 +21,9 @@ struct TriangleMesh {
     /// a vertex stays. Coincident vertices take the strength of the first.
     // Without the initializer, GCC would warn where a mesh is made of two members.
     std::vector<double> strength = {};  // NOLINT(readability-redundant-member-init)
+    /// Whether the positions are floats, to which whoever keeps them rounds the result. Only
+    /// NoiseParameters::largest_movement depends on it: it holds after the rounding.
+    bool single_precision = false;
 };
 
 /// One flag per triangle of a mesh: nonzero if the triangle flows. Empty if all triangles flow.

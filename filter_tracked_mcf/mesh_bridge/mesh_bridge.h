@@ -40,6 +40,7 @@ template <class VcgMesh>
 TriangleMesh to_triangle_mesh(const VcgMesh& mesh) {
     using namespace mesh_bridge_detail;
     TriangleMesh result;
+    result.single_precision = sizeof(typename VcgMesh::ScalarType) == sizeof(float);
     result.positions.reserve(mesh.vert.size());
     std::vector<std::int32_t> indices(mesh.vert.size(), kNoVertex);
     for (std::size_t i = 0; i < indices.size(); ++i) {

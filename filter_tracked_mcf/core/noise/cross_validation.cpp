@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <utility>
+#include <set>
 
 #include "filter_tracked_mcf/core/noise/sharpening.h"
 
@@ -72,6 +72,10 @@ struct Attempt {
     Twins twins;
 };
 
+/// A place on the grid of treatments: of kNormalLengths, of kStepSizes, and whether sides have
+/// their own lengths.
+using Place = std::array<int, 3>;
+
 /// Tries treatments on a sample.
 class Trials {
 public:
@@ -90,11 +94,12 @@ public:
 
     Treatment best() {
         if (wishes_.detail_size > 0) {
-            for (std::size_t i = 0; i < kNormalLengths.size(); ++i) try_steps(i, 0);
+            for (std::size_t i = 0; i < kNormalLengths.size(); ++i)
+                try_steps({static_cast<int>(i), 0, 0});
         } else {
             descend();
         }
-        if (wishes_.crease > 0) {
+        if (wishes_.crease > 0 && best_.treatment.steps > 0) {
             const Attempt smooth = best_;
             for (const int iterations : kSharpenings) try_sharpening(smooth, iterations);
         }
@@ -184,19 +189,21 @@ private:
     }
 
     /// Tries steps with these settings, one more after the other until they do not get better.
-    void try_steps(std::size_t length, std::size_t size) {
+    void try_steps(const Place& place) {
+        const double length = kNormalLengths[static_cast<std::size_t>(place[0])];
         Twins twins = start_;
         Treatment treatment;
         if (wishes_.detail_size > 0) {
             const double wave = wishes_.detail_size / kTwoPi;
-            treatment.settings = settings_for(
-                kNormalLengths[length], wave * wave * std::sqrt(halved_waves(kStepsToDetailSize)));
+            treatment.settings =
+                settings_for(length, wave * wave * std::sqrt(halved_waves(kStepsToDetailSize)));
             treatment.steps = kStepsToDetailSize;
             for (int i = 0; i < kStepsToDetailSize; ++i) step(treatment.settings, twins);
             judge(treatment, twins);
             return;
         }
-        treatment.settings = settings_for(kNormalLengths[length], kStepSizes[size]);
+        treatment.settings = settings_for(length, kStepSizes[static_cast<std::size_t>(place[1])]);
+        treatment.settings.own_lengths = place[2] != 0;
         double last = std::numeric_limits<double>::infinity();
         while (treatment.steps < kMostSteps) {
             step(treatment.settings, twins);
@@ -207,27 +214,29 @@ private:
         }
     }
 
-    /// Walks over the grid of lengths and step sizes, to the better neighbour each time.
+    /// Walks over the grid of treatments, to a better neighbour each time.
     void descend() {
-        const int lengths = wishes_.crease > 0 ? static_cast<int>(kNormalLengths.size()) : 1;
-        const int sizes = static_cast<int>(kStepSizes.size());
-        std::vector<std::uint8_t> tried(kNormalLengths.size() * kStepSizes.size(), 0);
-        const auto improves = [&](int length, int size) {
-            if (length < 0 || length >= lengths || size < 0 || size >= sizes) return false;
-            std::uint8_t& mark = tried[static_cast<std::size_t>(length * sizes + size)];
-            if (std::exchange(mark, std::uint8_t{1}) != 0) return false;
+        const Place sizes = {wishes_.crease > 0 ? static_cast<int>(kNormalLengths.size()) : 1,
+                             static_cast<int>(kStepSizes.size()), 2};
+        std::set<Place> tried;
+        const auto improves = [&](const Place& place) {
+            for (std::size_t i = 0; i < place.size(); ++i) {
+                if (place[i] < 0 || place[i] >= sizes[i]) return false;
+            }
+            if (!tried.insert(place).second) return false;
             const double before = best_.score;
-            try_steps(static_cast<std::size_t>(length), static_cast<std::size_t>(size));
+            try_steps(place);
             return best_.score < before;
         };
-        int length = lengths / 2, size = sizes / 2;
-        improves(length, size);
+        Place place = {sizes[0] / 2, sizes[1] / 2, 0};
+        improves(place);
         for (bool moved = true; moved;) {
             moved = false;
-            for (const auto& [dl, ds] : {std::pair(0, -1), {0, 1}, {-1, 0}, {1, 0}}) {
-                if (!improves(length + dl, size + ds)) continue;
-                length += dl;
-                size += ds;
+            for (const Place& step : {Place{0, -1, 0}, Place{0, 1, 0}, Place{0, 0, 1},
+                                      Place{0, 0, -1}, Place{-1, 0, 0}, Place{1, 0, 0}}) {
+                const Place next = {place[0] + step[0], place[1] + step[1], place[2] + step[2]};
+                if (!improves(next)) continue;
+                place = next;
                 moved = true;
             }
         }

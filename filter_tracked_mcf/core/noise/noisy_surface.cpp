@@ -200,11 +200,17 @@ Sample sample_of(const NoisySurface& surface, std::int32_t vertex_count) {
             mark_patch(stars, static_cast<std::int32_t>(seed), marked);
         }
     }
-    const std::vector<std::int32_t> numbers = numbers_of(marked);
+    // Only whole triangles belong to the sample, and only their vertices.
+    std::vector<std::uint8_t> used(marked.size(), 0);
+    for (const Triangle& t : stars.triangles) {
+        if (marked[t[0]] + marked[t[1]] + marked[t[2]] < 3) continue;
+        for (const std::int32_t vertex : t) used[vertex] = 1;
+    }
+    const std::vector<std::int32_t> numbers = numbers_of(used);
     Sample sample{{{{}, 0}, {}, {}}, {}};
     std::vector<std::uint32_t> star_sizes;
     for (std::int32_t i = 0; i < all; ++i) {
-        if (marked[i] == 0) continue;
+        if (used[i] == 0) continue;
         sample.surface.positions.push_back(surface.positions[i]);
         sample.surface.fidelity.push_back(surface.fidelity[i]);
         star_sizes.push_back(stars.corner_begin[i + 1] - stars.corner_begin[i]);

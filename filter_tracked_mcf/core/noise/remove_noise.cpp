@@ -85,15 +85,21 @@ void treat(NoisySurface& surface, double edge, const NoiseParameters& parameters
 }
 
 /// Returns `from` moved by `movement`, or only by as much of it as does not exceed the bound, after
-/// rounding. Sets `stopped` if it does.
-Eigen::Vector3d bounded(const Eigen::Vector3d& from, Eigen::Vector3d movement, double bound,
-                        bool& stopped) {
-    Eigen::Vector3d to = from + movement;
-    if (bound == 0) return to;
-    for (double scale = bound / (to - from).stableNorm(); (to - from).stableNorm() > bound;
-         scale *= 1 - 1e-15) {
+/// rounding to floats if the mesh has such. Sets `stopped` if it does.
+Eigen::Vector3d bounded(const Eigen::Vector3d& from, const Eigen::Vector3d& movement, double bound,
+                        bool floats, bool& stopped) {
+    const auto moved_by = [&](double scale) -> Eigen::Vector3d {
+        const Eigen::Vector3d to = from + scale * movement;
+        return floats ? to.cast<float>().cast<double>() : to;
+    };
+    if (bound == 0) return from + movement;
+    Eigen::Vector3d to = moved_by(1);
+    // Rounding may exceed the bound a few times.
+    double shrink = std::numeric_limits<double>::epsilon();
+    for (double scale = bound / movement.norm(); (to - from).norm() > bound; shrink *= 2) {
         stopped = true;
-        to = from + scale * movement;
+        to = moved_by(scale);
+        scale *= 1 - std::min(shrink, 1.0);
     }
     return to;
 }
@@ -110,7 +116,7 @@ std::vector<Eigen::Vector3d> moved_positions(const TriangleMesh& mesh, const Sur
         bool stopped = false;
         after[i] = bounded(mesh.positions[i],
                            moved.edge * (moved.surface.positions[vertex] - before[vertex]), bound,
-                           stopped);
+                           mesh.single_precision, stopped);
         if (stopped) ++report.bounded_vertices;
     }
     return after;
@@ -121,7 +127,7 @@ void measure_change(const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>
     double squares = 0;
     for (std::size_t i = 0; i < after.size(); ++i) {
         if (!after[i].allFinite()) continue;  // a vertex that no triangle uses
-        const double distance = (after[i] - mesh.positions[i]).stableNorm();
+        const double distance = (after[i] - mesh.positions[i]).norm();
         report.largest_displacement = std::max(report.largest_displacement, distance);
         squares += distance * distance;
     }

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "filter_tracked_mcf/core/noise/linear_elements.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "tests/support/shapes.h"
+
+namespace tracked_mcf {
+namespace {
+
+constexpr int kSide = 60;
+
+/// A square of kSide by kSide quads, all of whose vertices may move.
+NoisySurface square() {
+    const SurfaceOfMesh result = surface_of(Domain(shapes::square(kSide), BoundaryCondition::Free));
+    return result.surface;
+}
+
+Vectors upright(const NoisySurface& surface) {
+    return Vectors(surface.positions.size(), Eigen::Vector4f(0, 0, 1, 0));
+}
+
+/// Returns the heights after a step in the metric of constant normals.
+std::vector<double> smoothed(const NoisySurface& surface, double step_size,
+                             const std::vector<double>& heights) {
+    Positions positions = surface.positions;
+    for (std::size_t i = 0; i < heights.size(); ++i) positions[i][2] = heights[i];
+    LinearElements elements(surface);
+    elements.assemble(upright(surface), 5, nullptr);
+    Vectors d;
+    elements.displace(step_size, positions, d);
+    std::vector<double> result = heights;
+    for (std::size_t i = 0; i < heights.size(); ++i) result[i] += double{d[i][2]};
+    return result;
+}
+
+std::vector<double> noise(std::size_t count, unsigned seed) {
+    std::mt19937 random(seed);
+    std::normal_distribution<double> normal;
+    std::vector<double> heights(count);
+    for (double& height : heights) height = normal(random);
+    return heights;
+}
+
+/// Returns the masses: each triangle counts as an equilateral one of side 1.
+double mass(const Stars& stars, std::int32_t vertex) {
+    const double triangles = stars.corner_begin[vertex + 1] - stars.corner_begin[vertex];
+    return triangles * std::sqrt(3.0) / 12;
+}
+
+// The triangles count as equilateral ones, so the Laplacian of a wave along one of three directions
+// has the eigenvalue 8/3 (1 - cos(phase per edge)).
+TEST(LinearElements, DampAWaveAsTheEquationSays) {
+    const NoisySurface surface = square();
+    for (const double step_size : {0.3, 1.2, 4.0}) {
+        for (const double length : {4.0, 8.0, 15.0}) {
+            const double phase = 2 * std::acos(-1.0) / length;
+            std::vector<double> heights;
+            const double quad =
+                (surface.positions[surface.positions.size() - 1] - surface.positions[0])
+                    .cwiseAbs()
+                    .maxCoeff() /
+                kSide;
+            std::int32_t middle = 0;
+            double nearest = 1e9;
+            for (std::size_t i = 0; i < surface.positions.size(); ++i) {
+                const Eigen::Vector3d at = (surface.positions[i] - surface.positions[0]) / quad;
+                heights.push_back(0.1 * std::cos(phase * (at[0] - kSide / 2)));
+                const double distance = (at - Eigen::Vector3d(kSide / 2, kSide / 2, 0)).norm();
+                if (distance < nearest) {
+                    nearest = distance;
+                    middle = static_cast<std::int32_t>(i);
+                }
+            }
+            const double eigenvalue = 8.0 / 3 * (1 - std::cos(phase));
+            const double kept = 1 / (1 + std::pow(step_size * eigenvalue, 2));
+            EXPECT_NEAR(smoothed(surface, step_size, heights)[middle] / 0.1, kept, 0.01)
+                << step_size << ", " << length;
+        }
+    }
+}
+
+TEST(LinearElements, KeepConstantsAndTheMeanHeight) {
+    const NoisySurface surface = square();
+    const std::vector<double> constant(surface.positions.size(), 3.25);
+    EXPECT_EQ(smoothed(surface, 2, constant), constant);
+
+    const std::vector<double> heights = noise(surface.positions.size(), 1);
+    const std::vector<double> after = smoothed(surface, 2, heights);
+    double before_sum = 0, after_sum = 0, squares = 0;
+    for (std::int32_t i = 0; i < surface.stars.count(); ++i) {
+        before_sum += mass(surface.stars, i) * heights[i];
+        after_sum += mass(surface.stars, i) * after[i];
+        squares += heights[i] * heights[i];
+    }
+    EXPECT_NEAR(after_sum, before_sum, 3e-3 * std::sqrt(squares));
+}
+
+TEST(LinearElements, AreSymmetric) {
+    const NoisySurface surface = square();
+    const std::vector<double> a = noise(surface.positions.size(), 1);
+    const std::vector<double> b = noise(surface.positions.size(), 2);
+    const std::vector<double> smooth_a = smoothed(surface, 1, a),
+                              smooth_b = smoothed(surface, 1, b);
+    double ab = 0, ba = 0, bb = 0;
+    for (std::int32_t i = 0; i < surface.stars.count(); ++i) {
+        ab += mass(surface.stars, i) * a[i] * smooth_b[i];
+        ba += mass(surface.stars, i) * smooth_a[i] * b[i];
+        bb += mass(surface.stars, i) * b[i] * smooth_b[i];
+    }
+    EXPECT_NEAR(ab, ba, 2e-3 * bb);
+}
+
+TEST(LinearElements, KeepConstantNormals) {
+    const NoisySurface surface = square();
+    LinearElements elements(surface);
+    elements.assemble(upright(surface), 5, nullptr);
+    Vectors x(surface.positions.size(), Eigen::Vector4f::Zero());
+    elements.smooth(2, upright(surface), x);
+    for (const Eigen::Vector4f& vector : x) EXPECT_NEAR(vector[2], 1, 0.05);
+    x = upright(surface);
+    EXPECT_EQ(elements.smooth(2, upright(surface), x), 0);
+}
+
+TEST(LinearElements, DoNotSmoothAcrossACrease) {
+    // A step of height 1 in the middle, where the normals turn by 90 degrees.
+    const NoisySurface surface = square();
+    const double middle =
+        surface.positions[0][0] + (surface.positions.back() - surface.positions[0])[0] / 2;
+    Vectors normals = upright(surface);
+    Positions positions = surface.positions;
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+        if (positions[i][0] < middle) continue;
+        normals[i] = {1, 0, 0, 0};
+        positions[i][2] = 1;
+    }
+    const auto moved = [&](double normal_length) {
+        LinearElements elements(surface);
+        elements.assemble(normals, normal_length, nullptr);
+        Vectors d;
+        elements.displace(1, positions, d);
+        double squares = 0;
+        for (const Eigen::Vector4f& vector : d) squares += double{vector[2] * vector[2]};
+        return std::sqrt(squares);
+    };
+    EXPECT_LT(moved(9), 0.2 * moved(0));
+}
+
+}  // namespace
+}  // namespace tracked_mcf

@@ -1,0 +1,353 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "filter_tracked_mcf/core/remove_noise.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <random>
+#include <stdexcept>
+#include <vector>
+
+#include "filter_tracked_mcf/core/mesh/measures.h"
+#include "tests/support/shapes.h"
+#include "tests/support/surface_distance.h"
+#include "tests/unit/flows.h"
+
+namespace tracked_mcf {
+namespace {
+
+/// Moves the vertices along their normals by normal noise of this deviation, in mean edges.
+TriangleMesh with_noise(TriangleMesh mesh, double deviation) {
+    std::mt19937 random(1);
+    std::normal_distribution<double> normal(0, deviation * mean_edge_length(mesh));
+    std::vector<Eigen::Vector3d> normals(mesh.positions.size(), Eigen::Vector3d::Zero());
+    for (const Triangle& t : mesh.triangles) {
+        for (const std::int32_t vertex : t) normals[vertex] += twice_vector_area(mesh, t);
+    }
+    for (std::size_t i = 0; i < normals.size(); ++i) {
+        mesh.positions[i] += normal(random) * normals[i].stableNormalized();
+    }
+    return mesh;
+}
+
+/// Returns the RMS distance of the vertices to the clean surface, along its normals.
+double error(const TriangleMesh& mesh, const TriangleMesh& clean) {
+    std::vector<Eigen::Vector3d> differences(mesh.positions.size());
+    for (std::size_t i = 0; i < differences.size(); ++i) {
+        differences[i] = mesh.positions[i] - clean.positions[i];
+    }
+    double squares = 0;
+    for (const double height : along_normals(differences, clean)) squares += height * height;
+    return std::sqrt(squares / static_cast<double>(differences.size()));
+}
+
+TriangleMesh denoised(TriangleMesh mesh, const NoiseParameters& parameters = {}) {
+    remove_noise(mesh, {}, parameters);
+    return mesh;
+}
+
+NoiseReport report_of(TriangleMesh mesh, const NoiseParameters& parameters = {}) {
+    return remove_noise(mesh, {}, parameters);
+}
+
+TriangleMesh cube() {
+    return shapes::box(20, {1, 1, 1});
+}
+
+bool is_finite(const TriangleMesh& mesh) {
+    return std::all_of(mesh.positions.begin(), mesh.positions.end(),
+                       [](const Eigen::Vector3d& p) { return p.allFinite(); });
+}
+
+TEST(RemoveNoise, MeasuresTheNoiseAndRemovesMostOfIt) {
+    for (const TriangleMesh& clean :
+         {shapes::geodesic_sphere(20), cube(), shapes::torus(80, 30, 1, 0.4)}) {
+        for (const double deviation : {0.1, 0.3, 0.6}) {
+            const TriangleMesh before = with_noise(clean, deviation);
+            EXPECT_NEAR(report_of(before).noise / (deviation * mean_edge_length(clean)), 1, 0.1);
+            EXPECT_LT(error(denoised(before), clean), 0.4 * error(before, clean));
+        }
+    }
+}
+
+TEST(RemoveNoise, KeepsTheCreasesOfACube) {
+    const TriangleMesh before = with_noise(cube(), 0.2);
+    NoiseParameters none;
+    none.crease_angle = 0;
+    EXPECT_LT(error(denoised(before), cube()), 0.5 * error(denoised(before, none), cube()));
+    EXPECT_GT(report_of(before).crease_share, 0.1);
+    EXPECT_EQ(report_of(before, none).crease_share, 0);
+}
+
+TEST(RemoveNoise, HardlyMovesACleanMesh) {
+    for (const TriangleMesh& clean :
+         {shapes::geodesic_sphere(20), shapes::box(10, {1, 2, 3}), shapes::square(20)}) {
+        const double edge = mean_edge_length(clean);
+        EXPECT_LT(error(denoised(clean), clean), 0.01 * edge);
+    }
+}
+
+TEST(RemoveNoise, KeepsAPlaneExactly) {
+    const TriangleMesh after = denoised(shapes::square(20));
+    for (const Eigen::Vector3d& position : after.positions) EXPECT_EQ(position[2], 0);
+}
+
+TEST(RemoveNoise, TurnsAndScalesWithTheMesh) {
+    const TriangleMesh before = with_noise(cube(), 0.2);
+    const double edge = mean_edge_length(before);
+    const TriangleMesh after = denoised(before);
+    const Eigen::Affine3d turn(Eigen::AngleAxisd(1, Eigen::Vector3d(1, 2, 3).normalized()));
+    EXPECT_LT(
+        rms_distance(denoised(shapes::transformed(before, turn)), shapes::transformed(after, turn)),
+        1e-3 * edge);
+    const Eigen::Affine3d twice(Eigen::Scaling(2.0));
+    EXPECT_TRUE(
+        same_bits(denoised(shapes::transformed(before, twice)), shapes::transformed(after, twice)));
+    for (const double scale : {1e-60, 1e60}) {
+        const Eigen::Affine3d larger{Eigen::Scaling(scale)}, smaller{Eigen::Scaling(1 / scale)};
+        TriangleMesh mesh = shapes::transformed(before, larger);
+        const NoiseReport report = remove_noise(mesh, {}, {});
+        EXPECT_NEAR(report.noise / scale, report_of(before).noise, 1e-3 * edge);
+        EXPECT_LT(rms_distance(shapes::transformed(mesh, smaller), after), 1e-3 * edge);
+    }
+}
+
+TEST(RemoveNoise, DoesNotDependOnTheOrderOfTrianglesOrTheirOrientation) {
+    const TriangleMesh before = with_noise(cube(), 0.2);
+    const TriangleMesh after = denoised(before);
+    TriangleMesh other = before;
+    std::shuffle(other.triangles.begin(), other.triangles.end(), std::mt19937(1));
+    for (std::size_t i = 0; i < other.triangles.size(); i += 3) {
+        std::swap(other.triangles[i][0], other.triangles[i][1]);
+    }
+    EXPECT_FALSE(report_of(other).oriented_consistently);
+    other = denoised(other);
+    other.triangles = after.triangles;
+    EXPECT_LT(rms_distance(other, after), 1e-3 * mean_edge_length(before));
+}
+
+TEST(RemoveNoise, GivesTheSameBitsWithAnyNumberOfThreads) {
+    const TriangleMesh before = with_noise(shapes::bumpy_sphere(40), 0.2);
+    NoiseParameters parameters;
+    parameters.threads = 1;
+    const TriangleMesh after = denoised(before, parameters);
+    for (const int threads : {2, 3, 8}) {
+        parameters.threads = threads;
+        EXPECT_TRUE(same_bits(denoised(before, parameters), after)) << threads;
+    }
+}
+
+TEST(RemoveNoise, TakesASoupAsItsMesh) {
+    const TriangleMesh before = with_noise(cube(), 0.2);
+    const TriangleMesh after = denoised(before);
+    TriangleMesh soup = denoised(shapes::soup(before));
+    EXPECT_EQ(report_of(shapes::soup(before)).vertices, report_of(before).vertices);
+    EXPECT_LT(rms_distance(soup, shapes::soup(after)), 1e-3 * mean_edge_length(before));
+}
+
+TEST(RemoveNoise, KeepsTheBitsOfVerticesThatStay) {
+    TriangleMesh mesh = with_noise(shapes::square(20), 0.2);
+    NoiseParameters parameters;
+    parameters.boundary = NoiseBoundary::Locked;
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    mesh.positions.emplace_back(nan, 1, -0.0);  // in no triangle
+    mesh.strength.assign(mesh.positions.size(), 1);
+    mesh.strength[220] = 0;
+    Selection selection(mesh.triangles.size(), 1);
+    std::fill(selection.begin() + 600, selection.end(), std::uint8_t{0});
+    std::vector<std::uint8_t> stays(mesh.positions.size(), 0);
+    stays[220] = 1;
+    stays.back() = 1;
+    for (std::size_t i = 600; i < selection.size(); ++i) {
+        for (const std::int32_t vertex : mesh.triangles[i]) stays[vertex] = 1;
+    }
+    for (std::size_t i = 0; i + 1 < stays.size(); ++i) {
+        const Eigen::Vector3d& p = mesh.positions[i];
+        if (std::min(p[0], p[1]) == 0 || std::max(p[0], p[1]) == 1) stays[i] = 1;
+    }
+    const TriangleMesh before = mesh;
+    const NoiseReport report = remove_noise(mesh, selection, parameters);
+    EXPECT_GT(report.rms_displacement, 0);
+    std::size_t moved = 0;
+    for (std::size_t i = 0; i < stays.size(); ++i) {
+        const bool same = std::equal(
+            mesh.positions[i].data(), mesh.positions[i].data() + 3, before.positions[i].data(),
+            [](double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; });
+        EXPECT_TRUE(same || stays[i] == 0) << i;
+        if (!same) ++moved;
+    }
+    EXPECT_GT(moved, 100U);
+}
+
+TEST(RemoveNoise, MovesAFreeBoundary) {
+    const TriangleMesh before = with_noise(shapes::square(20), 0.2);
+    EXPECT_NE(denoised(before).positions[0][2], before.positions[0][2]);
+}
+
+TEST(RemoveNoise, FollowsTheStrength) {
+    TriangleMesh mesh = with_noise(shapes::geodesic_sphere(20), 0.2);
+    double last = 0;
+    for (const double strength : {1e-9, 0.2, 0.5, 1.0}) {
+        mesh.strength.assign(mesh.positions.size(), strength);
+        NoiseParameters parameters;
+        parameters.detail_size = 5 * mean_edge_length(mesh);
+        const double moved = report_of(mesh, parameters).rms_displacement;
+        EXPECT_GT(moved, last);
+        last = moved;
+    }
+}
+
+TEST(RemoveNoise, MovesNoVertexFartherThanItsBound) {
+    const TriangleMesh before = with_noise(cube(), 0.3);
+    for (const double bound : {1e-3, 0.7e-2, 1e-9}) {
+        NoiseParameters parameters;
+        parameters.largest_movement = bound;
+        TriangleMesh mesh = before;
+        const NoiseReport report = remove_noise(mesh, {}, parameters);
+        EXPECT_GT(report.bounded_vertices, 0);
+        double largest = 0;
+        for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+            largest = std::max(largest, (mesh.positions[i] - before.positions[i]).norm());
+        }
+        EXPECT_LE(largest, bound);
+        EXPECT_GT(largest, 0.999 * bound);
+        EXPECT_EQ(report.largest_displacement, largest);
+    }
+}
+
+TEST(RemoveNoise, HalvesWavesOfTheDetailSize) {
+    // The metric takes the triangles of a square's quads as equilateral ones: waves along the sides
+    // are shorter in it by the square root of 4/3, and edges are longer than the quads' sides.
+    constexpr int side = 120;
+    TriangleMesh mesh = shapes::square(side);
+    const double length = 30.0 / side;
+    for (Eigen::Vector3d& p : mesh.positions) {
+        p[2] = 1e-4 * std::cos(2 * std::acos(-1.0) / length * (p[0] - 0.5));
+    }
+    const double edges = length * side * std::sqrt(0.75);
+    NoiseParameters parameters;
+    parameters.detail_size = edges * mean_edge_length(mesh);
+    const std::size_t middle = mesh.positions.size() / 2;
+    ASSERT_NEAR(mesh.positions[middle][2], 1e-4, 1e-10);
+    EXPECT_NEAR(denoised(mesh, parameters).positions[middle][2], 0.5e-4, 0.02e-4);
+    EXPECT_NEAR(report_of(mesh, parameters).detail_size, parameters.detail_size,
+                1e-9 * parameters.detail_size);
+}
+
+TEST(RemoveNoise, TakesTheNoiseItIsTold) {
+    const TriangleMesh before = with_noise(shapes::geodesic_sphere(20), 0.2);
+    const double edge = mean_edge_length(before);
+    double last = 0;
+    for (const double noise : {0.02, 0.1, 0.2}) {
+        NoiseParameters parameters;
+        parameters.noise = noise * edge;
+        const NoiseReport report = report_of(before, parameters);
+        EXPECT_EQ(report.noise, parameters.noise);
+        EXPECT_GT(report.rms_displacement, last);
+        last = report.rms_displacement;
+    }
+}
+
+TEST(RemoveNoise, ReportsWhatItHasDone) {
+    TriangleMesh mesh = with_noise(shapes::geodesic_sphere(20), 0.2);
+    const TriangleMesh before = mesh;
+    NoiseParameters parameters;
+    parameters.quality = Quality::Displacement;
+    const NoiseReport report = remove_noise(mesh, {}, parameters);
+    EXPECT_EQ(report.vertices, 4002);
+    EXPECT_EQ(report.triangles, 8000);
+    EXPECT_EQ(report.constrained_vertices, 0);
+    EXPECT_NEAR(report.volume_change, shapes::volume(mesh) - shapes::volume(before), 1e-12);
+    EXPECT_EQ(report.area_before, surface_area(before));
+    EXPECT_EQ(report.area_after, surface_area(mesh));
+    EXPECT_LT(report.area_after, report.area_before);
+    ASSERT_EQ(report.quality.size(), mesh.positions.size());
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        EXPECT_LE(std::abs(report.quality[i]),
+                  (1 + 1e-9) * (mesh.positions[i] - before.positions[i]).norm());
+    }
+}
+
+TEST(RemoveNoise, LeavesTheMeshIfItIsCancelledAtAnyCall) {
+    const TriangleMesh before = with_noise(cube(), 0.2);
+    const auto run = [&](int last_call) {
+        TriangleMesh mesh = before;
+        int calls = 0;
+        double done = 0;
+        const auto progress = [&](double fraction, std::string_view /*phase*/) {
+            EXPECT_GE(fraction, done);
+            done = fraction;
+            return ++calls < last_call;
+        };
+        try {
+            remove_noise(mesh, {}, {}, progress);
+            EXPECT_EQ(done, 1);
+            return calls;
+        } catch (const Cancelled&) {
+            EXPECT_EQ(calls, last_call);
+        }
+        EXPECT_TRUE(same_bits(mesh, before));
+        return 0;
+    };
+    const int calls = run(std::numeric_limits<int>::max());
+    EXPECT_GE(calls, 5);
+    for (int call = 1; call <= 5; ++call) run(call);
+}
+
+TEST(RemoveNoise, RefusesWhatItCannotDo) {
+    TriangleMesh mesh = cube();
+    const TriangleMesh before = mesh;
+    const auto refuses = [&](double NoiseParameters::*member, double value) {
+        NoiseParameters parameters;
+        parameters.*member = value;
+        EXPECT_THROW(remove_noise(mesh, {}, parameters), InvalidParameter) << value;
+    };
+    const double infinity = std::numeric_limits<double>::infinity();
+    for (const double value : {-1.0, infinity, std::numeric_limits<double>::quiet_NaN()}) {
+        refuses(&NoiseParameters::crease_angle, value);
+        refuses(&NoiseParameters::noise, value);
+        refuses(&NoiseParameters::detail_size, value);
+        refuses(&NoiseParameters::largest_movement, value);
+    }
+    refuses(&NoiseParameters::crease_angle, 180);
+    EXPECT_THROW(remove_noise(mesh, Selection(3, 1), {}), InvalidParameter);
+    EXPECT_THROW(remove_noise(mesh, Selection(mesh.triangles.size(), 0), {}), InvalidMesh);
+    EXPECT_TRUE(same_bits(mesh, before));
+    TriangleMesh point{{{1, 2, 3}}, {{0, 0, 0}}};
+    EXPECT_THROW(remove_noise(point, {}, {}), InvalidMesh);
+    TriangleMesh empty;
+    EXPECT_THROW(remove_noise(empty, {}, {}), InvalidMesh);
+}
+
+TEST(RemoveNoise, IsDefinedForBadMeshes) {
+    TriangleMesh flat = shapes::square(10);
+    for (Eigen::Vector3d& p : flat.positions) p[1] = 0;
+    TriangleMesh collapsed = shapes::square(10);
+    for (std::size_t i = 0; i < 60; ++i) collapsed.positions[i] = collapsed.positions[0];
+    const TriangleMesh triangle{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}};
+    const TriangleMesh two{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 1}}, {{0, 1, 2}, {2, 1, 3}}};
+    const TriangleMesh copies = shapes::stack(shapes::square(10), 3, 0);
+    for (const TriangleMesh& mesh : {flat, collapsed, triangle, two, copies, shapes::fan(1000),
+                                     shapes::moebius_band(30, 4), shapes::separate_triangles(200),
+                                     with_noise(shapes::stack(shapes::square(10), 3, 1e-9), 1)}) {
+        for (const double crease_angle : {0.0, 25.0}) {
+            for (const bool locked : {false, true}) {
+                NoiseParameters parameters;
+                parameters.crease_angle = crease_angle;
+                parameters.boundary = locked ? NoiseBoundary::Locked : NoiseBoundary::Free;
+                TriangleMesh after = mesh;
+                const NoiseReport report = remove_noise(after, {}, parameters);
+                EXPECT_TRUE(is_finite(after));
+                EXPECT_TRUE(std::isfinite(report.noise));
+                const double edge = mean_edge_length(mesh);
+                EXPECT_LT(report.largest_displacement, 10 * edge);
+            }
+        }
+    }
+}
+
+}  // namespace
+}  // namespace tracked_mcf
