@@ -84,21 +84,23 @@ void treat(NoisySurface& surface, double edge, const NoiseParameters& parameters
     report.iterations = smoothing.iterations();
 }
 
+/// Returns the largest distance to which floats may be rounded around a point. Rounding itself and
+/// comparing is no way: at -O3, GCC 12 drops pairs of conversions to float and back.
+double float_rounding(const Eigen::Vector3d& point) {
+    constexpr double half_ulp = 0.5 * std::numeric_limits<float>::epsilon();
+    return (1 + 1e-6) * half_ulp * point.norm() + 2.0 * std::numeric_limits<float>::denorm_min();
+}
+
 /// Returns `from` moved by `movement`, or only by as much of it as does not exceed the bound, after
-/// rounding to floats if the mesh has such. Sets `stopped` if it does.
+/// rounding. Sets `stopped` if it does.
 Eigen::Vector3d bounded(const Eigen::Vector3d& from, const Eigen::Vector3d& movement, double bound,
-                        bool floats, bool& stopped) {
-    const auto moved_by = [&](double scale) -> Eigen::Vector3d {
-        const Eigen::Vector3d to = from + scale * movement;
-        return floats ? to.cast<float>().cast<double>() : to;
-    };
-    if (bound == 0) return from + movement;
-    Eigen::Vector3d to = moved_by(1);
+                        bool& stopped) {
+    Eigen::Vector3d to = from + movement;
     // Rounding may exceed the bound a few times.
     double shrink = std::numeric_limits<double>::epsilon();
     for (double scale = bound / movement.norm(); (to - from).norm() > bound; shrink *= 2) {
         stopped = true;
-        to = moved_by(scale);
+        to = from + scale * movement;
         scale *= 1 - std::min(shrink, 1.0);
     }
     return to;
@@ -113,10 +115,13 @@ std::vector<Eigen::Vector3d> moved_positions(const TriangleMesh& mesh, const Sur
     for (std::size_t i = 0; i < after.size(); ++i) {
         const std::int32_t vertex = moved.vertices[i];
         if (vertex < 0 || moved.surface.is_fixed(vertex)) continue;
+        const Eigen::Vector3d movement =
+            moved.edge * (moved.surface.positions[vertex] - before[vertex]);
+        after[i] += movement;
+        if (bound == 0) continue;
+        const double margin = mesh.single_precision ? float_rounding(after[i]) : 0;
         bool stopped = false;
-        after[i] = bounded(mesh.positions[i],
-                           moved.edge * (moved.surface.positions[vertex] - before[vertex]), bound,
-                           mesh.single_precision, stopped);
+        after[i] = bounded(mesh.positions[i], movement, std::max(0.0, bound - margin), stopped);
         if (stopped) ++report.bounded_vertices;
     }
     return after;
