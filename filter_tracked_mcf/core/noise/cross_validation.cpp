@@ -33,6 +33,10 @@ constexpr double kSmallNoise = 0.2;
 /// The trial that measures the noise takes this length of the metric and this step size.
 constexpr double kTrialNormalLength = 2.6, kTrialStepSize = 0.15;
 
+/// Multiplies the divergence in the cross-validation, which otherwise sometimes takes noise for
+/// detail (Wood, "Generalized Additive Models", 2017).
+constexpr double kCaution = 1.1;
+
 /// The perturbation ε: relative to the noise, and the least one that exceeds rounding by far.
 constexpr double kPerturbation = 0.05, kLeastPerturbation = 1e-4;
 constexpr double kTrialPerturbation = 5e-3;
@@ -72,9 +76,8 @@ struct Attempt {
     Twins twins;
 };
 
-/// A place on the grid of treatments: of kNormalLengths, of kStepSizes, and whether sides have
-/// their own lengths.
-using Place = std::array<int, 3>;
+/// A place on the grid of treatments: in kNormalLengths and in kStepSizes.
+using Place = std::array<int, 2>;
 
 /// Tries treatments on a sample.
 class Trials {
@@ -95,7 +98,7 @@ public:
     Treatment best() {
         if (wishes_.detail_size > 0) {
             for (std::size_t i = 0; i < kNormalLengths.size(); ++i)
-                try_steps({static_cast<int>(i), 0, 0});
+                try_steps({static_cast<int>(i), 0});
         } else {
             descend();
         }
@@ -176,7 +179,7 @@ private:
         if (wishes_.noise > 0) {
             return effect.square + 2 * noise_ * noise_ * effect.divergence;
         }
-        const double rest = 1 - effect.divergence;
+        const double rest = 1 - kCaution * effect.divergence;
         return rest > 0 ? effect.square / (rest * rest) : std::numeric_limits<double>::infinity();
     }
 
@@ -203,7 +206,6 @@ private:
             return;
         }
         treatment.settings = settings_for(length, kStepSizes[static_cast<std::size_t>(place[1])]);
-        treatment.settings.own_lengths = place[2] != 0;
         double last = std::numeric_limits<double>::infinity();
         while (treatment.steps < kMostSteps) {
             step(treatment.settings, twins);
@@ -217,7 +219,7 @@ private:
     /// Walks over the grid of treatments, to a better neighbour each time.
     void descend() {
         const Place sizes = {wishes_.crease > 0 ? static_cast<int>(kNormalLengths.size()) : 1,
-                             static_cast<int>(kStepSizes.size()), 2};
+                             static_cast<int>(kStepSizes.size())};
         std::set<Place> tried;
         const auto improves = [&](const Place& place) {
             for (std::size_t i = 0; i < place.size(); ++i) {
@@ -228,13 +230,12 @@ private:
             try_steps(place);
             return best_.score < before;
         };
-        Place place = {sizes[0] / 2, sizes[1] / 2, 0};
+        Place place = {sizes[0] / 2, sizes[1] / 2};
         improves(place);
         for (bool moved = true; moved;) {
             moved = false;
-            for (const Place& step : {Place{0, -1, 0}, Place{0, 1, 0}, Place{0, 0, 1},
-                                      Place{0, 0, -1}, Place{-1, 0, 0}, Place{1, 0, 0}}) {
-                const Place next = {place[0] + step[0], place[1] + step[1], place[2] + step[2]};
+            for (const Place& step : {Place{0, -1}, Place{0, 1}, Place{-1, 0}, Place{1, 0}}) {
+                const Place next = {place[0] + step[0], place[1] + step[1]};
                 if (!improves(next)) continue;
                 place = next;
                 moved = true;

@@ -14,18 +14,14 @@ constexpr double kToleranceOfNormals = 2e-2;
 constexpr double kToleranceOfPositions = 1e-3;
 constexpr int kMostIterations = 500;
 
-/// The least ratio of 16 times the square of a triangle's area to the square of the sum of its
-/// sides' squares, so that all cotangents are finite.
-constexpr float kLeastAreaRatio = 1e-3F;
-
 /// Returns half the cotangents at the corners, and a third of the area, of a triangle whose sides
 /// opposite to the corners have these squares (Heron).
 std::array<float, 4> weights_of(const std::array<float, 3>& squares) {
     const float sum = squares[0] + squares[1] + squares[2];
     const float products =
         squares[0] * squares[1] + squares[1] * squares[2] + squares[2] * squares[0];
-    const float four_areas =
-        std::sqrt(std::max(4 * products - sum * sum, kLeastAreaRatio * sum * sum));
+    // The area is at least that of the triangle with sides 1, so the root is of a positive number.
+    const float four_areas = std::sqrt(4 * products - sum * sum);
     std::array<float, 4> weights;
     for (int k = 0; k < 3; ++k) weights[k] = (sum - 2 * squares[k]) / (2 * four_areas);
     weights[3] = four_areas / 12;
@@ -36,23 +32,16 @@ std::array<float, 4> weights_of(const std::array<float, 3>& squares) {
 
 LinearElements::LinearElements(const NoisySurface& surface) : surface_(surface) {}
 
-void LinearElements::assemble(const Vectors& normals, double normal_length,
-                              const Positions* positions) {
+void LinearElements::assemble(const Vectors& normals, double normal_length) {
     const Stars& stars = surface_.stars;
     const auto scale = static_cast<float>(normal_length * normal_length);
     weights_.resize(stars.triangles.size());
     parallel_for_rows(static_cast<std::int64_t>(weights_.size()), [&](std::int32_t i) {
         const Triangle& t = stars.triangles[i];
-        std::array<float, 3> squares;  // of the side opposite to each corner
-        for (int k = 0; k < 3; ++k) {
-            const std::int32_t a = t[(k + 1) % 3], b = t[(k + 2) % 3];
-            squares[k] = scale * (normals[a] - normals[b]).squaredNorm();
-            squares[k] +=
-                positions == nullptr
-                    ? 1
-                    : static_cast<float>(((*positions)[a] - (*positions)[b]).squaredNorm());
-        }
-        weights_[i] = weights_of(squares);
+        const Eigen::Vector4f &a = normals[t[0]], &b = normals[t[1]], &c = normals[t[2]];
+        weights_[i] =
+            weights_of({1 + scale * (b - c).squaredNorm(), 1 + scale * (c - a).squaredNorm(),
+                        1 + scale * (a - b).squaredNorm()});
     });
     values_.resize(stars.neighbours.size());
     masses_.resize(static_cast<std::size_t>(stars.count()));

@@ -19,9 +19,8 @@ public:
     /// `surface` must outlive the elements.
     explicit LinearElements(const NoisySurface& surface);
 
-    /// Takes the metric of normals N and the length s, in edges. If positions are given, sides have
-    /// the lengths that follow from them.
-    void assemble(const Vectors& normals, double normal_length, const Positions* positions);
+    /// Takes the metric of normals N and the length s, in edges.
+    void assemble(const Vectors& normals, double normal_length);
 
     /// Solves (M + δ L) x = M b, from the given x, to the accuracy that normals need. Returns the
     /// number of iterations.

@@ -19,9 +19,8 @@ const Vectors& Smoothing::smooth_normals(const Positions& positions, const StepS
         averages_[vertex] << sum.normalized().cast<float>(), 0;
     });
     normals_ = averages_;
-    const Positions* const lengths = settings.own_lengths ? &positions : nullptr;
     for (const double normal_length : {0.0, settings.normal_length}) {
-        elements_.assemble(normals_, normal_length, lengths);
+        elements_.assemble(normals_, normal_length);
         iterations_ += elements_.smooth(settings.normal_step_size, averages_, normals_);
         parallel_for_rows(stars.count(),
                           [&](std::int32_t vertex) { normals_[vertex].normalize(); });
@@ -30,8 +29,7 @@ const Vectors& Smoothing::smooth_normals(const Positions& positions, const StepS
 }
 
 void Smoothing::step(const StepSettings& settings, Positions& positions) {
-    elements_.assemble(smooth_normals(positions, settings), settings.normal_length,
-                       settings.own_lengths ? &positions : nullptr);
+    elements_.assemble(smooth_normals(positions, settings), settings.normal_length);
     iterations_ += elements_.displace(settings.step_size, positions, displacements_);
     parallel_for_rows(surface_.stars.count(), [&](std::int32_t vertex) {
         positions[vertex] += displacements_[vertex].head<3>().cast<double>();

@@ -10,7 +10,6 @@ struct StepSettings {
     double normal_length = 0;     ///< s of the metric (linear_elements.h)
     double step_size = 0;         ///< δ for positions, a squared length
     double normal_step_size = 0;  ///< δ for normals
-    bool own_lengths = false;     ///< whether the metric knows the lengths of sides
 };
 
 /// Smooths surfaces that differ from one another only in their positions.

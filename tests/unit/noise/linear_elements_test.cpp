@@ -29,7 +29,7 @@ std::vector<double> smoothed(const NoisySurface& surface, double step_size,
     Positions positions = surface.positions;
     for (std::size_t i = 0; i < heights.size(); ++i) positions[i][2] = heights[i];
     LinearElements elements(surface);
-    elements.assemble(upright(surface), 5, nullptr);
+    elements.assemble(upright(surface), 5);
     Vectors d;
     elements.displace(step_size, positions, d);
     std::vector<double> result = heights;
@@ -117,7 +117,7 @@ TEST(LinearElements, AreSymmetric) {
 TEST(LinearElements, KeepConstantNormals) {
     const NoisySurface surface = square();
     LinearElements elements(surface);
-    elements.assemble(upright(surface), 5, nullptr);
+    elements.assemble(upright(surface), 5);
     Vectors x(surface.positions.size(), Eigen::Vector4f::Zero());
     elements.smooth(2, upright(surface), x);
     for (const Eigen::Vector4f& vector : x) EXPECT_NEAR(vector[2], 1, 0.05);
@@ -139,7 +139,7 @@ TEST(LinearElements, DoNotSmoothAcrossACrease) {
     }
     const auto moved = [&](double normal_length) {
         LinearElements elements(surface);
-        elements.assemble(normals, normal_length, nullptr);
+        elements.assemble(normals, normal_length);
         Vectors d;
         elements.displace(1, positions, d);
         double squares = 0;
