@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "filter_tracked_mcf/core/parameter_table.h"
+#include "filter_tracked_mcf/parameters/filter_names.h"
 
 namespace tracked_mcf {
 
@@ -34,7 +35,7 @@ Rows matches(const std::string& text, const std::string& pattern) {
 
 std::string default_in_words(const Parameter& parameter) {
     const ParameterValue value = parameter.initial;
-    if (parameter.type == Parameter::Type::Length) return "2.5 mean edge lengths";
+    if (&parameter == &parameter_table<FlowParameters>()[0]) return "2.5 mean edge lengths";
     if (parameter.type == Parameter::Type::Selected) return "on if faces are selected";
     const bool is_switch =
         parameter.type == Parameter::Type::Switch || parameter.type == Parameter::Type::Strength;
@@ -50,10 +51,11 @@ std::string default_in_words(const Parameter& parameter) {
 
 /// Expects that the table after a heading of a page has the names and defaults of the parameters
 /// that dialogs have, or of those that the program alone has.
+template <class Parameters>
 void expect_table(const std::string& file, const std::string& heading, const std::string& pattern,
                   bool in_dialogs) {
     Rows expected;
-    for (const auto& parameter : parameter_table<FlowParameters>()) {
+    for (const auto& parameter : parameter_table<Parameters>()) {
         if (parameter.label.empty() == in_dialogs) continue;
         std::string name = parameter.name;
         // The program's options have dashes.
@@ -61,18 +63,24 @@ void expect_table(const std::string& file, const std::string& heading, const std
         expected.emplace_back(name, default_in_words(parameter));
     }
     const std::string text = page(file);
-    EXPECT_EQ(matches(text.substr(text.find(heading)), pattern), expected);
+    const std::size_t begin = text.find(heading);
+    const std::string section = text.substr(begin, text.find("\n## ", begin + 1) - begin);
+    EXPECT_EQ(matches(section, pattern), expected);
 }
 
 TEST(Pages, TablesHaveTheNamesAndDefaultsOfAllParameters) {
-    expect_table("README.md", "\n## Parameters", "\n\\| `([a-z_]+)` \\| ([^|]*) \\|", true);
-    expect_table("filter_tracked_mcf/tool/README.md", "\nFurther options",
-                 "\n\\| `--([a-z-]+) [^`]*` \\| ([^| ]+) \\|", false);
+    const char* const in_dialogs = "\n\\| `([a-z_]+)` \\| ([^|]*) \\|";
+    expect_table<FlowParameters>("README.md", "\n## Parameters", in_dialogs, true);
+    expect_table<NoiseParameters>("README.md", "\n## Remove Noise", in_dialogs, true);
+    expect_table<FlowParameters>("filter_tracked_mcf/tool/README.md", "\nFurther options",
+                                 "\n\\| `--([a-z-]+) [^`]*` \\| ([^| ]+) \\|", false);
 }
 
-TEST(Pages, TheFilterScriptSetsAllParametersToTheirDefaults) {
+/// Expects that the plugin's page has a filter script with the defaults of all parameters.
+template <class Parameters>
+void expect_script() {
     Rows expected;
-    for (const auto& parameter : parameter_table<FlowParameters>()) {
+    for (const auto& parameter : parameter_table<Parameters>()) {
         if (parameter.label.empty()) continue;
         const auto in_xml = [](auto value) -> std::string {
             std::ostringstream text;
@@ -82,7 +90,16 @@ TEST(Pages, TheFilterScriptSetsAllParametersToTheirDefaults) {
         expected.emplace_back(parameter.name, std::visit(in_xml, parameter.initial));
     }
     const std::string text = page("filter_tracked_mcf/plugin/README.md");
-    EXPECT_EQ(matches(text, "<Param type=\"\\w+\" name=\"(\\w+)\" value=\"([^\"]*)\""), expected);
+    const std::size_t begin =
+        text.find("<filter name=\"" + std::string(kNames<Parameters>.name) + "\">");
+    ASSERT_LT(begin, text.size());
+    const std::string script = text.substr(begin, text.find("</filter>", begin) - begin);
+    EXPECT_EQ(matches(script, "<Param type=\"\\w+\" name=\"(\\w+)\" value=\"([^\"]*)\""), expected);
+}
+
+TEST(Pages, TheFilterScriptsSetAllParametersToTheirDefaults) {
+    expect_script<FlowParameters>();
+    expect_script<NoiseParameters>();
 }
 
 }  // namespace
