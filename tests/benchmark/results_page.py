@@ -58,8 +58,19 @@ class Page:
         self._scale()
         self._floors()
         self._other_meshes()
-        self._whole_jobs()
         self._tuning()
+        return "\n".join(self._lines)
+
+    def text_of_whole_jobs(self):
+        self._say("# Whole jobs, alone and beside other programs\n")
+        self._say("A mesh is read, smoothed and written, with the default parameters and all processors. "
+                  "MeshLab's filters are those of the official PyMeshLab, which use one thread. *Beside 2* means "
+                  "that two other processes, which never wait, run meanwhile. Medians; wall seconds, then "
+                  "processor seconds. To reproduce:\n")
+        self._say("```sh\nexternal/pymeshlab.sh build/pymeshlab\ncmake -S . -B build -DTRACKED_MCF_PLUGIN=OFF\n"
+                  "cmake --build build -j --target tracked_mcf tracked_mcf_benchmark\n" + self._command + "\n```\n")
+        self._machine()
+        self._whole_jobs()
         return "\n".join(self._lines)
 
     # Measurements.
@@ -367,9 +378,7 @@ class Page:
         self._table(["mesh", "δ", "peer", "step", "iterations", "set-up", "unknowns", "memory"], rows)
 
     def _whole_jobs(self):
-        self._title("Whole jobs", "A mesh is read, smoothed and written, with the default parameters and all "
-                    "processors, alone and beside other processes that never wait. MeshLab's filters are those "
-                    "of the official PyMeshLab, which use one thread. Wall and processor seconds.")
+        self._title("Times")
         loads = self._of.loads(peer=WHOLE_JOBS[0])
         rows = []
         for job in WHOLE_JOBS:

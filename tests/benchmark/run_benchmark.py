@@ -50,6 +50,9 @@ def options():
     parser.add_argument("--binary", type=pathlib.Path, metavar="DRIVER",
                         help="another tracked_mcf_benchmark to compare with, for example one built with "
                         "-march=native")
+    parser.add_argument("--whole-jobs", action="store_true",
+                        help="only jobs from file to file, alone and beside endless loops, for whole_jobs.md; "
+                        "takes five minutes")
     parser.add_argument("--page-only", action="store_true",
                         help="make the page from the measurements of the last run")
     return parser.parse_args()
@@ -108,11 +111,13 @@ class Benchmark:
         self.clean = f"{self.main}, without noise"
 
     def run(self, measurements):
+        if self._arguments.whole_jobs:
+            measurements.run(self._whole_jobs(), self._repetitions)
+            return
         triads = [Case(TRIAD, threads=n, words=("triad", "--threads", n)) for n in (1, 2)]
         measurements.run(triads + self._compared(), self._repetitions)
         measurements.run(self._tunings() + self._cgal() + self._rebuilt() + self._accuracy(), 1)
         measurements.run(self._other_meshes() + self._scale(), 1)
-        measurements.run(self._whole_jobs(), self._repetitions)
 
     def _compared(self):
         mesh = sphere(self._frequency)
@@ -236,6 +241,8 @@ def command_line(arguments):
     words = ["tests/benchmark/run_benchmark.py"]
     if arguments.quick:
         words.append("--quick")
+    if arguments.whole_jobs:
+        words.append("--whole-jobs")
     if arguments.frequency:
         words.append(f"--frequency {arguments.frequency}")
     if arguments.binary:
@@ -247,7 +254,7 @@ def main():
     arguments = options()
     output = arguments.output or arguments.build / "benchmark"
     output.mkdir(parents=True, exist_ok=True)
-    figures = output / "measurements.csv"
+    figures = output / ("whole_jobs.csv" if arguments.whole_jobs else "measurements.csv")
     driver = arguments.build / "tests" / "benchmark" / "tracked_mcf_benchmark"
     measurements = Measurements(driver, arguments.binary)
     benchmark = Benchmark(arguments, output)
@@ -261,7 +268,10 @@ def main():
     beside = output if arguments.quick else pathlib.Path(__file__).parent
     page = Page(measurements, arguments.build, benchmark.main, STEP_SIZES, MIDDLE, STEPS,
                 command_line(arguments))
-    (arguments.page or beside / "results.md").write_text(page.text(), encoding="utf-8")
+    if arguments.whole_jobs:
+        (arguments.page or beside / "whole_jobs.md").write_text(page.text_of_whole_jobs(), encoding="utf-8")
+    else:
+        (arguments.page or beside / "results.md").write_text(page.text(), encoding="utf-8")
     if measurements.failures:
         sys.exit("These runs failed:\n" + "\n".join(measurements.failures))
 
