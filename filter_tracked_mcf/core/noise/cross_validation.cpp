@@ -35,7 +35,9 @@ constexpr double kTrialNormalLength = 2.6, kTrialStepSize = 0.15;
 
 /// Multiplies the divergence in the cross-validation, which otherwise sometimes takes noise for
 /// detail (Wood, "Generalized Additive Models", 2017).
-constexpr double kCaution = 1.1;
+constexpr double kCaution = 1.05;
+/// Treatments that do next to nothing are not told apart.
+constexpr double kLeastRest = 0.02;
 
 /// The perturbation ε: relative to the noise, and the least one that exceeds rounding by far.
 constexpr double kPerturbation = 0.05, kLeastPerturbation = 1e-4;
@@ -179,8 +181,8 @@ private:
         if (wishes_.noise > 0) {
             return effect.square + 2 * noise_ * noise_ * effect.divergence;
         }
-        const double rest = 1 - kCaution * effect.divergence;
-        return rest > 0 ? effect.square / (rest * rest) : std::numeric_limits<double>::infinity();
+        const double rest = std::max(1 - kCaution * effect.divergence, kLeastRest);
+        return effect.square / (rest * rest);
     }
 
     /// Keeps an attempt if it is better than the best one. Returns its score.

@@ -212,7 +212,7 @@ Sample sample_of(const NoisySurface& surface, std::int32_t vertex_count) {
     for (std::int32_t i = 0; i < all; ++i) {
         if (used[i] == 0) continue;
         sample.surface.positions.push_back(surface.positions[i]);
-        sample.surface.fidelity.push_back(surface.fidelity[i]);
+        sample.surface.fidelity.push_back(surface.is_fixed(i) ? 0.0F : 1.0F);
         star_sizes.push_back(stars.corner_begin[i + 1] - stars.corner_begin[i]);
     }
     const auto count = static_cast<std::int32_t>(star_sizes.size());

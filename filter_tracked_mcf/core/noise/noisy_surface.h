@@ -37,7 +37,7 @@ struct SurfaceOfMesh {
 /// Returns the surface of a domain. Throws InvalidMesh if all its sides have length 0.
 SurfaceOfMesh surface_of(const Domain& domain);
 
-/// Part of a surface.
+/// Part of a surface, without the strengths of its vertices.
 struct Sample {
     NoisySurface surface;
     /// Per vertex: whether the sample has all of its star, and it may move.

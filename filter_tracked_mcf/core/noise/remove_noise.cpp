@@ -69,9 +69,8 @@ void treat(NoisySurface& surface, double edge, const NoiseParameters& parameters
                     "Step " + std::to_string(step + 1) + " of " + std::to_string(treatment.steps));
         smoothing.step(treatment.settings, surface.positions);
     }
-    if (crease > 0) {
-        report.crease_share = crease_share(
-            surface, smoothing.smooth_normals(surface.positions, treatment.settings), crease);
+    if (crease > 0 && treatment.steps > 0) {
+        report.crease_share = crease_share(surface, smoothing.normals(), crease);
     }
     if (treatment.sharpenings > 0) {
         enter_phase(0.9, "Sharpening the creases");

@@ -26,6 +26,8 @@ public:
     /// Makes a step: smooths the normals, and then the positions in their metric.
     void step(const StepSettings& settings, Positions& positions);
 
+    /// Returns the normals of the latest call above.
+    const Vectors& normals() const { return normals_; }
     /// Returns the iterations of conjugate gradients so far.
     int iterations() const { return iterations_; }
 
