@@ -94,13 +94,14 @@ class Experiment:
             shutil.copyfileobj(packed, file)
         return target
 
-    def smooth(self, source, target, *words):
-        """Runs the program tracked_mcf with options, which are `words`. Returns its report as a
-        dictionary, and its processor seconds, files included."""
+    def smooth(self, source, target, *words, command=None):
+        """Runs the program tracked_mcf, or a command of it, with options, which are `words`. Returns its
+        report as a dictionary, and its processor seconds, files included."""
         report = target.with_suffix(".json")
         begin = processor_seconds()
-        subprocess.run([self.options.build / "filter_tracked_mcf" / "tool" / "tracked_mcf", source,
-                        target, "--quiet", "--report", report, *map(str, words)], check=True)
+        subprocess.run([self.options.build / "filter_tracked_mcf" / "tool" / "tracked_mcf",
+                        *([command] if command else []), source, target, "--quiet", "--report", report,
+                        *map(str, words)], check=True)
         return json.loads(report.read_text(encoding="utf-8")), processor_seconds() - begin
 
     def run(self, command, *words, **more):
