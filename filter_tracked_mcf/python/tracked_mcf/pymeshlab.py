@@ -87,7 +87,7 @@ def _result(report):
 
 
 def apply_coord_mean_curvature_flow(self, **parameters):
-    known = {parameter["name"]: parameter for parameter in _core.parameters if parameter["label"]}
+    known = {parameter["name"]: parameter for parameter in _core.filters["smooth"]["parameters"] if parameter["label"]}
     layer = self.current_mesh()
     options = {}
     for name, value in parameters.items():
@@ -118,6 +118,6 @@ def apply_coord_mean_curvature_flow(self, **parameters):
     return _result(report)
 
 
-apply_coord_mean_curvature_flow.__doc__ = _core.pymeshlab_help
+apply_coord_mean_curvature_flow.__doc__ = _core.filters["smooth"]["help"]
 if not hasattr(pymeshlab.MeshSet, _FILTER):
     setattr(pymeshlab.MeshSet, _FILTER, apply_coord_mean_curvature_flow)
