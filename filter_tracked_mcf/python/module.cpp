@@ -16,8 +16,10 @@
 #include "filter_tracked_mcf/core/evolve.h"
 #include "filter_tracked_mcf/parameters/filter_names.h"
 #include "filter_tracked_mcf/parameters/flow_warnings.h"
+#include "filter_tracked_mcf/parameters/noise_warnings.h"
 #include "filter_tracked_mcf/parameters/pymeshlab_help.h"
 #include "filter_tracked_mcf/parameters/report_values.h"
+#include "filter_tracked_mcf/parameters/run.h"
 #include "filter_tracked_mcf/python/parameters.h"
 
 namespace tracked_mcf {
@@ -87,6 +89,7 @@ TriangleMesh mesh_of(nb::handle vertices, nb::handle faces) {
     mesh.positions = rows_of<double, Eigen::Vector3d>(positions, "float64");
     check_indices(triangles, static_cast<std::int64_t>(mesh.positions.size()));
     mesh.triangles = rows_of<std::int32_t, Triangle>(triangles, "int32");
+    mesh.single_precision = positions.attr("dtype").equal(numpy().attr("float32"));
     return mesh;
 }
 
@@ -173,36 +176,35 @@ Progress progress_by(const nb::object& callback) {
     };
 }
 
-/// Moves positions into an array of float32 if the given vertices are of float32, else of float64.
-nb::object vertices_of(std::vector<Eigen::Vector3d>&& positions, nb::handle given) {
+/// Moves positions into an array of float32 or float64.
+nb::object vertices_of(std::vector<Eigen::Vector3d>&& positions, bool single_precision) {
     const std::size_t count = positions.size();
-    nb::object moved = array_of(std::move(positions), {count, 3});
-    const nb::object single = numpy().attr("float32");
-    if (!numpy().attr("asarray")(given).attr("dtype").equal(single)) return moved;
-    return moved.attr("astype")(single);
+    const nb::object moved = array_of(std::move(positions), {count, 3});
+    return single_precision ? moved.attr("astype")("float32") : moved;
 }
 
-StepObserver observer_by(const nb::object& on_step, nb::handle vertices) {
+StepObserver observer_by(const nb::object& on_step, bool single_precision) {
     if (on_step.is_none()) return {};
-    return [&on_step, vertices](int step, const std::vector<Eigen::Vector3d>& positions) {
+    return [&on_step, single_precision](int step, const std::vector<Eigen::Vector3d>& positions) {
         const nb::gil_scoped_acquire acquired;
-        on_step(step, vertices_of(std::vector<Eigen::Vector3d>(positions), vertices));
+        on_step(step, vertices_of(std::vector<Eigen::Vector3d>(positions), single_precision));
     };
 }
 
-/// Calls on_step, unless it is None, with the number and the vertices of each step.
-nb::tuple smooth(nb::handle vertices, nb::handle faces, const nb::object& on_step,
-                 const nb::object& progress, const nb::kwargs& given) {
+/// Applies the filter of these parameters. Calls on_step, unless it is None, with the number and
+/// the vertices of each step of a flow.
+template <class Parameters>
+nb::tuple filtered(nb::handle vertices, nb::handle faces, const nb::object& on_step,
+                   const nb::object& progress, const nb::kwargs& given) {
     TriangleMesh mesh = mesh_of(vertices, faces);
     mesh.strength = strength_of(given["strength"], mesh);
     const Selection selection = selection_of(given["selected"], mesh);
-    const FlowParameters parameters = flow_parameters(given, mesh);
-    FlowReport report;
-    {
+    const auto parameters = parameters_of<Parameters>(given, mesh);
+    auto report = [&] {
         const nb::gil_scoped_release released;
-        report = evolve(mesh, selection, parameters, progress_by(progress),
-                        observer_by(on_step, vertices));
-    }
+        return run(mesh, selection, parameters, progress_by(progress),
+                   observer_by(on_step, mesh.single_precision));
+    }();
     const std::vector<std::string> warnings = warnings_of(parameters, report, kAdvice);
 
     nb::dict values;
@@ -213,7 +215,7 @@ nb::tuple smooth(nb::handle vertices, nb::handle faces, const nb::object& on_ste
         const std::size_t count = report.quality.size();
         values["quality"] = array_of(std::move(report.quality), {count});
     }
-    return nb::make_tuple(vertices_of(std::move(mesh.positions), vertices), values);
+    return nb::make_tuple(vertices_of(std::move(mesh.positions), mesh.single_precision), values);
 }
 
 double default_detail_size_of(nb::handle vertices, nb::handle faces, nb::handle selected) {
@@ -242,6 +244,19 @@ void translate(const std::exception_ptr& exception, void*) {
     }
 }
 
+/// Adds the function of the filter to the module, and describes the filter under that name in
+/// module.filters.
+template <class Parameters>
+void add_filter(nb::module_& module, const char* name) {
+    module.def(name, filtered<Parameters>, "vertices"_a.none(), "faces"_a.none(),
+               "on_step"_a = nb::none(), "progress"_a.none(), "parameters"_a);
+    nb::dict filter;
+    filter["method"] = kNames<Parameters>.python;
+    filter["help"] = pymeshlab_help<Parameters>();
+    filter["parameters"] = described_parameters<Parameters>();
+    module.attr("filters")[name] = filter;
+}
+
 }  // namespace
 
 }  // namespace tracked_mcf
@@ -250,11 +265,10 @@ NB_MODULE(_core, module) {
     using namespace tracked_mcf;
     module.attr("version") = TRACKED_MCF_VERSION;
     module.attr("no_quality") = kNoQuality;
-    module.attr("pymeshlab_help") = pymeshlab_help<FlowParameters>();
-    module.attr("parameters") = parameters();
+    module.attr("filters") = nb::dict();
     nb::register_exception_translator(translate);
-    const auto vertices = "vertices"_a.none(), faces = "faces"_a.none();
-    module.def("smooth", smooth, vertices, faces, "on_step"_a.none(), "progress"_a.none(),
-               "parameters"_a);
-    module.def("default_detail_size", default_detail_size_of, vertices, faces, "selected"_a.none());
+    add_filter<NoiseParameters>(module, "remove_noise");
+    add_filter<FlowParameters>(module, "smooth");
+    module.def("default_detail_size", default_detail_size_of, "vertices"_a.none(), "faces"_a.none(),
+               "selected"_a.none());
 }

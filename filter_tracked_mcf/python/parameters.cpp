@@ -68,7 +68,7 @@ Length length_of(const Parameter& parameter, nb::handle value) {
                            "cent of the diagonal of its bounding box.");
 }
 
-/// Returns the value that smooth() takes for a choice: an int if its name is a number, else its
+/// Returns the value that functions take for a choice: an int if its name is a number, else its
 /// name.
 nb::object python_name(const NamedChoice& choice) {
     const bool is_number = choice.name.find_first_not_of("0123456789") == std::string::npos;
@@ -98,14 +98,19 @@ int choice_of(const Parameter& parameter, nb::handle value) {
 }
 
 /// Returns whether the default is not the same with method paper, as that of the stabilisation.
-bool depends_on_method(const Parameter& parameter) {
+bool depends_on_method(const ParameterOf<FlowParameters>& parameter) {
     FlowParameters paper;
     paper.solver = Solver::OneWCycle;
     return parameter.type == Parameter::Type::Real && parameter.get(paper) != parameter.initial;
 }
 
-/// Returns the type that smooth() takes, as in its signature.
-std::string annotation(const Parameter& parameter) {
+bool depends_on_method(const ParameterOf<NoiseParameters>& /*parameter*/) {
+    return false;
+}
+
+/// Returns the type as in the function's signature.
+template <class Parameters>
+std::string annotation(const ParameterOf<Parameters>& parameter) {
     switch (parameter.type) {
         case Parameter::Type::Switch:
             return "bool";
@@ -124,8 +129,9 @@ std::string annotation(const Parameter& parameter) {
     return "Literal[" + literals(parameter) + "]";
 }
 
-/// Returns the default of smooth(), or None if the core chooses it.
-nb::object default_of(const Parameter& parameter) {
+/// Returns the function's default, or None if the core chooses it.
+template <class Parameters>
+nb::object default_of(const ParameterOf<Parameters>& parameter) {
     const ParameterValue value = parameter.initial;
     if (parameter.type == Parameter::Type::Selected ||
         parameter.type == Parameter::Type::Strength || depends_on_method(parameter))
@@ -135,7 +141,8 @@ nb::object default_of(const Parameter& parameter) {
     return std::visit([](auto held) { return nb::cast(held); }, value);
 }
 
-std::string help_of(const Parameter& parameter) {
+template <class Parameters>
+std::string help_of(const ParameterOf<Parameters>& parameter) {
     std::string text;
     if (parameter.type == Parameter::Type::Selected)
         text = "An array of shape (m,) of bools: only these faces move. ";
@@ -149,9 +156,10 @@ std::string help_of(const Parameter& parameter) {
 
 }  // namespace
 
-FlowParameters flow_parameters(const nb::dict& given, const TriangleMesh& mesh) {
-    FlowParameters parameters;
-    for (const auto& parameter : parameter_table<FlowParameters>()) {
+template <class Parameters>
+Parameters parameters_of(const nb::dict& given, const TriangleMesh& mesh) {
+    Parameters parameters;
+    for (const auto& parameter : parameter_table<Parameters>()) {
         const nb::object value = given[parameter.name.c_str()];
         if (value.is_none() && depends_on_method(parameter)) continue;
         const auto set = [&](const ParameterValue& taken) { parameter.set(parameters, taken); };
@@ -183,9 +191,10 @@ FlowParameters flow_parameters(const nb::dict& given, const TriangleMesh& mesh) 
     return parameters;
 }
 
-nb::list parameters() {
+template <class Parameters>
+nb::list described_parameters() {
     nb::list list;
-    for (const auto& parameter : parameter_table<FlowParameters>()) {
+    for (const auto& parameter : parameter_table<Parameters>()) {
         nb::list choices;
         for (const NamedChoice& choice : parameter.choices)
             choices.append(nb::make_tuple(choice.label, python_name(choice)));
@@ -200,5 +209,10 @@ nb::list parameters() {
     }
     return list;
 }
+
+template FlowParameters parameters_of(const nb::dict&, const TriangleMesh&);
+template NoiseParameters parameters_of(const nb::dict&, const TriangleMesh&);
+template nb::list described_parameters<FlowParameters>();
+template nb::list described_parameters<NoiseParameters>();
 
 }  // namespace tracked_mcf

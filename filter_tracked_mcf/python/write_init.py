@@ -20,10 +20,13 @@ def paragraph(parameter):
 
 def main(folder, template, output):
     sys.path.insert(0, folder)
-    from _core import parameters
+    from _core import filters
     text = pathlib.Path(template).read_text(encoding="utf-8")
-    text = text.replace("@KEYWORDS@", (",\n" + 11 * " ").join(map(keyword, parameters)))
-    text = text.replace("@HELP@", "\n".join(map(paragraph, parameters)))
+    for name, described in filters.items():
+        parameters = described["parameters"]
+        line_end = ",\n" + len(f"def {name}(") * " "
+        text = text.replace(f"@KEYWORDS OF {name}@", line_end.join(map(keyword, parameters)))
+        text = text.replace(f"@HELP OF {name}@", "\n".join(map(paragraph, parameters)))
     pathlib.Path(output).write_text(text, encoding="utf-8")
 
 

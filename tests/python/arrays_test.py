@@ -58,12 +58,38 @@ RUNS = [
 # A parameter has no effect, and so is not tested, without these.
 WITH = {"absolute": {"step_size": 1e-3}, "cycles": {"method": "paper"}}
 
+NOISE_RUNS = [
+    ("crease_angle", 5, "5"),
+    ("noise", 0.02, "0.02"),
+    ("noise", "1%", "1%"),
+    ("detail_size", 0.3, "0.3"),
+    ("largest_movement", "0.1%", "0.1%"),
+    ("boundary", "locked", "locked"),
+    ("quality", "displacement", "displacement"),
+    ("threads", numpy.int64(1), "1"),
+]
+
 Error = tracked_mcf.Error
 InvalidMesh, InvalidParameter = tracked_mcf.InvalidMesh, tracked_mcf.InvalidParameter
 
-# Refused keywords, and words of the message.
+# Refused keywords, and words of the message, of both functions.
 WRONG = [
-    ({"detial_size": 1}, TypeError, "smooth() got an unexpected keyword argument 'detial_size'"),
+    ({"detial_size": 1}, TypeError, "() got an unexpected keyword argument 'detial_size'"),
+    ({"detail_size": "1"}, InvalidParameter, "such as '1%'"),
+    ({"detail_size": "one%"}, InvalidParameter, "such as '1%'"),
+    ({"detail_size": "%"}, InvalidParameter, "such as '1%'"),
+    ({"detail_size": "-1%"}, InvalidParameter, "detail_size is -1; give 0 or more"),
+    ({"detail_size": []}, TypeError, "detail_size is []"),
+    ({"selected": [0, 1]}, InvalidParameter, "the type int64; give an array of bools"),
+    ({"selected": [True]}, InvalidParameter, "one for each of the 3042 faces"),
+    ({"selected": numpy.zeros(3042, bool)}, InvalidMesh, "No face is selected"),
+    ({"strength": [1]}, InvalidParameter, "one for each of the 1600 vertices"),
+    ({"strength": numpy.full(1600, 2)}, InvalidMesh, "The strength of vertex 0 is 2"),
+    ({"strength": numpy.zeros(1600)}, InvalidMesh, "Nothing can move"),
+    ({"strength": numpy.ones(1600, bool)}, InvalidParameter, "numbers from 0 to 1"),
+    ({"progress": 1}, TypeError, "not callable"),
+]
+FLOW_WRONG = [
     ({"order": 5}, InvalidParameter, "order is 5; give 1 to 4"),
     ({"order": 2.0}, TypeError, "order is 2.0; give an integer"),
     ({"iterations": 10**30}, InvalidParameter, "give 1 to 1000000"),
@@ -74,21 +100,16 @@ WRONG = [
     ({"preserve": "volum"}, InvalidParameter, "give one of 'none', 'area', 'volume'"),
     ({"preserve": 1}, InvalidParameter, "preserve is 1"),
     ({"cubature": "3"}, InvalidParameter, "give one of 1, 3, 12"),
-    ({"detail_size": "1"}, InvalidParameter, "such as '1%'"),
-    ({"detail_size": "one%"}, InvalidParameter, "such as '1%'"),
-    ({"detail_size": "%"}, InvalidParameter, "such as '1%'"),
-    ({"detail_size": "-1%"}, InvalidParameter, "detail_size is -1; give 0 or more"),
-    ({"detail_size": []}, TypeError, "detail_size is []"),
     ({"flow": "conformalized", "keep_edges": 25}, InvalidParameter, "keep_edges"),
     ({"preserve": "area"}, InvalidParameter, "Preserving the area"),
-    ({"selected": [0, 1]}, InvalidParameter, "the type int64; give an array of bools"),
-    ({"selected": [True]}, InvalidParameter, "one for each of the 3042 faces"),
-    ({"selected": numpy.zeros(3042, bool)}, InvalidMesh, "No face is selected"),
-    ({"strength": [1]}, InvalidParameter, "one for each of the 1600 vertices"),
-    ({"strength": numpy.full(1600, 2)}, InvalidMesh, "The strength of vertex 0 is 2"),
-    ({"strength": numpy.zeros(1600)}, InvalidMesh, "Nothing can move"),
-    ({"strength": numpy.ones(1600, bool)}, InvalidParameter, "numbers from 0 to 1"),
-    ({"progress": 1}, TypeError, "not callable"),
+]
+NOISE_WRONG = [
+    ({"crease_angle": 180}, InvalidParameter, "crease_angle is 180; give 0 to 179 degrees"),
+    ({"noise": numpy.inf}, InvalidParameter, "noise is inf"),
+    ({"largest_movement": "-1%"}, InvalidParameter, "largest_movement is -1; give 0 or more"),
+    ({"boundary": "locked-cells"}, InvalidParameter, "give one of 'locked', 'free'"),
+    ({"quality": "mean-curvature"}, InvalidParameter, "give one of 'none', 'displacement'"),
+    ({"threads": -1}, InvalidParameter, "threads is -1"),
 ]
 
 
@@ -109,6 +130,10 @@ VERTICES, FACES = bumpy_bowl()
 
 def smooth(vertices=VERTICES, faces=FACES, **parameters):
     return tracked_mcf.smooth(vertices, faces, **{**COARSE, **parameters})
+
+
+def remove_noise(vertices=VERTICES, faces=FACES, **parameters):
+    return tracked_mcf.remove_noise(vertices, faces, **parameters)
 
 
 def smoothed_bowl(seed):
@@ -170,6 +195,8 @@ def read_vertices(path):
 class WithFolder(unittest.TestCase):
     """Tests that run the program."""
 
+    subcommand = []
+
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
@@ -177,13 +204,15 @@ class WithFolder(unittest.TestCase):
 
     def program(self, mesh, *options):
         """Returns the bytes of the vertices, the qualities and the report."""
-        command = [TOOL, mesh, self.folder / "out.ply", "--quiet", "--report", self.folder / "out.json"]
-        subprocess.run([*command, *options], check=True)
+        command = [TOOL, *self.subcommand, mesh, self.folder / "out.ply", "--quiet"]
+        subprocess.run([*command, "--report", self.folder / "out.json", *options], check=True)
         report = json.loads((self.folder / "out.json").read_text(encoding="utf-8"))
         return *read_vertices(self.folder / "out.ply"), report
 
 
 class Program(WithFolder):
+    function, given, runs = staticmethod(smooth), COARSE, RUNS
+
     def options(self, parameters):
         for name, value in parameters.items():
             yield "--" + name.replace("_", "-")
@@ -193,14 +222,14 @@ class Program(WithFolder):
     def test_each_parameter_gives_the_bits_of_the_program(self):
         mesh = self.folder / "bowl.ply"
         write_ply(mesh, VERTICES, FACES, numpy.ones(len(FACES), bool))
-        plain = smooth()[0].tobytes()
-        for name, value, option in RUNS:
+        plain = self.function()[0].tobytes()
+        for name, value, option in self.runs:
             with self.subTest(name, value=value), warnings.catch_warnings():
                 warnings.simplefilter("ignore")
                 others = WITH.get(name, {})
-                vertices, report = smooth(**{**others, name: value})
+                vertices, report = self.function(**{**others, name: value})
                 expected, quality, reported = self.program(
-                    mesh, *self.options({**COARSE, **others, name: option}))
+                    mesh, *self.options({**self.given, **others, name: option}))
                 self.assertEqual(vertices.tobytes(), expected)
                 if name not in ("quality", "threads"):
                     self.assertNotEqual(expected, plain, "the parameter has no effect")
@@ -210,8 +239,11 @@ class Program(WithFolder):
 
     def compare_reports(self, report, reported):
         """Times and memory differ from run to run."""
-        for values in (report, reported, *report["steps"], *reported["steps"]):
-            for name in [name for name in values if name.endswith(("_seconds", "_bytes"))]:
+        parts = [report, reported]
+        if isinstance(report["steps"], list):
+            parts += report["steps"] + reported["steps"]
+        for values in parts:
+            for name in [name for name in values if name.endswith(("seconds", "_bytes"))]:
                 self.assertGreaterEqual(values.pop(name), 0)
         for name in ("program", "input", "output"):
             reported.pop(name)
@@ -223,24 +255,23 @@ class Program(WithFolder):
         self.assertEqual(report, reported)
 
     def test_all_parameters_are_compared(self):
-        names = set(smooth()[1]["parameters"])
-        self.assertEqual(names, {name for name, _, _ in RUNS} | {"selected", "strength"})
+        names = set(self.function()[1]["parameters"])
+        self.assertEqual(names, {name for name, _, _ in self.runs} | {"selected", "strength"})
 
     def test_defaults_on_a_real_mesh(self):
-        vertices, faces = read_off(MESH)
-        moved, report = tracked_mcf.smooth(vertices, faces)
+        moved, report = getattr(tracked_mcf, self.function.__name__)(*read_off(MESH))
         expected, _, reported = self.program(MESH)
         self.assertEqual(moved.tobytes(), expected)
         self.assertEqual(report["detail_size"], reported["detail_size"])
-        # The report's is that of the step size, so it is rounded.
-        ratio = tracked_mcf.default_detail_size(vertices, faces) / report["detail_size"]
-        self.assertAlmostEqual(ratio, 1, delta=1e-14)
+        if self.function is smooth:  # the report's is that of the step size, so it is rounded
+            ratio = tracked_mcf.default_detail_size(*read_off(MESH)) / report["detail_size"]
+            self.assertAlmostEqual(ratio, 1, delta=1e-14)
 
     def test_selection(self):
         selected = VERTICES[FACES].mean(axis=1)[:, 0] > 0
         write_ply(self.folder / "bowl.ply", VERTICES, FACES, selected)
-        vertices, report = smooth(selected=selected)
-        expected, _, _ = self.program(self.folder / "bowl.ply", *self.options({**COARSE, "selected": "s"}))
+        vertices, report = self.function(selected=selected)
+        expected, _, _ = self.program(self.folder / "bowl.ply", *self.options({**self.given, "selected": "s"}))
         self.assertEqual(vertices.tobytes(), expected)
         self.assertIs(report["parameters"]["selected"], True)
         still = numpy.unique(FACES[~selected])
@@ -248,58 +279,67 @@ class Program(WithFolder):
         self.assertTrue((vertices != VERTICES).any())
 
     def test_strength(self):
-        strength = numpy.linspace(0, 1, len(VERTICES)).astype("float32")
+        strength = numpy.linspace(-1, 1, len(VERTICES)).clip(0).astype("float32")
         header, rows = ply_of(VERTICES, FACES)
         header.insert(6, "property float s")
         rows[:len(VERTICES)] = [f"{row} {s!r}" for row, s in zip(rows, strength.tolist())]
         (self.folder / "bowl.ply").write_text("\n".join([*header, *rows, ""]), encoding="ascii")
-        vertices, report = smooth(strength=strength)
-        expected, _, _ = self.program(self.folder / "bowl.ply", *self.options({**COARSE, "strength": "s"}))
+        vertices, report = self.function(strength=strength)
+        expected, _, _ = self.program(self.folder / "bowl.ply", *self.options({**self.given, "strength": "s"}))
         self.assertEqual(vertices.tobytes(), expected)
         self.assertIs(report["parameters"]["strength"], True)
-        self.assertNotEqual(expected, smooth()[0].tobytes())
+        self.assertEqual(vertices[strength == 0].tobytes(), VERTICES[strength == 0].tobytes())
+        moved = (vertices != VERTICES).any(axis=1).mean()
+        self.assertTrue(0.3 < moved <= 0.5, moved)
 
     def test_version(self):
         said = subprocess.run([TOOL, "--version"], check=True, capture_output=True, text=True).stdout
         self.assertEqual(said, f"tracked_mcf {tracked_mcf.__version__}\n")
-        self.assertEqual(smooth()[1]["version"], tracked_mcf.__version__)
+        self.assertEqual(self.function()[1]["version"], tracked_mcf.__version__)
         self.assertEqual(importlib.metadata.version("tracked-mcf"), tracked_mcf.__version__)
 
 
+class NoiseProgram(Program):
+    function, given, runs = staticmethod(remove_noise), {}, NOISE_RUNS
+    subcommand = ["remove-noise"]
+
+
 class Arrays(unittest.TestCase):
+    function, wrong = staticmethod(smooth), WRONG + FLOW_WRONG
+
     def test_layouts_and_types(self):
-        expected = smooth()[0]
+        expected = self.function()[0]
         self.assertEqual((expected.dtype, expected.shape), (float, VERTICES.shape))
         self.assertTrue(expected.flags.writeable)
         wide = numpy.zeros((len(VERTICES), 6))
         wide[:, ::2] = VERTICES
         for vertices in (VERTICES.tolist(), numpy.asfortranarray(VERTICES), wide[:, ::2],
                          VERTICES.astype(">f8"), VERTICES[::-1][::-1]):
-            self.assertEqual(smooth(vertices)[0].tobytes(), expected.tobytes())
+            self.assertEqual(self.function(vertices)[0].tobytes(), expected.tobytes())
         for faces in (FACES.tolist(), numpy.asfortranarray(FACES), FACES.astype("u2"), FACES.astype("u8"),
                       FACES.astype(">i4")):
-            self.assertEqual(smooth(faces=faces)[0].tobytes(), expected.tobytes())
+            self.assertEqual(self.function(faces=faces)[0].tobytes(), expected.tobytes())
 
     def test_single_precision_stays(self):
         single = VERTICES.astype("f4")
-        moved = smooth(single)[0]
+        moved = self.function(single)[0]
         self.assertEqual(moved.dtype, numpy.float32)
-        self.assertEqual(moved.tobytes(), smooth(single.astype(float))[0].astype("f4").tobytes())
+        self.assertEqual(moved.tobytes(), self.function(single.astype(float))[0].astype("f4").tobytes())
 
     def test_given_arrays_never_change(self):
         vertices, faces, selected = VERTICES.copy(), FACES.copy(), numpy.ones(len(FACES), bool)
         for array in (vertices, faces, selected):
             array.flags.writeable = False
-        moved = smooth(vertices, faces, selected=selected)[0]
+        moved = self.function(vertices, faces, selected=selected)[0]
         self.assertFalse(numpy.shares_memory(moved, vertices))
         self.assertEqual(vertices.tobytes() + faces.tobytes(), VERTICES.tobytes() + FACES.tobytes())
 
     def test_results_outlive_each_other(self):
-        vertices, report = smooth(quality="displacement")
+        vertices, report = self.function(quality="displacement")
         quality = report.pop("quality")
         copies = vertices.copy(), quality.copy()
         del report
-        smooth(quality="displacement")
+        self.function(quality="displacement")
         self.assertEqual(vertices.tobytes(), copies[0].tobytes())
         self.assertEqual(quality.tobytes(), copies[1].tobytes())
         self.assertEqual(quality.shape, (len(VERTICES),))
@@ -323,15 +363,46 @@ class Arrays(unittest.TestCase):
                 (VERTICES, FACES + 2**32, "vertex 4294967296, which does not exist"),
                 (VERTICES, far, "vertex 9223372036854775808, which does not exist")):
             with self.subTest(words), self.assertRaises(InvalidMesh) as raised:
-                smooth(vertices, faces)
+                self.function(vertices, faces)
             self.assertIn(words, str(raised.exception))
 
     def test_refused_parameters(self):
-        for parameters, kind, words in WRONG:
+        before = VERTICES.tobytes() + FACES.tobytes()
+        for parameters, kind, words in self.wrong:
             with self.subTest(**parameters), self.assertRaises(kind) as raised:
-                smooth(**parameters)
+                self.function(**parameters)
             self.assertIs(type(raised.exception), kind)
             self.assertIn(words, str(raised.exception))
+        self.assertEqual(VERTICES.tobytes() + FACES.tobytes(), before)
+
+
+class NoiseArrays(Arrays):
+    function, wrong = staticmethod(remove_noise), WRONG + NOISE_WRONG
+
+    def test_no_vertex_exceeds_the_bound(self):
+        for vertices in VERTICES, VERTICES.astype("float32"), 100 + VERTICES.astype("float32"):
+            for bound in 1e-2, 1e-4:
+                moved, report = remove_noise(vertices, largest_movement=bound)
+                x, y, z = (moved.astype(float) - vertices.astype(float)).T
+                largest = numpy.sqrt(x * x + y * y + z * z).max()
+                self.assertGreater(report["bounded_vertices"], 100)
+                self.assertTrue(0.8 * bound < largest <= bound, largest)
+
+    def test_units_do_not_matter(self):
+        for factor in 2.0**-100, 2.0**100:
+            moved, report = remove_noise(factor * VERTICES, quality="displacement")
+            expected, expected_report = remove_noise(quality="displacement")
+            self.assertEqual(moved.tobytes(), (factor * expected).tobytes())
+            self.assertEqual(report["quality"].tobytes(), (factor * expected_report["quality"]).tobytes())
+            for name in "noise", "detail_size", "largest_displacement":
+                self.assertEqual(report[name], factor * expected_report[name])
+
+    def test_the_defaults_remove_noise(self):
+        def noise(vertices):
+            x, y, z = vertices[(abs(vertices[:, :2]) < 0.8).all(axis=1)].T
+            return numpy.std(z - (x * x + y * y) / 2)
+
+        self.assertLess(noise(remove_noise()[0]), 0.5 * noise(VERTICES))
 
 
 class Errors(unittest.TestCase):
@@ -360,6 +431,9 @@ class Errors(unittest.TestCase):
         self.assertIs(caught[0].category, tracked_mcf.FlowWarning)
         self.assertTrue(issubclass(tracked_mcf.FlowWarning, UserWarning))
         self.assertEqual(caught[0].filename, __file__)
+        with self.assertWarnsRegex(tracked_mcf.FlowWarning, "all of the surface is constrained") as raised:
+            remove_noise(faces=FACES[:1], boundary="locked")
+        self.assertEqual(raised.filename, __file__)
         with warnings.catch_warnings(), self.assertRaises(tracked_mcf.FlowWarning):
             warnings.simplefilter("error")
             smooth(depth=2, detail_size=0.01)
@@ -370,18 +444,19 @@ class Errors(unittest.TestCase):
 
 class Progress(unittest.TestCase):
     def test_fractions_and_phases(self):
-        calls = []
-        smooth(progress=lambda fraction, phase: calls.append((fraction, phase)))
-        fractions = [fraction for fraction, _ in calls]
-        self.assertEqual(fractions, sorted(fractions))
-        self.assertEqual(fractions[-1], 1)
-        self.assertIn("Step 2 of 3", [phase for _, phase in calls])
+        for function in smooth, remove_noise:
+            calls = []
+            function(progress=lambda fraction, phase: calls.append((fraction, phase)))
+            fractions = [fraction for fraction, _ in calls]
+            self.assertEqual(fractions, sorted(fractions))
+            self.assertEqual(fractions[-1], 1)
+            self.assertRegex(" ".join(phase for _, phase in calls), "Step 1 of [1-9] ")
 
     def test_false_cancels(self):
-        for no in (False, numpy.False_):
+        for function, no in ((smooth, False), (smooth, numpy.False_), (remove_noise, False)):
             calls = []
             with self.assertRaises(tracked_mcf.Cancelled):
-                smooth(progress=lambda *call: (calls.append(call), no)[1])
+                function(progress=lambda *call: (calls.append(call), no)[1])
             self.assertEqual(len(calls), 1)
         smooth(progress=lambda *_: True)
 
@@ -487,9 +562,13 @@ class Processes(unittest.TestCase):
 
 class Documents(WithFolder):
     def test_signatures_and_docstring_have_all_parameters(self):
-        keywords = inspect.signature(tracked_mcf.smooth).parameters
-        names = list(keywords)
-        self.assertEqual(names, ["vertices", "faces", *smooth()[1]["parameters"], "progress"])
+        for function in remove_noise, smooth:
+            public = getattr(tracked_mcf, function.__name__)
+            keywords = inspect.signature(public).parameters
+            names = list(keywords)
+            self.assertEqual(names, ["vertices", "faces", *function()[1]["parameters"], "progress"])
+            for name in names[2:]:
+                self.assertRegex(inspect.getdoc(public), f"\n    {name}\\b")
         for name, value in (("detail_size", 0.0), ("order", 1), ("preserve", "none"), ("cubature", 3),
                             ("absolute", False), ("selected", None), ("stabilization", None)):
             self.assertIs(type(keywords[name].default), type(value))
@@ -497,15 +576,15 @@ class Documents(WithFolder):
         self.assertEqual(keywords["preserve"].annotation, "Literal['none', 'area', 'volume']")
         self.assertEqual([name for name in inspect.signature(tracked_mcf.steps).parameters if name != "every"], names)
         if sys.version_info >= (3, 10):  # with types such as `float | str`
-            for function in (tracked_mcf.smooth, tracked_mcf.steps, tracked_mcf.default_detail_size):
+            for function in (tracked_mcf.remove_noise, tracked_mcf.smooth, tracked_mcf.steps,
+                             tracked_mcf.default_detail_size):
                 known = {*inspect.signature(function).parameters, "return"}
                 self.assertEqual(set(typing.get_type_hints(function)), known)
-        for name in names[2:]:
-            self.assertRegex(inspect.getdoc(tracked_mcf.smooth), f"\n    {name}\\b")
         self.assertTrue((pathlib.Path(tracked_mcf.__file__).parent / "py.typed").exists())
 
     def test_wrong_calls_get_short_errors(self):
-        for call in (lambda: tracked_mcf.smooth(VERTICES), lambda: tracked_mcf.smooth(VERTICES, FACES, 1),
+        for call in (lambda: tracked_mcf.remove_noise(VERTICES, FACES, 1),
+                     lambda: tracked_mcf.smooth(VERTICES), lambda: tracked_mcf.smooth(VERTICES, FACES, 1),
                      lambda: tracked_mcf.steps(VERTICES, FACES, oder=2),
                      lambda: tracked_mcf.default_detail_size(VERTICES, FACES, order=2)):
             with self.assertRaises(TypeError) as raised:

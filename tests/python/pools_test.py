@@ -35,6 +35,7 @@ MESHES = [numpy.array([[0, 0, height], [1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1,
           for height in (0.5, 1.0, 1.5, 2.0)]
 OPTIONS = {"depth": 3, "detail_size": "20%", "quality": "displacement"}
 smooth = functools.partial(tracked_mcf.smooth, faces=FACES, **OPTIONS)
+remove_noise = functools.partial(tracked_mcf.remove_noise, faces=FACES, quality="displacement")
 
 
 def never(*_):
@@ -78,7 +79,8 @@ def bytes_of(results):
 class Pickles(unittest.TestCase):
     def test_functions_are_references(self):
         for pickler in (pickle, cloudpickle):
-            for function in (tracked_mcf.smooth, tracked_mcf.steps, tracked_mcf.default_detail_size):
+            for function in (tracked_mcf.remove_noise, tracked_mcf.smooth, tracked_mcf.steps,
+                             tracked_mcf.default_detail_size):
                 data = pickler.dumps(function)
                 self.assertIs(pickle.loads(data), function)
                 self.assertLess(len(data), 100)
@@ -87,12 +89,13 @@ class Pickles(unittest.TestCase):
 class Pools(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.expected = bytes_of(map(smooth, MESHES))  # this process has used threads before it forks
+        # This process has used threads before it forks.
+        cls.expected = [bytes_of(map(function, MESHES)) for function in (smooth, remove_noise)]
         cls.steps = steps_of(tracked_mcf.steps, MESHES[0])
 
     def check(self, run):
         """Expects that run(FUNCTION, LIST) returns what the function returns or raises in this process."""
-        self.assertEqual(bytes_of(run(smooth, MESHES)), self.expected)
+        self.assertEqual([bytes_of(run(function, MESHES)) for function in (smooth, remove_noise)], self.expected)
         sizes = functools.partial(tracked_mcf.default_detail_size, faces=FACES)
         self.assertEqual(run(sizes, MESHES), list(map(sizes, MESHES)))
         self.assertEqual(run(functools.partial(steps_of, tracked_mcf.steps), MESHES[:1]), [self.steps])

@@ -1,23 +1,22 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Adds the filter Mean Curvature Flow to PyMeshLab through arrays, where its plugin does not fit:
+"""Adds the filters of the plugin to PyMeshLab through arrays, where the plugin does not fit:
 
     import pymeshlab, tracked_mcf.pymeshlab
     meshes = pymeshlab.MeshSet()
     meshes.load_new_mesh("scan.ply")
+    meshes.apply_coord_remove_noise()
     meshes.apply_coord_mean_curvature_flow(detail_size=pymeshlab.PercentageValue(1))
 
-help(pymeshlab.MeshSet.apply_coord_mean_curvature_flow) explains the parameters. The results have the
-plugin's bits, but coordinates that are -0 become 0. A method of the plugin that is there already stays.
+help(pymeshlab.MeshSet.apply_coord_remove_noise) explains the parameters. The results have the plugin's
+bits, but coordinates that are -0 become 0. A method of the plugin that is there already stays.
 """
 
 import numpy
 import pymeshlab
 
-from . import Error, _core, default_detail_size, smooth
+from . import Error, InvalidParameter, _core, default_detail_size, remove_noise, smooth
 
-__all__ = ["apply_coord_mean_curvature_flow"]
-
-_FILTER = "apply_coord_mean_curvature_flow"
+__all__ = ["apply_coord_mean_curvature_flow", "apply_coord_remove_noise"]
 
 
 def _as_typed(value):
@@ -25,12 +24,8 @@ def _as_typed(value):
     return float(str(numpy.float32(value)))
 
 
-def _refuse(reason):
-    raise pymeshlab.PyMeshLabException(f"Failed to apply filter: {_FILTER}\nDetails: {reason}")
-
-
 def _option(parameter, value, layer):
-    """Returns the value that smooth() takes for one of PyMeshLab's."""
+    """Returns the value that the package's function takes for one of PyMeshLab's."""
     if parameter["type"] == "float":
         return _as_typed(value)
     if parameter["type"] == "float | str":
@@ -39,7 +34,7 @@ def _option(parameter, value, layer):
             return _as_typed(diagonal * (numpy.float32(value.value()) / numpy.float32(100)))
         if isinstance(value, pymeshlab.PureValue):
             return _as_typed(value.value())
-        _refuse(f"{parameter['name']} is {value!r}; give a PercentageValue or a PureValue.")
+        raise InvalidParameter(f"{parameter['name']} is {value!r}; give a PercentageValue or a PureValue.")
     if parameter["choices"]:
         names = dict(parameter["choices"])
         labels = list(names)
@@ -47,7 +42,7 @@ def _option(parameter, value, layer):
             return names[value]
         if type(value) is int and 0 <= value < len(labels):
             return names[labels[value]]
-        _refuse(f"{parameter['name']} is {value!r}; give one of {', '.join(map(repr, labels))}.")
+        raise InvalidParameter(f"{parameter['name']} is {value!r}; give one of {', '.join(map(repr, labels))}.")
     return value
 
 
@@ -68,56 +63,76 @@ def _write(meshes, positions):
         meshes.set_current_mesh(layer)
 
 
-def _result(report):
-    """Returns the values of the report under the keys of the plugin."""
+def _results(report):
+    """Returns the values of the report that both filters have under the plugin's keys."""
+    volume_change = report["volume_change"]
+    return {**{key: report[key] for key in ("detail_size", "largest_displacement", "rms_displacement",
+                                            "area_before", "area_after", "warnings")},
+            "volume_change": float("nan") if volume_change is None else volume_change}
+
+
+def _noise_results(report):
+    return {key: report[key] for key in ("noise", "crease_share", "steps")}
+
+
+def _flow_results(report):
     def error_estimate(step):
         if step["error_estimate"] is not None:
             return step["error_estimate"]
         return step["residual_after"] / step["residual_before"] if step["residual_before"] else 0.0
 
-    volume_change = report["volume_change"]
-    return {**{key: report[key] for key in (
-                "detail_size", "step_size", "depth", "cell_size", "unknowns", "largest_displacement",
-                "rms_displacement", "area_before", "area_after", "warnings")},
+    return {**{key: report[key] for key in ("step_size", "depth", "cell_size", "unknowns")},
             "steps": len(report["steps"]),
             "stopped_early": int(report["stop"] != "none"),
             "converged": int(report["converged"]),
-            "error_estimate": error_estimate(report["steps"][-1]) if report["steps"] else 0.0,
-            "volume_change": float("nan") if volume_change is None else volume_change}
+            "error_estimate": error_estimate(report["steps"][-1]) if report["steps"] else 0.0}
 
 
-def apply_coord_mean_curvature_flow(self, **parameters):
-    known = {parameter["name"]: parameter for parameter in _core.parameters if parameter["label"]}
-    layer = self.current_mesh()
-    options = {}
-    for name, value in parameters.items():
-        if name not in known:
-            _refuse(f"Parameter {name} not found. The parameters are {', '.join(known)}.")
-        options[name] = _option(known[name], value, layer)
-    vertices, faces, selection = layer.vertex_matrix(), layer.face_matrix(), layer.face_selection_array()
-    try:
+def _method(function, further_results, initial_detail_size):
+    """Makes a method of MeshSet from a function of the package, and returns the method. initial_detail_size
+    returns what the filter's dialog begins with."""
+    described = _core.filters[function.__name__]
+    name = described["method"]
+    known = {parameter["name"]: parameter for parameter in described["parameters"] if parameter["label"]}
+
+    def apply(self, parameters):
+        layer = self.current_mesh()
+        options = {}
+        for key, value in parameters.items():
+            if key not in known:
+                raise InvalidParameter(f"Parameter {key} not found. The parameters are {', '.join(known)}.")
+            options[key] = _option(known[key], value, layer)
+        vertices, faces, selection = layer.vertex_matrix(), layer.face_matrix(), layer.face_selection_array()
         if "detail_size" not in options:
             only = selection if selection.any() else None
-            options["detail_size"] = _as_typed(default_detail_size(vertices, faces, selected=only))
+            options["detail_size"] = _as_typed(initial_detail_size(vertices, faces, selected=only))
         selected = selection if options.pop("selected", selection.any()) else None
         strength = None
         if options.pop("strength", False):
             if not layer.has_vertex_scalar():
-                _refuse(_core.no_quality)
+                raise InvalidParameter(_core.no_quality)
             strength = layer.vertex_scalar_array()
-        moved, report = smooth(vertices, faces, selected=selected, strength=strength, **options)
-    except Error as error:
-        _refuse(error)
-    try:
-        if "quality" in report:  # it travels as a position: x is its size, y its sign, that of -0 too
-            quality = report["quality"]
-            _write(self, numpy.stack([abs(quality), numpy.copysign(1, quality), 0 * quality], axis=1))
-            self.compute_scalar_by_function_per_vertex(q="x * y")
-    finally:
-        _write(self, moved)
-    return _result(report)
+        moved, report = function(vertices, faces, selected=selected, strength=strength, **options)
+        try:
+            if "quality" in report:  # it travels as a position: x is its size, y its sign, that of -0 too
+                quality = report["quality"]
+                _write(self, numpy.stack([abs(quality), numpy.copysign(1, quality), 0 * quality], axis=1))
+                self.compute_scalar_by_function_per_vertex(q="x * y")
+        finally:
+            _write(self, moved)
+        return {**_results(report), **further_results(report)}
+
+    def method(self, **parameters):
+        try:
+            return apply(self, parameters)
+        except Error as error:
+            raise pymeshlab.PyMeshLabException(f"Failed to apply filter: {name}\nDetails: {error}") from error
+
+    method.__name__, method.__qualname__, method.__doc__ = name, name, described["help"]
+    if not hasattr(pymeshlab.MeshSet, name):
+        setattr(pymeshlab.MeshSet, name, method)
+    return method
 
 
-apply_coord_mean_curvature_flow.__doc__ = _core.pymeshlab_help
-if not hasattr(pymeshlab.MeshSet, _FILTER):
-    setattr(pymeshlab.MeshSet, _FILTER, apply_coord_mean_curvature_flow)
+apply_coord_remove_noise = _method(remove_noise, _noise_results, lambda *_, **__: 0.0)
+apply_coord_mean_curvature_flow = _method(smooth, _flow_results, default_detail_size)

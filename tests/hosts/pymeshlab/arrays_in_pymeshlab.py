@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Compares the Python package's filter for PyMeshLab with the plugin's:
+"""Compares the Python package's filters for PyMeshLab with the plugin's:
 arrays_in_pymeshlab.py PLUGIN WHEEL_MODULE TOOL WORK_DIR MESH...
 
 PLUGIN is the plugin's file, and WHEEL_MODULE the folder of the Python module that loads it. Runs with a
@@ -21,7 +21,8 @@ import works_in_pymeshlab
 PAGE = pathlib.Path(__file__).resolve().parents[3] / "filter_tracked_mcf" / "python" / "README.md"
 FILTER = works_in_pymeshlab.FILTER
 COARSE = works_in_pymeshlab.COARSE
-arrays_filter = tracked_mcf.pymeshlab.apply_coord_mean_curvature_flow
+smooth = tracked_mcf.pymeshlab.apply_coord_mean_curvature_flow
+remove_noise = tracked_mcf.pymeshlab.apply_coord_remove_noise
 
 # Further arguments than works_in_pymeshlab.RUNS.
 RUNS = [
@@ -30,6 +31,24 @@ RUNS = [
     {**COARSE, "strength": True, "quality": "Displacement"},
     {**COARSE, "quality": 2, "method": 2},
     {"depth": 2, "detail_size": pymeshlab.PercentageValue(1)},  # with a warning
+]
+
+NOISE_RUNS = [
+    {},
+    {"crease_angle": 12.3, "noise": pymeshlab.PercentageValue(0.3)},
+    {"detail_size": pymeshlab.PureValue(0.125), "quality": "Displacement"},
+    {"largest_movement": pymeshlab.PureValue(0.01), "boundary": "Locked"},
+    {"boundary": 0, "selected": False},
+    {"strength": True, "quality": 1},
+]
+NOISE_WRONG = [
+    ({"crease_angle": 180}, "crease_angle is 180"),
+    ({"noise": 1}, "noise is 1; give a PercentageValue or a PureValue"),
+    ({"largest_movement": pymeshlab.PureValue(-1)}, "largest_movement is -1"),
+    ({"boundary": "Locked cells (paper)"}, "give one of 'Locked', 'Free'"),
+    ({"selected": True}, "No face is selected"),
+    ({"strength": True}, "no vertex quality"),
+    ({"iterations": 3}, "iterations not found"),
 ]
 
 # Words for those that works_in_pymeshlab.WRONG expects of PyMeshLab itself.
@@ -84,14 +103,14 @@ def results(outputs):
     return {name: (type(value), repr(value)) for name, value in outputs.items()}
 
 
-def must_be_the_plugins(mesh, parameters, select):
+def must_be_the_plugins(arrays_filter, mesh, parameters, select):
     plugin, arrays = rich_layer(mesh, select), rich_layer(mesh, select)
     before = state(arrays)
-    expected = plugin.apply_filter(FILTER, **parameters)
+    expected = plugin.apply_filter(arrays_filter.__name__, **parameters)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", tracked_mcf.FlowWarning)
         outputs = arrays_filter(arrays, **parameters)
-    given = f"{parameters}, {'selected' if select else 'all'} faces"
+    given = f"{arrays_filter.__name__}, {parameters}, {'selected' if select else 'all'} faces"
     if results(outputs) != results(expected):
         sys.exit(f"{given}: {outputs} rather than {expected}")
     positions = works_in_pymeshlab.vertices(arrays)
@@ -107,10 +126,10 @@ def must_be_the_plugins(mesh, parameters, select):
     print(f"{given}: the plugin's bits; changed {sorted(changed)}")
 
 
-def must_refuse(mesh):
+def must_refuse(arrays_filter, mesh, wrong):
     meshes = works_in_pymeshlab.load(mesh)
     before = works_in_pymeshlab.vertices(meshes)
-    for parameters, word in works_in_pymeshlab.WRONG:
+    for parameters, word in wrong:
         try:
             arrays_filter(meshes, **parameters)
             sys.exit(f"{parameters} was accepted")
@@ -136,15 +155,17 @@ def main(plugin, wheel_module, tool, work, *meshes):
     works_in_pymeshlab.check_script("tracked_mcf.pymeshlab", tool, PAGE, meshes[0], work)
     pymeshlab.load_plugin(plugin)
     runs = [parameters for parameters, _ in works_in_pymeshlab.RUNS] + RUNS
-    for mesh in meshes:
-        for parameters in runs:
-            must_be_the_plugins(mesh, parameters, False)
-        for parameters in runs[1::4]:
-            must_be_the_plugins(mesh, parameters, True)
-    must_refuse(meshes[0])
+    for arrays_filter, runs, wrong in ((smooth, runs, works_in_pymeshlab.WRONG),
+                                       (remove_noise, NOISE_RUNS, NOISE_WRONG)):
+        for mesh in meshes:
+            for parameters in runs:
+                must_be_the_plugins(arrays_filter, mesh, parameters, False)
+            for parameters in runs[1::4]:
+                must_be_the_plugins(arrays_filter, mesh, parameters, True)
+        must_refuse(arrays_filter, meshes[0], wrong)
+        if getattr(pymeshlab.MeshSet, arrays_filter.__name__) is not arrays_filter:
+            sys.exit(f"the package has not made {arrays_filter.__name__} a method")
     must_replace_the_plugin(wheel_module)
-    if getattr(pymeshlab.MeshSet, FILTER) is not arrays_filter:
-        sys.exit("the package has not made its filter a method")
 
 
 if __name__ == "__main__":
