@@ -46,7 +46,8 @@ def measure(experiment, scan, vertices):
     if row["noisy"]["RMS"] < 1e-3:  # the clean mesh
         return row
     families = stock_families(scan, vertices)["Taubin"]
-    row["Taubin"] = best(scan, families)
+    found = best(scan, families)
+    row["Taubin"] = {**found, "RMS": rough_error(scan, found["vertices"])}
     [default] = [smooth for words, smooth in families[0] if words.startswith("10 steps")]
     row["Taubin, default"] = result(scan, *default())
     return row
