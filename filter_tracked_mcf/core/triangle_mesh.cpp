@@ -35,8 +35,7 @@ void check_triangle(const TriangleMesh& mesh, const Triangle& triangle) {
 void validate(const TriangleMesh& mesh) {
     if (mesh.positions.empty()) throw InvalidMesh("The mesh is empty: it has no vertices.");
     if (mesh.triangles.empty()) {
-        throw InvalidMesh(
-            "The mesh has no faces; the filter needs a surface, not a point cloud.");
+        throw InvalidMesh("The mesh has no faces; the filter needs a surface, not a point cloud.");
     }
     constexpr std::size_t most = std::numeric_limits<std::int32_t>::max();
     if (mesh.positions.size() > most || mesh.triangles.size() > most) {

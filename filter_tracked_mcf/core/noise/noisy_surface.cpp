@@ -49,15 +49,15 @@ struct SidesOfEdges {
     RawVector<Side> sides;
 };
 
-/// Returns the triangles, those of each component oriented like its first one, by a search in
-/// breadth. A surface with one side gets a seam.
+/// Returns the triangles, those of each component oriented like its first one. A surface with
+/// one side gets a seam.
 RawVector<Triangle> oriented_triangles(const MeshTopology& topology) {
     RawVector<Triangle> triangles = topology.triangles;
     if (topology.is_oriented_consistently()) return triangles;
     const SidesOfEdges edges(topology);
     constexpr std::uint8_t unknown = 2;
     std::vector<std::uint8_t> flipped(topology.triangles.size(), unknown);
-    std::vector<std::int32_t> queue;
+    std::vector<std::int32_t> to_visit;
     const auto visit_neighbours = [&](std::int32_t triangle) {
         for (int side = 0; side < 3; ++side) {
             const std::int32_t edge = topology.edges[triangle][side];
@@ -70,15 +70,17 @@ RawVector<Triangle> oriented_triangles(const MeshTopology& topology) {
             const bool alike = sides[0].forwards != sides[1].forwards;
             const std::uint8_t here = flipped[triangle];
             flipped[other.triangle] = alike ? here : static_cast<std::uint8_t>(1 - here);
-            queue.push_back(other.triangle);
+            to_visit.push_back(other.triangle);
         }
     };
     for (std::size_t first = 0; first < flipped.size(); ++first) {
         if (flipped[first] != unknown) continue;
         flipped[first] = 0;
-        queue.assign(1, static_cast<std::int32_t>(first));
-        for (std::size_t i = 0; i < queue.size(); ++i) {
-            visit_neighbours(queue[i]);
+        to_visit.assign(1, static_cast<std::int32_t>(first));
+        while (!to_visit.empty()) {
+            const std::int32_t triangle = to_visit.back();
+            to_visit.pop_back();
+            visit_neighbours(triangle);
             poll_progress();
         }
     }

@@ -37,7 +37,7 @@ void average_alike(const Stars& stars, float inverse_square, const Vectors& norm
                    Vectors& averages) {
     averages.resize(normals.size());
     parallel_for_rows(static_cast<std::int64_t>(normals.size()), [&](std::int32_t i) {
-        const Eigen::Vector4f own = normals[i];
+        const Eigen::Vector4f& own = normals[i];
         Eigen::Vector4f sum = Eigen::Vector4f::Zero();
         for (const std::int32_t vertex : stars.triangles[i]) {
             for_each_corner(stars, vertex, [&](std::uint32_t other, std::uint32_t /*corner*/) {

@@ -46,8 +46,10 @@ ThreadTeam::~ThreadTeam() {
 
 int ThreadTeam::default_size() {
     const char* const asked = std::getenv("OMP_NUM_THREADS");
-    const int threads = asked == nullptr ? 0 : std::atoi(asked);
-    return threads > 0 ? threads : processor_count();
+    // Of a list, such as "4,2" for nested loops, the first number counts.
+    const long threads = asked == nullptr ? 0 : std::strtol(asked, nullptr, 10);
+    constexpr long most = 1024;
+    return threads > 0 ? static_cast<int>(std::min(threads, most)) : processor_count();
 }
 
 std::size_t ThreadTeam::size() {
@@ -85,7 +87,7 @@ void ThreadTeam::start_threads(std::int64_t items) {
     try {
         while (threads_.size() < wanted) threads_.emplace_back([this] { serve(); });
     } catch (const std::system_error&) {
-        // The next loop tries again.
+        return;  // The next loop tries again.
     }
 }
 

@@ -12,6 +12,7 @@ namespace tracked_mcf {
 namespace {
 
 constexpr int kSide = 60;
+constexpr int kMiddle = kSide / 2;
 
 /// A square of kSide by kSide quads, all of whose vertices may move.
 NoisySurface square() {
@@ -68,8 +69,8 @@ TEST(LinearElements, DampAWaveAsTheEquationSays) {
             double nearest = 1e9;
             for (std::size_t i = 0; i < surface.positions.size(); ++i) {
                 const Eigen::Vector3d at = (surface.positions[i] - surface.positions[0]) / quad;
-                heights.push_back(0.1 * std::cos(phase * (at[0] - kSide / 2)));
-                const double distance = (at - Eigen::Vector3d(kSide / 2, kSide / 2, 0)).norm();
+                heights.push_back(0.1 * std::cos(phase * (at[0] - kMiddle)));
+                const double distance = (at - Eigen::Vector3d(kMiddle, kMiddle, 0)).norm();
                 if (distance < nearest) {
                     nearest = distance;
                     middle = static_cast<std::int32_t>(i);
