@@ -91,5 +91,17 @@ TEST(NotEnoughMemory, IsThrownForMoreThanAnyMachineHas) {
     EXPECT_TRUE(same_bits(after, mesh));
 }
 
+TEST(NotEnoughMemory, NamesTheTaskTheNeedAndWhatToDo) {
+    check_free_memory(1, "This", "");
+    try {
+        check_free_memory(1e18, "Removing noise", "Simplify the mesh.");
+        ADD_FAILURE() << "not thrown";
+    } catch (const NotEnoughMemory& error) {
+        EXPECT_THAT(error.what(), testing::MatchesRegex("Removing noise would need about .* of "
+                                                        "memory, but only .* are free. Simplify "
+                                                        "the mesh."));
+    }
+}
+
 }  // namespace
 }  // namespace tracked_mcf

@@ -216,6 +216,29 @@ TEST(RemoveNoise, MovesNoVertexFartherThanItsBound) {
     }
 }
 
+TEST(RemoveNoise, KeepsTheBoundWhenItsHostRoundsToFloats) {
+    TriangleMesh before = with_noise(cube(), 0.3);
+    before.single_precision = true;
+    using Floats = std::vector<Eigen::Vector3f>;
+    const auto floats = [](const TriangleMesh& mesh) {
+        Floats rounded;
+        for (const Eigen::Vector3d& p : mesh.positions) rounded.push_back(p.cast<float>());
+        return rounded;
+    };
+    const Floats from = floats(before);
+    for (std::size_t i = 0; i < from.size(); ++i) before.positions[i] = from[i].cast<double>();
+    for (const double bound : {1e-2, 1e-5, 1e-9}) {
+        NoiseParameters parameters;
+        parameters.largest_movement = bound;
+        TriangleMesh mesh = before;
+        remove_noise(mesh, {}, parameters);
+        const Floats to = floats(mesh);
+        for (std::size_t i = 0; i < from.size(); ++i) {
+            ASSERT_LE((to[i].cast<double>() - from[i].cast<double>()).norm(), bound) << i;
+        }
+    }
+}
+
 TEST(RemoveNoise, HalvesWavesOfTheDetailSize) {
     // The metric takes the triangles of a square's quads as equilateral ones: waves along the sides
     // are shorter in it by the square root of 4/3, and edges are longer than the quads' sides.
