@@ -116,6 +116,8 @@ class Page:
         rows = machine.table(self._build)
         for threads in (1, 2):
             median = self._of.median("median_bytes_per_second", peer=TRIAD, threads=threads)
+            if median is None:  # not measured for the page of whole jobs
+                continue
             rows.append([f"memory bandwidth, {threads} thread{'s' if threads > 1 else ''} (triad, best, "
                          "median)", f"{digits(ratio(self._bandwidth(threads), 1e9))}, "
                          f"{digits(ratio(median, 1e9))} GB/s"])
