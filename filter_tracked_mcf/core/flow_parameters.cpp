@@ -49,11 +49,6 @@ void validate(const FlowParameters& parameters) {
             "quality asks for the mean curvature, which a conformalized flow does not know; take "
             "the mean-curvature flow, or another quality.");
     }
-    if (parameters.keep_edges > 0 && parameters.flow != FlowKind::MeanCurvature) {
-        throw InvalidParameter(
-            "keep_edges is given, but a conformalized flow keeps no edges; take the mean-curvature "
-            "flow, or set keep_edges to 0.");
-    }
 }
 
 }  // namespace tracked_mcf

@@ -90,12 +90,6 @@ struct FlowParameters {
     /// Whether step_size is in squared units of the mesh instead.
     bool absolute = false;
 
-    /// Greater than 0: the angle θ, in degrees and less than 180, from which edges are kept. Where
-    /// smooth normals turn by θ within the detail size ℓ, the surface counts as longer than it is,
-    /// so that the flow does not cross it (edge_metric.h). Steps are longer by a factor that grows
-    /// with the noise of the surface (EdgeMetric::step_factor()).
-    double keep_edges = 0;
-
     /// Number of semi-implicit steps, 1 to kMaximumIterations.
     int iterations = 3;
 

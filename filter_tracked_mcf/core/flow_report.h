@@ -45,11 +45,8 @@ struct FlowReport {
     std::int64_t degenerate_triangles = 0;  ///< triangles of zero area, which were ignored
     std::int64_t boundary_edges = 0;
     std::int64_t constrained_vertices = 0;  ///< referenced vertices that keep their bits
-    double detail_size = 0;    ///< length of the waves whose amplitude all steps halve, mesh units
-    double step_size = 0;      ///< δ without EdgeMetric::step_factor(), mesh units²
-    double normal_length = 0;  ///< s of the metric that keeps edges, mesh units; 0 without
-    double noise = 0;          ///< EdgeMetric::noise(), mesh units; 0 if no edges are kept
-    double edge_share = 0;     ///< of the area: what counted as edge in the last step (EdgeMetric)
+    double detail_size = 0;  ///< length of the waves whose amplitude all steps halve, mesh units
+    double step_size = 0;    ///< δ, mesh units²
     double asked_step_size = 0;  ///< larger if δ was limited, see FlowParameters::step_size
     int depth = 0;               ///< 1 if all vertices are constrained
     int resolving_depth = 0;     ///< the least that resolves the detail size; 0 for a step size

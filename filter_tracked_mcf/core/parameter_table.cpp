@@ -82,12 +82,6 @@ const std::vector<ParameterOf<P>>& parameter_table() {
               "detail_size", "Remove detail smaller than",
               "Waves this long keep half their height, shorter ones less. 0 takes 2.5 mean edge "
               "lengths."),
-        named(
-            access<&P::keep_edges>(Type::Real,
-                                   {0, 179, " degrees, such as 25, where 0 keeps none"}),
-            "keep_edges", "Keep edges sharper than",
-            "In degrees: 25 for noise, with order 2. Takes many times the time and memory. 0 keeps "
-            "none."),
         named(toggle<&P::local_detail_size>(), "local_detail_size", "Larger where faces are larger",
               "The detail size follows the local edge length, as noise of scans often does."),
         named(integer<&P::iterations>(1, kMaximumIterations), "iterations", "Smoothing steps",

@@ -136,10 +136,7 @@ std::string changes(const FlowReport& report) {
              << " faces stay, because their vertices have strength 0. ";
     }
     if (report.steps.empty()) return text.str().substr(0, text.str().size() - 1);
-    if (report.normal_length > 0) {
-        text << "Edges are kept, " << 100 * report.edge_share
-             << " % of the area; the noise is about " << report.noise << ". ";
-    } else if (report.stop == Stop::None) {
+    if (report.stop == Stop::None) {
         text << (report.has_strengths ? "Where the strength is 1, waves" : "Waves") << " of length "
              << report.detail_size << " keep half of their amplitude. ";
     }

@@ -41,8 +41,8 @@ struct ProgramTexts<FlowParameters> {
     static constexpr const char* kDescription =
         "Smooths a triangle mesh by mean-curvature flow: every point moves along the normal with "
         "the speed of the mean curvature, so that noise and small detail vanish first and large "
-        "shapes last. Closed surfaces shrink and thin parts pinch; --keep-edges keeps sharp "
-        "features. To remove noise from scans and parts, see tracked_mcf remove-noise --help.";
+        "shapes last. Closed surfaces shrink and thin parts pinch. To remove noise from scans and "
+        "parts, and to keep their creases, see tracked_mcf remove-noise --help.";
     static constexpr const char* kExamples =
         "Examples:\n"
         "  tracked_mcf scan.ply smooth.ply\n"

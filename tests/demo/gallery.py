@@ -205,7 +205,7 @@ def colour_by_quality(meshes, work):
 
 def draw_all(meshes, work):
     side = ["--view", "-0.6", "-0.15", "-1"]
-    draw(PICTURES / "edges.png", work / "noisy_part.ply", work / "part.ply",
+    draw(PICTURES / "creases.png", work / "noisy_part.ply", work / "part.ply",
          options=["--flat", "--view", "1", "-0.8", "-1.2"])
     draw(PICTURES / "noise.png", work / "noisy_lion.ply", work / "clean_lion.ply", options=side)
     draw(PICTURES / "selection.png", work / "lion.ply", work / "half.ply")
@@ -217,7 +217,7 @@ def draw_all(meshes, work):
          options=["--zoom", "2", "--center", "0", "-0.2", "--view", "0.5", "0", "-1"])
     colour_by_quality(meshes, work)
     draw(PICTURES / "curvature.png", work / "bear.ply", work / "coloured.ply", options=["--colours"])
-    for picture in ("edges", "noise", "selection", "strength", "seams", "patch", "film", "curvature"):
+    for picture in ("creases", "noise", "selection", "strength", "seams", "patch", "film", "curvature"):
         as_palette(PICTURES / f"{picture}.png")
     frames = []
     for i, mesh in enumerate([work / "bear.ply", *sorted(work.glob("sphere_*.ply"))]):

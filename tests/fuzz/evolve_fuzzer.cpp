@@ -75,7 +75,6 @@ FlowParameters parameters_of(Bytes& bytes) {
     if (bytes.flag()) p.tolerance = bytes.number();
     if (bytes.flag()) p.stabilization = bytes.number();
     if (bytes.flag()) p.boundary_penalty = bytes.number();
-    if (bytes.flag()) p.keep_edges = bytes.flag() ? 25 : bytes.number();
     p.local_detail_size = bytes.flag();
     p.constrain_pinches = bytes.flag();
     p.update_boundary_multipliers = bytes.flag();

@@ -166,9 +166,6 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"AbsoluteStepSizeInfinite", set_absolute_step_size(kInfinity), "step_size"},
         BadInput{"MethodTooLarge", set_choice("method", 3), "method"},
         BadInput{"MethodNegative", set_choice("method", -1), "method"},
-        BadInput{"KeepEdgesNegative", set<FloatValue>("keep_edges", -1.0F), "keep_edges"},
-        BadInput{"KeepEdgesTooLarge", set<FloatValue>("keep_edges", 180.0F), "keep_edges"},
-        BadInput{"KeepEdgesNaN", set<FloatValue>("keep_edges", kNaN), "keep_edges"},
         BadInput{"DepthOfTheWrongType", replace<RichFloat>("depth", 5.0F), "depth"}),
     [](const auto& test) { return std::string(test.param.name); });
 

@@ -66,7 +66,6 @@ protected:
         for (const auto& [name, count] : choices) {
             parameters.setValue(name, *host::choice(random(count)));
         }
-        parameters.setValue("keep_edges", FloatValue(random(2) == 1 ? 25.0F : 0));
         parameters.setValue("order", IntValue(1 + random(4)));
         parameters.setValue("iterations", IntValue(1 + random(2)));
         parameters.setValue("step_size", FloatValue(random(2) == 1 ? 1e-3F : 0));

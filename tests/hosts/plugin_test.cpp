@@ -222,7 +222,6 @@ TEST_F(Plugin, EveryParameterHasAnEffect) {
     EXPECT_NE(with("preserve", *host::choice(2)), with("preserve", *host::choice(1)));
     EXPECT_NE(with("method", *host::choice(1)), by_default);
     EXPECT_NE(with("method", *host::choice(2)), with("method", *host::choice(1)));
-    EXPECT_NE(with("keep_edges", FloatValue(25.0F)), by_default);
     const auto by_step_size = with("step_size", FloatValue(1e-4f));
     EXPECT_NE(by_step_size, by_default);
     parameters.setValue("step_size", FloatValue(1e-4f));

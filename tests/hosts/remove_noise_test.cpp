@@ -68,19 +68,21 @@ TEST_F(RemoveNoise, HasItsOwnNameHelpAndParameters) {
 }
 
 TEST_F(RemoveNoise, MovesTheSurfaceTowardsTheOneWithoutNoiseAndChangesNothingElse) {
-    const auto clean = layer.cm.vert;
+    // The layer is a torus with bumps finer than its edges, which are noise, too.
     const auto distance = [&] {
         double squares = 0;
-        for (std::size_t i = 0; i < clean.size(); ++i) {
-            squares += vcg::SquaredDistance(layer.cm.vert[i].cP(), clean[i].cP());
+        for (const CVertexO& vertex : layer.cm.vert) {
+            const Point3m p = vertex.cP();
+            const double height = std::hypot(std::hypot(p[0], p[1]) - 2, p[2]) - 1;
+            squares += height * height;
         }
-        return std::sqrt(squares / double(clean.size()));
+        return std::sqrt(squares / double(layer.cm.vert.size()));
     };
     add_noise(0.02);
     const double noisy = distance();
     const Belongings belongings(layer);
     ASSERT_TRUE(apply()) << outcome.message;
-    EXPECT_LT(distance(), 0.8 * noisy);
+    EXPECT_LT(distance(), 0.5 * noisy);
     EXPECT_TRUE(Belongings(layer) == belongings);
     EXPECT_TRUE(contains(outcome.log, ": Removed noise from 1800 vertices")) << outcome.log;
 }

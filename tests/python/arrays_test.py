@@ -36,7 +36,6 @@ COARSE = {"depth": 5, "detail_size": 0.2}
 RUNS = [
     ("detail_size", 0.3, "0.3"),
     ("detail_size", "20%", "20%"),
-    ("keep_edges", 25, "25"),
     ("local_detail_size", True, None),
     ("iterations", 5, "5"),
     ("order", 2, "2"),
@@ -94,13 +93,10 @@ FLOW_WRONG = [
     ({"order": 2.0}, TypeError, "order is 2.0; give an integer"),
     ({"iterations": 10**30}, InvalidParameter, "give 1 to 1000000"),
     ({"iterations": -10**30}, InvalidParameter, "give 1 to 1000000"),
-    ({"keep_edges": "25"}, TypeError, "keep_edges is '25'; give a number"),
-    ({"keep_edges": numpy.nan}, InvalidParameter, "keep_edges is nan"),
     ({"absolute": 1}, TypeError, "absolute is 1; give True or False"),
     ({"preserve": "volum"}, InvalidParameter, "give one of 'none', 'area', 'volume'"),
     ({"preserve": 1}, InvalidParameter, "preserve is 1"),
     ({"cubature": "3"}, InvalidParameter, "give one of 1, 3, 12"),
-    ({"flow": "conformalized", "keep_edges": 25}, InvalidParameter, "keep_edges"),
     ({"preserve": "area"}, InvalidParameter, "Preserving the area"),
 ]
 NOISE_WRONG = [

@@ -89,8 +89,6 @@ TEST(CommandLine, EveryOptionIsTaken) {
                              "volume",
                              "--method",
                              "paper",
-                             "--keep-edges",
-                             "25",
                              "--tolerance",
                              "1e-10",
                              "--stabilization",
@@ -118,7 +116,6 @@ TEST(CommandLine, EveryOptionIsTaken) {
     EXPECT_EQ(line.parameters.preserve, Preserve::Volume);
     EXPECT_FALSE(line.parameters.separate_sheets);
     EXPECT_EQ(line.parameters.solver, Solver::OneWCycle);
-    EXPECT_EQ(line.parameters.keep_edges, 25);
     EXPECT_EQ(line.parameters.tolerance, 1e-10);
     EXPECT_EQ(line.parameters.stabilization, 0.5);
     EXPECT_EQ(line.parameters.cubature, Cubature::Degree6);
@@ -219,7 +216,6 @@ TEST(CommandLine, InvalidArgumentsAreNamed) {
     EXPECT_THAT(complaint({"a.ply", "b.ply", "--order", "1.5"}), HasSubstr("--order = 1.5"));
     EXPECT_THAT(complaint({"a.ply", "b.ply", "--cubature", "2"}), HasSubstr("12"));
     EXPECT_THAT(complaint({"a.ply", "b.ply", "--method", "cg"}), HasSubstr("shared-cells"));
-    EXPECT_THAT(complaint({"a.ply", "b.ply", "--keep-edges", "x"}), HasSubstr("--keep-edges = x"));
     EXPECT_THAT(complaint({"a.ply", "b.ply", "--tolerance", "x"}), HasSubstr("--tolerance = x"));
     EXPECT_THAT(complaint({"a.ply", "b.ply", "--stabilization", "x"}), HasSubstr("stabilization"));
     EXPECT_THAT(complaint({"a.ply", "b.ply", "--speed", "2"}), HasSubstr("--speed"));
@@ -259,7 +255,6 @@ TEST(CommandLine, HelpNamesEveryOptionAndExplainsTheSharedParameters) {
                                "PROPERTY",
                                "--preserve",
                                "none|area|volume",
-                               "--keep-edges",
                                "--method",
                                "converged|shared-cells|paper",
                                "--tolerance",

@@ -323,8 +323,8 @@ TEST_F(Program, HelpAndVersionSucceed) {
 TEST_F(Program, EmptyValuesAreRefused) {
     for (const char* option :
          {"--detail-size", "--order", "--depth", "--step-size", "--iterations", "--flow",
-          "--boundary", "--selected", "--preserve", "--quality", "--method", "--keep-edges",
-          "--tolerance", "--stabilization", "--cycles", "--cubature", "--threads", "--report"}) {
+          "--boundary", "--selected", "--preserve", "--quality", "--method", "--tolerance",
+          "--stabilization", "--cycles", "--cubature", "--threads", "--report"}) {
         const ProgramRun result = run("a.off b.ply " + std::string(option) + " \"\"");
         EXPECT_EQ(result.exit_code, 2) << option;
         EXPECT_THAT(result.errors, HasSubstr(option));

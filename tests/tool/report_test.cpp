@@ -32,7 +32,6 @@ TEST(Report, HoldsEveryMemberUnderItsName) {
     line.strength = "s";
     line.parameters.preserve = Preserve::Area;
     line.parameters.quality = Quality::Displacement;
-    line.parameters.keep_edges = 25;
     line.parameters.separate_sheets = false;
     line.parameters.cubature = Cubature::Degree6;
     line.parameters.tolerance = 0.5;
@@ -47,9 +46,6 @@ TEST(Report, HoldsEveryMemberUnderItsName) {
     report.constrained_vertices = 15;
     report.detail_size = 0.4375;
     report.step_size = 0.0625;
-    report.normal_length = 0.875;
-    report.edge_share = 0.03125;
-    report.noise = 0.015625;
     report.depth = 5;
     report.cell_size = 6.5;
     report.cells = 7;
@@ -74,13 +70,12 @@ TEST(Report, HoldsEveryMemberUnderItsName) {
         "program": "tracked_mcf", "version": ")" TRACKED_MCF_VERSION R"(",
         "input": "in.ply", "output": "out.obj",
         "parameters": {"detail_size": 0.375, "local_detail_size": true, "order": 2, "depth": 7,
-                       "step_size": 2e-4, "absolute": true, "iterations": 3, "keep_edges": 25.0,
+                       "step_size": 2e-4, "absolute": true, "iterations": 3,
                        "flow": "conformalized", "boundary": "free", "selected": "q", "strength": "s",
                        "preserve": "area", "quality": "displacement", "cubature": 12,
                        "method": "shared-cells", "tolerance": 0.5, "stabilization": 0.25, "cycles": 2, "threads": 1},
         "vertices": 1, "triangles": 2, "degenerate_triangles": 3, "boundary_edges": 4,
         "constrained_vertices": 15, "detail_size": 0.4375, "step_size": 0.0625,
-        "normal_length": 0.875, "edge_share": 0.03125, "noise": 0.015625,
         "area_before": 20.5, "area_after": 19.5, "volume_change": -2.5,
         "largest_displacement": 0.75, "rms_displacement": 0.25, "converged": false, "stop": "vanished",
         "warnings": ["first", "second"],

@@ -24,7 +24,7 @@ struct Options {
     double seconds = 0;
     std::vector<std::int64_t> chosen;  ///< run only these cases
     double tolerance = 0;              ///< solve to this tolerance; 0 leaves the case's solver
-    double keep_edges = 0;             ///< of each mean-curvature flow, degrees
+    bool remove_noise = false;         ///< instead of making flows
     std::string file;
 };
 
@@ -69,14 +69,11 @@ void Zoo::run_many() {
 }
 
 Case Zoo::make_case(std::int64_t number) const {
+    if (options_.remove_noise) return noise_case_of(options_.seed, number);
     Case made = case_of(options_.seed, number);
     if (options_.tolerance > 0) {
         made.parameters.solver = Solver::Converged;
         made.parameters.tolerance = options_.tolerance;
-    }
-    if (options_.keep_edges > 0 && made.parameters.flow == FlowKind::MeanCurvature) {
-        made.parameters.keep_edges = options_.keep_edges;
-        made.parameters.local_detail_size = number % 2 == 1;
     }
     return made;
 }
@@ -140,9 +137,7 @@ int main(int argc, char** argv) {
     app.add_option(
         "--tolerance", options.tolerance,
         "Solve every case to this tolerance, which tells the solver's error from others");
-    app.add_option("--keep-edges", options.keep_edges,
-                   "Keep edges of this angle in every mean-curvature flow, half of them with a "
-                   "local detail size");
+    app.add_flag("--remove-noise", options.remove_noise, "Remove noise instead of making flows");
     app.add_option("--write", options.file, "With --case: write its mesh to this PLY file")
         ->needs("--case");
     try {

@@ -170,18 +170,39 @@ Case case_of(std::uint64_t seed, std::int64_t number) {
     return made;
 }
 
-std::string options_of(const Case& described) {
-    std::ostringstream text;
-    for (const auto& parameter : parameter_table<FlowParameters>()) {
+Case noise_case_of(std::uint64_t seed, std::int64_t number) {
+    Case made = case_of(seed, number);
+    Random random(seed, ~static_cast<std::uint64_t>(number));
+    const double side = box_of(made.mesh, made.selection).sizes().maxCoeff();
+    const auto length = [&](double probability) {
+        const double drawn = side * random.log_between(1e-6, 1e2);
+        return random.chance(probability) && std::isfinite(drawn) ? drawn : 0.0;
+    };
+    NoiseParameters& noise = made.noise.emplace();
+    noise.crease_angle = random.pick({25.0, 25.0, 0.0, random.between(0, 179)});
+    noise.noise = length(0.2);
+    noise.detail_size = length(0.2);
+    noise.largest_movement = length(0.2);
+    if (random.chance(0.3)) noise.boundary = NoiseBoundary::Locked;
+    if (random.chance(0.3)) noise.quality = Quality::Displacement;
+    return made;
+}
+
+namespace {
+
+/// Writes the options that differ from their defaults.
+template <class Parameters>
+void write_options(const Parameters& parameters, std::ostream& text) {
+    for (const auto& parameter : parameter_table<Parameters>()) {
         if (parameter.type == Parameter::Type::Selected ||
             parameter.type == Parameter::Type::Strength)
             continue;
-        const ParameterValue value = parameter.get(described.parameters);
+        const ParameterValue value = parameter.get(parameters);
         // The default of the stabilisation depends on the method.
         if (value == parameter.initial && parameter.name != "stabilization") continue;
         std::string option = parameter.name;
         std::replace(option.begin(), option.end(), '_', '-');
-        text << (text.tellp() > 0 ? " --" : "--") << option;
+        text << " --" << option;
         if (const double* const number = std::get_if<double>(&value)) text << ' ' << exact(*number);
         if (const int* const number = std::get_if<int>(&value)) {
             text << ' ';
@@ -191,6 +212,18 @@ std::string options_of(const Case& described) {
                 text << *number;
             }
         }
+    }
+}
+
+}  // namespace
+
+std::string options_of(const Case& described) {
+    std::ostringstream text;
+    text << (described.noise ? "remove-noise" : "");
+    if (described.noise) {
+        write_options(*described.noise, text);
+    } else {
+        write_options(described.parameters, text);
     }
     if (!described.selection.empty()) text << " --selected selected";
     if (!described.mesh.strength.empty()) text << " --strength strength";

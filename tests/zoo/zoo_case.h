@@ -2,24 +2,30 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "filter_tracked_mcf/core/flow_parameters.h"
+#include "filter_tracked_mcf/core/noise_parameters.h"
 #include "filter_tracked_mcf/core/triangle_mesh.h"
 #include "tests/zoo/random.h"
 
 namespace tracked_mcf::zoo {
 
-/// A mesh, which of its triangles flow, and the parameters of the flow.
+/// A mesh, which of its triangles move, and the parameters of the flow, or of the removal of noise.
 struct Case {
     std::string kind;  ///< of bad_meshes.h
     TriangleMesh mesh;
     Selection selection;
     FlowParameters parameters;
+    std::optional<NoiseParameters> noise;  ///< if set, remove_noise() is called instead of evolve()
 };
 
 /// Returns a case of a seed; the same one every time.
 Case case_of(std::uint64_t seed, std::int64_t number);
+
+/// Returns the same mesh with random parameters of the removal of noise.
+Case noise_case_of(std::uint64_t seed, std::int64_t number);
 
 /// Returns about how many fragments (pieces of a triangle in one cell) a flow at this depth has. 0
 /// if the mesh has no finite size.

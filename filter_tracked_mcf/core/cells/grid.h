@@ -26,13 +26,8 @@ struct Grid {
     }
 };
 
-/// Returns the longest side of the bounding box of the referenced vertices, in mesh units. Throws
-/// InvalidMesh if it is zero, too large or too small for doubles, or so small beside the distance
-/// from the origin that coordinates cannot resolve the mesh.
-double longest_side(const SurfaceView& surface);
-
-/// Returns the grid whose cube has 1.1 times the longest side of the bounding box of the referenced
-/// vertices, and the same centre.
+/// Returns the grid whose cube has 1.1 times the longest side of the surface's bounding_box(), and
+/// the same centre.
 Grid enclosing_grid(const SurfaceView& surface, int depth);
 
 /// Returns a grid of the same cube with 2^depth cells a side.

@@ -229,12 +229,6 @@ TrackedElements build_tracked_elements(const Domain& domain, ClippedSurface surf
     elements.components = components_of(elements.levels);
     enter_setup_phase(kSampleSurface);
     ElementBuilder(elements, domain, surface.mesh, surface.fragments, parameters).build();
-    if (parameters.keep_edges > 0) {
-        elements.fragment_triangle.resize(surface.fragments.size());
-        parallel_for_rows(static_cast<std::int64_t>(surface.fragments.size()), [&](std::int32_t i) {
-            elements.fragment_triangle[i] = surface.fragments[i].triangle;
-        });
-    }
     const auto densities = triangle_densities(domain, parameters.local_detail_size);
     if (!densities.empty())
         elements.densities = element_densities(elements, densities, surface.fragments);

@@ -50,11 +50,10 @@ struct TrackedElements {
     std::vector<Level> levels;  ///< coarsest first
     Components components;
 
-    RawVector<Fragment> fragments;              ///< sorted by finest element
-    RawVector<std::int32_t> fragment_triangle;  ///< of each; empty unless edges are kept
-    Samples samples;                            ///< sorted by fragment
-    std::vector<std::int64_t> fragment_begin;   ///< per finest element, and the end
-    std::vector<std::int64_t> sample_begin;     ///< per finest element, and the end
+    RawVector<Fragment> fragments;             ///< sorted by finest element
+    Samples samples;                           ///< sorted by fragment
+    std::vector<std::int64_t> fragment_begin;  ///< per finest element, and the end
+    std::vector<std::int64_t> sample_begin;    ///< per finest element, and the end
 
     std::vector<float> densities;  ///< per finest element (densities.h); empty if all are 1
 

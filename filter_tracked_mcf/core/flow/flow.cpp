@@ -92,10 +92,6 @@ void Flow::fill_report(const Domain& domain) {
     report_.asked_step_size = stepper_.asked_size().in_mesh_units;
     report_.detail_size =
         detail_size_for(report_.step_size, parameters_.iterations, parameters_.order);
-    if (const EdgeMetric* const edges = stepper_.edge_metric()) {
-        report_.normal_length = edges->size().normal_length() * elements.grid.cell_size;
-        report_.noise = edges->noise() * elements.grid.cell_size;
-    }
     report_.cells = count_cells(elements.finest());
     report_.elements = elements.finest().element_count();
     report_.unknowns = elements.finest().unknown_count();
@@ -109,11 +105,6 @@ bool Flow::step() {
     StepReport report;
     Care care = care_;
     StepResult next = stepper_.advance(state_, stepper_.size(), care, report);
-    // A first step that has removed more than noise is made again, shorter.
-    const auto* const made = std::get_if<FlowState>(&next);
-    if (made != nullptr && report_.steps.empty() && stepper_.shortens_steps(*made)) {
-        next = advance_in_substeps(1, care, report);
-    }
     if (is(next, Stop::Vanished)) {
         end_before_last_step(Stop::Vanished);
         return false;
@@ -129,9 +120,6 @@ bool Flow::step() {
     if (const Stop* const reason = std::get_if<Stop>(&next)) {
         report_.stop = *reason;
         return false;
-    }
-    if (const EdgeMetric* const edges = stepper_.edge_metric()) {
-        report_.edge_share = edges->edge_share();
     }
     before_ = std::exchange(state_, std::get<FlowState>(std::move(next)));
     report_.steps.push_back(report);
@@ -175,14 +163,11 @@ void Flow::move_vertices(std::vector<Eigen::Vector3d>& positions) const {
 std::vector<Eigen::Vector3d> Flow::velocities(std::size_t vertex_count) {
     std::vector<Eigen::Vector3d> velocities(vertex_count, Eigen::Vector3d::Zero());
     if (parameters_.quality != Quality::MeanCurvature) return velocities;
-    // A step that keeps edges does not move by the mean curvature.
-    if (state_.velocity.size() == 0 || parameters_.keep_edges > 0) {
+    if (state_.velocity.size() == 0) {
         StepReport ignored;
-        Care care = care_;
-        care.ignores_edges = true;
         const StepSize& size = stepper_.size();
         const StepResult next = stepper_.advance(
-            state_, std::min(1.0, kShortStepInCells / size.in_cells) * size, care, ignored);
+            state_, std::min(1.0, kShortStepInCells / size.in_cells) * size, care_, ignored);
         const auto* const state = std::get_if<FlowState>(&next);
         if (state == nullptr) return velocities;
         state_.velocity = state->velocity;

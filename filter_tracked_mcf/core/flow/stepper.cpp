@@ -50,17 +50,6 @@ double asked_in_cells(const FlowParameters& parameters, const Domain& domain, co
     return step_size_for(detail_size / grid.cell_size, parameters.iterations, parameters.order);
 }
 
-/// Returns what keeps edges, if the parameters ask for it, in steps of this size.
-std::optional<EdgeMetric> edge_metric_of(const FlowParameters& parameters, const Domain& domain,
-                                         const TrackedElements& elements, const StepSize& size) {
-    if (parameters.keep_edges == 0) return std::nullopt;
-    const double detail_size =
-        detail_size_for(size.in_cells, parameters.iterations, parameters.order);
-    return std::optional<EdgeMetric>(std::in_place, domain, elements,
-                                     EdgeSize{detail_size, parameters.keep_edges},
-                                     parameters.local_detail_size);
-}
-
 }  // namespace
 
 Stepper::Stepper(const Domain& domain, ClippedSurface surface, const FlowParameters& parameters)
@@ -69,13 +58,11 @@ Stepper::Stepper(const Domain& domain, ClippedSurface surface, const FlowParamet
       asked_size_(in_cells(asked_in_cells(parameters, domain, elements_.grid), elements_.grid)),
       size_(in_cells(std::min(asked_size_.in_cells, largest_step_size(elements_.densities)),
                      elements_.grid)),
-      edge_metric_(edge_metric_of(parameters, domain, elements_, size_)),
       stabilization_(elements_),
       curve_constraint_(elements_, parameters.boundary_penalty),
-      confinement_(elements_,
-                   parameters.order == 1
-                       ? 0
-                       : detail_size_for(step_factor() * size_.in_cells, 1, parameters.order)),
+      confinement_(elements_, parameters.order == 1
+                                  ? 0
+                                  : detail_size_for(size_.in_cells, 1, parameters.order)),
       solutions_(parameters.order) {
     enter_setup_phase(kPrepareSolver);
     auto constrained = constrained_unknowns(elements_, parameters.boundary);
@@ -98,7 +85,7 @@ FlowState Stepper::start() const {
 
 StepResult Stepper::advance(const FlowState& from, const StepSize& size, const Care& care,
                             StepReport& report) {
-    const double delta = (care.ignores_edges ? 1 : step_factor()) * size.in_cells;
+    const double delta = size.in_cells;
     FlowState to;
     to.boxes = from.boxes;
     to.constrained = from.constrained;
@@ -107,11 +94,9 @@ StepResult Stepper::advance(const FlowState& from, const StepSize& size, const C
                          : from.multipliers;
 
     const Stopwatch assembling;
-    if (edge_metric_) edge_metric_->update(elements_, from.displacement);
     // A = D + δS, b = -δ S x(t)
     assemble_elements(elements_, from.displacement,
-                      {1.0F, static_cast<float>(delta), parameters_.flow, parameters_.order > 1,
-                       care.ignores_edges ? nullptr : edge_tensors()},
+                      {1.0F, static_cast<float>(delta), parameters_.flow, parameters_.order > 1},
                       systems_);
     report.area = systems_.area * elements_.grid.cell_size * elements_.grid.cell_size;
     report.collapsed_samples = systems_.collapsed_samples;
@@ -150,23 +135,6 @@ StepResult Stepper::advance(const FlowState& from, const StepSize& size, const C
     const bool reached = report.reached_tolerance || report.error_estimate <= kNothingReached;
     if (!reached || !confinement_.holds(to.displacement, to.boxes)) return Stop::StepFailed;
     return to;
-}
-
-bool Stepper::shortens_steps(const FlowState& to) {
-    if (!edge_metric_) return false;
-    RawVector<float> movements(elements_.vertices.size());
-    parallel_for_rows(static_cast<std::int64_t>(movements.size()), [&](std::int32_t i) {
-        const VertexLocation& vertex = elements_.vertices[i];
-        const bool moves =
-            vertex.element != VertexLocation::kNoElement && elements_.vertex_constrained[i] == 0;
-        movements[i] = kNoMagnitude;
-        if (!moves) return;
-        const double density =
-            elements_.densities.empty() ? 1.0 : double{elements_.densities[vertex.element]};
-        movements[i] = static_cast<float>(
-            std::sqrt(density) * evaluate_vertex(elements_, to.displacement, vertex).norm());
-    });
-    return edge_metric_->shorten_steps(robust_deviation(movements));
 }
 
 void Stepper::predict(const std::vector<Scaling>& scalings, const Coefficients& displacement) {
@@ -257,7 +225,7 @@ void Stepper::remove_drift_from(Coefficients& step, const FlowState& from,
 const Coefficients& Stepper::pressure_response(const FlowState& from, const Care& care,
                                                StepReport& report) {
     const Stopwatch stopwatch;
-    assemble_normals(elements_, from.displacement, edge_tensors(), systems_.right_sides);
+    assemble_normals(elements_, from.displacement, systems_.right_sides);
     solver_->solve(systems_.right_sides, care.tolerance, pressure_response_, report);
     report.reached_tolerance = report.error_estimate <= parameters_.tolerance;
     report.solve_seconds += stopwatch.seconds();

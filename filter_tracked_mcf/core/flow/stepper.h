@@ -15,7 +15,6 @@
 #include "filter_tracked_mcf/core/flow_report.h"
 #include "filter_tracked_mcf/core/solver/step_solver.h"
 #include "filter_tracked_mcf/core/system/curve_constraint.h"
-#include "filter_tracked_mcf/core/system/edge_metric.h"
 #include "filter_tracked_mcf/core/system/pinches.h"
 #include "filter_tracked_mcf/core/system/stabilization.h"
 
@@ -39,7 +38,6 @@ struct Care {
     double tolerance;  ///< see FlowParameters::tolerance
     /// Whether the step's drift is removed (drift.h), and no scaling is predicted.
     bool removes_drift = false;
-    bool ignores_edges = false;  ///< whether the step is that of a flow that keeps no edges
 };
 
 /// The state after a step, or why there is none.
@@ -66,8 +64,7 @@ public:
 
     /// Makes one step of equation 2: solves (D + δS) d = -δ S x(t) for the displacement
     /// d = x(t+δ) - x(t), with the stabilisation and the constraints that the parameters ask for,
-    /// and adds d to the embedding. A step of order m solves m times, see FlowParameters::order. δ
-    /// is `size`, times EdgeMetric::step_factor() if edges are kept.
+    /// and adds d to the embedding. A step of order m solves m times, see FlowParameters::order.
     ///
     /// In the code, n is the conormal and λ the multiplier of the curve constraint, C its matrix
     /// and u its displacement; N is the matrix of the stabilisation.
@@ -85,17 +82,11 @@ public:
     const Coefficients& pressure_response(const FlowState& from, const Care& care,
                                           StepReport& report);
 
-    /// Returns whether the first step, to this state, shall be made again, because it is now
-    /// shorter (EdgeMetric::shorten_steps()).
-    bool shortens_steps(const FlowState& to);
-
     /// Makes the next solves start from zero instead of the last step's solutions.
     void forget_solutions() { solutions_.assign(solutions_.size(), {}); }
 
     const TrackedElements& elements() const { return elements_; }
     const Confinement& confinement() const { return confinement_; }
-    /// Returns what keeps edges in the last step, or null.
-    const EdgeMetric* edge_metric() const { return edge_metric_ ? &*edge_metric_ : nullptr; }
     /// Returns the number of unknowns that a boundary of locked cells constrains.
     std::int64_t locked_unknown_count() const { return locked_unknown_count_; }
     /// Returns δ as the parameters ask for it.
@@ -124,15 +115,10 @@ private:
                            const std::vector<std::uint8_t>& constrained) const;
     bool constrains_curve() const { return parameters_.boundary != BoundaryCondition::LockedCells; }
     const Supports& supports();
-    double step_factor() const { return edge_metric_ ? edge_metric_->step_factor() : 1; }
-    const EdgeTensor* edge_tensors() const {
-        return edge_metric_ ? edge_metric_->tensors().data() : nullptr;
-    }
 
     const FlowParameters parameters_;
     const TrackedElements elements_;
     const StepSize asked_size_, size_;
-    std::optional<EdgeMetric> edge_metric_;  ///< of the present surface; only if edges are kept
     const Stabilization stabilization_;
     const CurveConstraint curve_constraint_;
     const Confinement confinement_;

@@ -156,9 +156,7 @@ static HWY_INLINE void find_results(const IntegrationInput& input,
                 splat(-input.step_size_in_cells) * flux_entry(moments, axis, row);
         }
     }
-    // A difference would cancel where edges make the area many times as large.
-    results[kArea] =
-        input.samples.edge_tensors == nullptr ? area_of_mass(moments) : moments[kPlainArea];
+    results[kArea] = area_of_mass(moments);
     for (int i = kArea + 1; i < kResults; ++i) results[i] = zero();
 }
 

@@ -43,8 +43,6 @@ void integrate(const IntegrationInput& input, const Embedding& embedding, std::i
         read_samples(reader, chunk);
         if (input.initial_metric) {
             evaluate_samples(embedding, Metric::Initial, chunk);
-        } else if (chunk.has_edges) {
-            evaluate_samples(embedding, Metric::PresentWithEdges, chunk);
         } else {
             evaluate_samples(embedding, Metric::Present, chunk);
         }

@@ -27,25 +27,14 @@ struct Fragment {
     std::int32_t sample_count;  ///< number of its samples, which are consecutive
 };
 
-/// What the metric of (X, s N) adds on a triangle to that of X, see EdgeMetric. With M = s² ∇N ∇Nᵀ,
-/// in units of the initial metric, its adjugate in the triangle's plane is the sum of
-/// (n × s ∇N_a) (n × s ∇N_a)ᵀ, and so has no direction along the normal n.
-struct EdgeTensor {
-    float adjugate[6];  ///< xx, yy, zz, xy, yz, zx
-    float determinant;  ///< of M in the triangle's plane
-};
-inline constexpr int kEdgeTensorEntries = 7;
-
 /// All samples of a surface, sorted by fragment, and its fragments, sorted by element. Each array
 /// of samples is followed by kSamplePadding readable numbers.
 struct SampleArrays {
     const std::uint32_t* packed_local[2];  ///< local coordinates, see kPackedShift
     const float* weight;                   ///< w_p: area on the initial surface, grid units²
     const Fragment* fragments;
-    const std::int64_t* sample_begin;       ///< first sample of each element, and the end
-    const std::int64_t* fragment_begin;     ///< first fragment of each element, and the end
-    const std::int32_t* fragment_triangle;  ///< of each fragment; read if there are tensors
-    const EdgeTensor* edge_tensors;         ///< of each triangle; or null, if all are 0
+    const std::int64_t* sample_begin;    ///< first sample of each element, and the end
+    const std::int64_t* fragment_begin;  ///< first fragment of each element, and the end
 };
 
 /// Greatest number of elements integrated in one call.

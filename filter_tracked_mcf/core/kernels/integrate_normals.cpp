@@ -18,14 +18,8 @@ void add_normals(const Embedding& embedding, const SampleChunk& chunk, Lanes (&s
     for (int i = 0; i < chunk.count; i += kLanes) {
         const Lanes weight = weights(chunk, i);
         const Differential d = differentials(embedding, chunk, i);
-        const Vector normal = d.normal;
-        Lanes force = hn::Neg(weight);
-        if (chunk.has_edges) {
-            const Lanes area = hn::Sqrt(dot(normal, normal));
-            force =
-                force * edge_metric(d, chunk, i).area / hn::Max(area, splat(kCollapsedAreaRatio));
-        }
-        const Lanes forces[3] = {force * normal.x, force * normal.y, force * normal.z};
+        const Lanes force = hn::Neg(weight);
+        const Lanes forces[3] = {force * d.normal.x, force * d.normal.y, force * d.normal.z};
         for (int corner = 0; corner < 8; ++corner) {
             const Lanes value = load(chunk.linear[bit(corner, 0)] + i) *
                                 load(chunk.linear[2 + bit(corner, 1)] + i) *

@@ -21,18 +21,17 @@ namespace tracked_mcf::HWY_NAMESPACE {
 ///
 /// lx_0 = 1-x and lx_1 = x are the linear functions of x. F_a = G ∇X_t is the flux of the
 /// embedding's coordinate a. Each constant is the offset of the first moment of its kind.
-constexpr int kMass = 0;         ///< [i][j][k]: ∫ bx_i by_j bz_k
-constexpr int kXX = 27;          ///< [j][k]: ∫ G_xx by_j bz_k
-constexpr int kYY = 36;          ///< [k][i]: ∫ G_yy bz_k bx_i
-constexpr int kZZ = 45;          ///< [i][j]: ∫ G_zz bx_i by_j
-constexpr int kXY = 54;          ///< [i][j][k]: ∫ G_xy lx_i ly_j bz_k
-constexpr int kYZ = 66;          ///< [j][k][i]: ∫ G_yz ly_j lz_k bx_i
-constexpr int kZX = 78;          ///< [k][i][j]: ∫ G_zx lz_k lx_i by_j
-constexpr int kFluxX = 90;       ///< [a][j][k]: ∫ F_a,x ly_j lz_k
-constexpr int kFluxY = 102;      ///< [a][k][i]: ∫ F_a,y lz_k lx_i
-constexpr int kFluxZ = 114;      ///< [a][i][j]: ∫ F_a,z lx_i ly_j
-constexpr int kPlainArea = 126;  ///< ∫ √|g| where the metric of the mass keeps edges; else 0
-constexpr int kMoments = 127;
+constexpr int kMass = 0;     ///< [i][j][k]: ∫ bx_i by_j bz_k
+constexpr int kXX = 27;      ///< [j][k]: ∫ G_xx by_j bz_k
+constexpr int kYY = 36;      ///< [k][i]: ∫ G_yy bz_k bx_i
+constexpr int kZZ = 45;      ///< [i][j]: ∫ G_zz bx_i by_j
+constexpr int kXY = 54;      ///< [i][j][k]: ∫ G_xy lx_i ly_j bz_k
+constexpr int kYZ = 66;      ///< [j][k][i]: ∫ G_yz ly_j lz_k bx_i
+constexpr int kZX = 78;      ///< [k][i][j]: ∫ G_zx lz_k lx_i by_j
+constexpr int kFluxX = 90;   ///< [a][j][k]: ∫ F_a,x ly_j lz_k
+constexpr int kFluxY = 102;  ///< [a][k][i]: ∫ F_a,y lz_k lx_i
+constexpr int kFluxZ = 114;  ///< [a][i][j]: ∫ F_a,z lx_i ly_j
+constexpr int kMoments = 126;
 
 /// kMoments rounded up to a multiple of kLanes.
 constexpr int kMomentRows = (kMoments + kLanes - 1) / kLanes * kLanes;
@@ -114,12 +113,6 @@ static HWY_INLINE void flux_moments(const SampleChunk& chunk, int along, int b, 
     for (int m = 0; m < 12; ++m) moments[m] = sum[m];
 }
 
-static HWY_INLINE Lanes plain_area(const SampleChunk& chunk) {
-    Lanes sum = zero();
-    for (int s = 0; s < chunk.count; s += kLanes) sum = sum + load(chunk.plain_area + s);
-    return sum;
-}
-
 /// Adds the moments of a chunk's samples to the sums.
 static HWY_INLINE void add_moments(const SampleChunk& chunk, float (&sums)[kMomentRows]) {
     Lanes lanes[kMomentRows];
@@ -134,7 +127,6 @@ static HWY_INLINE void add_moments(const SampleChunk& chunk, float (&sums)[kMome
     flux_moments(chunk, 0, 1, 2, lanes + kFluxX);
     flux_moments(chunk, 1, 2, 0, lanes + kFluxY);
     flux_moments(chunk, 2, 0, 1, lanes + kFluxZ);
-    lanes[kPlainArea] = chunk.has_edges ? plain_area(chunk) : zero();
     for (int m = 0; m < kMomentRows; m += kLanes) {
         store(load(sums + m) + sums_of_lanes(lanes + m), sums + m);
     }

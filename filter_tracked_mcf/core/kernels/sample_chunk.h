@@ -33,15 +33,11 @@ struct SampleChunk {
     Row tensor[6];     ///< G = w √|g| T g⁻¹ Tᵀ: xx, yy, zz, xy, yz, zx; 0 if collapsed
     Row flux[3][3];    ///< G ∇X_t for each coordinate of X_t; 0 if collapsed
     Row bernstein[9];  ///< (1-x)², x(1-x), x²; the same for y and z
-    /// The numbers of the samples' EdgeTensor, and w √|g| where `area` is w √|g'|; unset without.
-    alignas(64) float edge[kEdgeTensorEntries][kChunk + kLanes];
-    Row plain_area;
     struct {
         const std::uint32_t* packed_local[2];
         const float* weight;
     } samples;
     int count;
-    bool has_edges;
 };
 
 /// Reads the samples of an element, chunk by chunk.
@@ -50,9 +46,7 @@ struct SampleReader {
     const float* weight;
     std::int64_t left;  ///< samples still to read
     const Fragment* fragment;
-    std::int32_t used;             ///< number of samples read from this fragment
-    const std::int32_t* triangle;  ///< of this fragment, or null
-    const EdgeTensor* edge_tensors;
+    std::int32_t used;  ///< number of samples read from this fragment
 };
 
 static HWY_INLINE SampleReader read_element(const SampleArrays& samples, std::int64_t element) {
@@ -61,23 +55,10 @@ static HWY_INLINE SampleReader read_element(const SampleArrays& samples, std::in
             samples.weight + begin,
             samples.sample_begin[element + 1] - begin,
             samples.fragments + samples.fragment_begin[element],
-            0,
-            samples.edge_tensors == nullptr
-                ? nullptr
-                : samples.fragment_triangle + samples.fragment_begin[element],
-            samples.edge_tensors};
+            0};
 }
 
-/// Copies the tensor of a triangle to samples, like spread_normals.
-static HWY_INLINE void spread_edge_tensor(const EdgeTensor& tensor, int begin, int end,
-                                          SampleChunk& chunk) {
-    for (int e = 0; e < kEdgeTensorEntries; ++e) {
-        const Lanes entry = splat(e < 6 ? tensor.adjugate[e] : tensor.determinant);
-        for (int k = begin; k < end; k += kLanes) store(entry, chunk.edge[e] + k);
-    }
-}
-
-/// Copies the normals of the fragments, and their triangles' tensors, to their samples.
+/// Copies the normals of the fragments to their samples.
 static HWY_INLINE void spread_normals(SampleReader& reader, SampleChunk& chunk) {
     int i = 0;
     while (i < chunk.count) {
@@ -93,10 +74,6 @@ static HWY_INLINE void spread_normals(SampleReader& reader, SampleChunk& chunk) 
             store(y, chunk.normal[1] + k);
             store(z, chunk.normal[2] + k);
         }
-        if (chunk.has_edges) {
-            spread_edge_tensor(reader.edge_tensors[*reader.triangle], i, end, chunk);
-            reader.triangle += all ? 1 : 0;
-        }
         reader.used = all ? 0 : reader.used + end - i;
         reader.fragment += all ? 1 : 0;
         i = end;
@@ -104,9 +81,6 @@ static HWY_INLINE void spread_normals(SampleReader& reader, SampleChunk& chunk) 
     // The padding must not be NaN.
     for (auto& normals : chunk.normal) {
         store(zero(), normals + chunk.count);
-    }
-    for (auto& entries : chunk.edge) {
-        if (chunk.has_edges) store(zero(), entries + chunk.count);
     }
 }
 
@@ -120,7 +94,6 @@ static HWY_INLINE void read_samples(SampleReader& reader, SampleChunk& chunk) {
     chunk.samples.weight = reader.weight;
     reader.weight += chunk.count;
     reader.left -= chunk.count;
-    chunk.has_edges = reader.triangle != nullptr;
     spread_normals(reader, chunk);
 }
 
@@ -226,48 +199,6 @@ static HWY_INLINE void store_flux(const Differential& d, const Lanes& scale, Sam
     store_difference(d.kx, n.y, d.ky, n.x, chunk.flux[2], i);
 }
 
-/// Returns the product of the samples' edge tensors and vectors.
-static HWY_INLINE Vector edge_product(const SampleChunk& chunk, int i, const Vector& v) {
-    const Lanes xy = load(chunk.edge[3] + i);
-    const Lanes yz = load(chunk.edge[4] + i);
-    const Lanes zx = load(chunk.edge[5] + i);
-    return {dot({load(chunk.edge[0] + i), xy, zx}, v), dot({xy, load(chunk.edge[1] + i), yz}, v),
-            dot({zx, yz, load(chunk.edge[2] + i)}, v)};
-}
-
-/// The metric of (X, s N), g' = g + M. The adjugates of matrices with two rows add up, and so do
-/// the terms of det g' = det g + det M + tr (g adj M).
-struct EdgeMetricAt {
-    Vector products[3];  ///< adj M times J_a
-    Lanes area;          ///< √|g'|
-};
-static HWY_INLINE EdgeMetricAt edge_metric(const Differential& d, const SampleChunk& chunk, int i) {
-    EdgeMetricAt metric = {
-        {edge_product(chunk, i, d.jx), edge_product(chunk, i, d.jy), edge_product(chunk, i, d.jz)},
-        zero()};
-    const Lanes trace = dot(d.jx, metric.products[0]) + dot(d.jy, metric.products[1]) +
-                        dot(d.jz, metric.products[2]);
-    const Lanes added = hn::Max(trace + load(chunk.edge[6] + i), zero());
-    metric.area = hn::Sqrt(dot(d.normal, d.normal) + added);
-    return metric;
-}
-
-/// Adds adj M to the adjugate of g, which store_tensor and store_flux have stored.
-static HWY_INLINE void add_edges(const EdgeMetricAt& metric, const Lanes& scale, SampleChunk& chunk,
-                                 int i) {
-    for (int e = 0; e < 6; ++e) {
-        float* const entry = chunk.tensor[e] + i;
-        store(hn::MulAdd(scale, load(chunk.edge[e] + i), load(entry)), entry);
-    }
-    for (int a = 0; a < 3; ++a) {
-        const Lanes of_axis[3] = {metric.products[a].x, metric.products[a].y, metric.products[a].z};
-        for (int axis = 0; axis < 3; ++axis) {
-            float* const flux = chunk.flux[a][axis] + i;
-            store(hn::MulAdd(scale, of_axis[axis], load(flux)), flux);
-        }
-    }
-}
-
 /// Computes the tensor of the initial metric, I - n nᵀ.
 static HWY_INLINE void store_initial_tensor(const Vector& n, const Lanes& weight,
                                             SampleChunk& chunk, int i) {
@@ -320,7 +251,7 @@ static HWY_INLINE Differential differentials(const Embedding& x, const SampleChu
     return differential(x, at, normals(chunk, i));
 }
 
-enum class Metric { Initial, Present, PresentWithEdges };
+enum class Metric { Initial, Present };
 
 /// Computes all rows of a chunk that the moments need.
 static HWY_INLINE void evaluate_samples(const Embedding& x, Metric metric, SampleChunk& chunk) {
@@ -337,20 +268,11 @@ static HWY_INLINE void evaluate_samples(const Embedding& x, Metric metric, Sampl
             store_initial_flux(n, d.kx, weight, chunk.flux[0], i);
             store_initial_flux(n, d.ky, weight, chunk.flux[1], i);
             store_initial_flux(n, d.kz, weight, chunk.flux[2], i);
-        } else if (metric == Metric::Present) {
+        } else {
             store(hn::IfThenElseZero(sound, weight * area), chunk.area + i);
             const Lanes scale = hn::IfThenElseZero(sound, weight / area);
             store_tensor(d, scale, chunk, i);
             store_flux(d, scale, chunk, i);
-        } else {
-            const EdgeMetricAt with_edges = edge_metric(d, chunk, i);
-            const Lanes sound_weight = hn::IfThenElseZero(sound, weight);
-            store(sound_weight * with_edges.area, chunk.area + i);
-            store(sound_weight * area, chunk.plain_area + i);
-            const Lanes scale = hn::IfThenElseZero(sound, weight / with_edges.area);
-            store_tensor(d, scale, chunk, i);
-            store_flux(d, scale, chunk, i);
-            add_edges(with_edges, scale, chunk, i);
         }
     }
 }

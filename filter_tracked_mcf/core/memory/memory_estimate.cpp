@@ -36,8 +36,6 @@ constexpr BytesPer kVolume = {0, 130, 0, 0, 30, 0};
 constexpr BytesPer kVelocity = {0, 0, 0, 0, 75, 0};
 /// Added for orders above 1: the stiffness.
 constexpr BytesPer kStiffness = {0, 0, 0, 0, 0, 108};
-/// Added if edges are kept: positions, triangles, normals and their equations, tensors.
-constexpr BytesPer kEdges = {0, 240, 4, 0, 0, 0};
 /// Added for each order above 1: a solution and its guess.
 constexpr BytesPer kSolution = {0, 0, 0, 0, 30, 0};
 
@@ -215,7 +213,6 @@ double estimate_flow_bytes(const SurfaceSize& size, const Grid& grid,
     if (parameters.preserve == Preserve::Volume) bytes += bytes_of(kVolume, size, counts);
     if (parameters.quality == Quality::MeanCurvature) bytes += bytes_of(kVelocity, size, counts);
     if (parameters.order > 1) bytes += bytes_of(kStiffness, size, counts);
-    if (parameters.keep_edges > 0) bytes += bytes_of(kEdges, size, counts);
     return bytes + (parameters.order - 1) * bytes_of(kSolution, size, counts);
 }
 

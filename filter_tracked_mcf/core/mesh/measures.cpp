@@ -4,10 +4,64 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/mesh/weld.h"
 #include "filter_tracked_mcf/core/parallel/parallel.h"
 
 namespace tracked_mcf {
+
+namespace {
+
+/// Between these sides, volumes, squares of areas and their reciprocals are normal doubles.
+constexpr double kSmallestSide = 1e-60;
+constexpr double kLargestSide = 1e60;
+
+/// Distance from the origin, in sides, at which doubles resolve the mesh to four digits.
+constexpr double kFarthest = 1e12;
+
+Eigen::AlignedBox3d box_of(const SurfaceView& surface) {
+    const auto count = static_cast<std::int64_t>(surface.triangles.size());
+    std::vector<Eigen::AlignedBox3d> boxes(static_cast<std::size_t>(chunk_count(count)));
+    parallel_for_chunks(count, [&](std::int64_t begin, std::int64_t end) {
+        Eigen::AlignedBox3d& box = boxes[begin / kChunkSize];
+        for (std::int64_t i = begin; i < end; ++i) {
+            for (const std::int32_t vertex : surface.triangles[i])
+                box.extend(surface.positions[vertex]);
+        }
+    });
+    Eigen::AlignedBox3d all;
+    for (const Eigen::AlignedBox3d& box : boxes) all.extend(box);
+    return all;
+}
+
+void check_box(const Eigen::AlignedBox3d& box) {
+    const double side = box.sizes().maxCoeff();
+    if (side == 0) {
+        throw InvalidMesh("All faces are degenerate: every vertex lies at the same point.");
+    }
+    if (!(side >= kSmallestSide && side <= kLargestSide)) {
+        throw InvalidMesh(
+            "The mesh is too large or too small to compute with; scale it so that its "
+            "bounding box has sides between 1e-60 and 1e60.");
+    }
+    if (box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).maxCoeff() > kFarthest * side) {
+        throw InvalidMesh(
+            "The mesh lies so far from the origin that its coordinates cannot tell its "
+            "vertices apart; move it to the origin.");
+    }
+}
+
+}  // namespace
+
+Eigen::AlignedBox3d bounding_box(const SurfaceView& surface) {
+    const Eigen::AlignedBox3d box = box_of(surface);
+    check_box(box);
+    return box;
+}
+
+double longest_side(const SurfaceView& surface) {
+    return bounding_box(surface).sizes().maxCoeff();
+}
 
 Eigen::Vector3d twice_vector_area(const SurfaceView& surface, const Triangle& triangle) {
     return twice_vector_area(surface.positions[triangle[0]], surface.positions[triangle[1]],
@@ -125,16 +179,6 @@ std::vector<double> along_normals(const std::vector<Eigen::Vector3d>& vectors,
         if (!normal.isZero(0)) components[i] = normal.stableNormalized().dot(vectors[i]);
     }
     return components;
-}
-
-double robust_deviation(RawVector<float>& magnitudes) {
-    constexpr double normal_median = 0.6745;  // for a standard deviation of 1
-    const auto begin = std::partition(magnitudes.begin(), magnitudes.end(),
-                                      [](float magnitude) { return magnitude == kNoMagnitude; });
-    if (begin == magnitudes.end()) return 0;
-    const auto median = begin + (magnitudes.end() - begin) / 2;
-    std::nth_element(begin, median, magnitudes.end());
-    return *median / normal_median;
 }
 
 }  // namespace tracked_mcf

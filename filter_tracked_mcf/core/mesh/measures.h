@@ -22,6 +22,14 @@ struct SurfaceView {
     const std::vector<Triangle>& triangles;
 };
 
+/// Returns the bounding box of the referenced vertices. Throws InvalidMesh if it is a point, if its
+/// longest side is too large or too small for doubles, or so small beside the distance from the
+/// origin that coordinates cannot resolve the mesh.
+Eigen::AlignedBox3d bounding_box(const SurfaceView& surface);
+
+/// Returns the longest side of the bounding_box(), mesh units.
+double longest_side(const SurfaceView& surface);
+
 /// Returns the normal of the triangle abc; its length is twice the triangle's area.
 inline Eigen::Vector3d twice_vector_area(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                                          const Eigen::Vector3d& c) {
@@ -59,14 +67,6 @@ double swept_volume_rate(const std::array<Eigen::Vector3d, 3>& initial,
 /// where no selected triangle has an area.
 std::vector<double> along_normals(const std::vector<Eigen::Vector3d>& vectors,
                                   const TriangleMesh& mesh, const Selection& selection = {});
-
-/// robust_deviation() ignores this magnitude.
-inline constexpr float kNoMagnitude = -1;
-
-/// Returns the normalised median absolute deviation from 0: the standard deviation of numbers with
-/// these magnitudes if most of them are normally distributed with mean 0. Outliers hardly change
-/// it. Returns 0 if there are no magnitudes. Changes their order.
-double robust_deviation(RawVector<float>& magnitudes);
 
 /// Returns the positions of a triangle's corners.
 inline std::array<Eigen::Vector3d, 3> corners_of(const std::vector<Eigen::Vector3d>& positions,

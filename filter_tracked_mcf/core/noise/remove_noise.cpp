@@ -151,6 +151,7 @@ SurfaceOfMesh read_surface(const TriangleMesh& mesh, const Selection& selection,
     const Domain domain(mesh, selection,
                         parameters.boundary == NoiseBoundary::Free ? BoundaryCondition::Free
                                                                    : BoundaryCondition::Locked);
+    bounding_box(domain.surface());  // throws if the size is none to compute with
     SurfaceOfMesh result = surface_of(domain);
     report.vertices = result.surface.stars.count();
     report.triangles = static_cast<std::int64_t>(domain.surface().triangles.size());
@@ -161,6 +162,9 @@ SurfaceOfMesh read_surface(const TriangleMesh& mesh, const Selection& selection,
     }
     for (const Triangle& t : domain.surface().triangles) {
         if (twice_vector_area(domain.surface(), t).isZero(0)) ++report.degenerate_triangles;
+    }
+    if (report.degenerate_triangles == report.triangles) {
+        throw InvalidMesh("All faces to be smoothed are degenerate: none has an area.");
     }
     return result;
 }

@@ -27,9 +27,6 @@ constexpr double kFewFragments = 32;
 /// A grid expresses no wave shorter than two cells.
 constexpr double kCellsPerDetail = 2;
 
-/// An edge that is kept bends within a cell or two, which must be less than the detail size.
-constexpr double kCellsPerKeptEdge = 4;
-
 /// The same for the default detail size and greater ones. A grid with about as many unknowns as
 /// vertices has 0.95 to 2.2 cells per default detail size.
 constexpr double kCellsPerDefaultDetail = 0.9;
@@ -87,9 +84,7 @@ int resolving_depth(const SurfaceView& mesh, const Grid& grid, const FlowParamet
     const double mean_edge = mean_edge_length(mesh);
     const double detail_size = detail_size_of(parameters, mean_edge);
     const bool is_fine = detail_size < kAlmost * kDefaultDetailInEdges * mean_edge;
-    const double per_detail = parameters.keep_edges > 0 ? kCellsPerKeptEdge
-                              : is_fine                 ? kCellsPerDetail
-                                                        : kCellsPerDefaultDetail;
+    const double per_detail = is_fine ? kCellsPerDetail : kCellsPerDefaultDetail;
     const double cells = per_detail * grid.cell_size * grid.cells_per_side() / detail_size;
     return static_cast<int>(std::clamp(std::ceil(std::log2(cells)), 1.0, double{kMaximumDepth}));
 }

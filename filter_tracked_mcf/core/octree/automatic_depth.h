@@ -13,7 +13,7 @@ namespace tracked_mcf {
 
 /// Returns the least depth, 1 to kMaximumDepth, at which the cells of the grid's cube resolve the
 /// detail size: a cell is at most about as wide as it if it is at least the default, else at most
-/// half as wide, and a third as wide if edges are kept. Returns 0 if the parameters give a step
+/// half as wide. Returns 0 if the parameters give a step
 /// size: its caller knows the grid.
 int resolving_depth(const SurfaceView& mesh, const Grid& grid, const FlowParameters& parameters);
 

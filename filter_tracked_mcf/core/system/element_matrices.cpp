@@ -23,8 +23,6 @@ IntegrationInput integration_input(const TrackedElements& elements,
     input.samples.fragments = elements.fragments.data();
     input.samples.sample_begin = elements.sample_begin.data();
     input.samples.fragment_begin = elements.fragment_begin.data();
-    input.samples.fragment_triangle = elements.fragment_triangle.data();
-    input.samples.edge_tensors = weights.edge_tensors;
     input.mass = weights.mass;
     input.densities = elements.densities.empty() ? nullptr : elements.densities.data();
     input.step_size_in_cells = weights.step_size_in_cells;
@@ -106,12 +104,12 @@ void multiply(const TrackedElements& elements, const MatrixBlocks& matrices,
 }
 
 void assemble_normals(const TrackedElements& elements, const Coefficients& displacement,
-                      const EdgeTensor* edge_tensors, std::vector<ElementVector>& normals) {
+                      std::vector<ElementVector>& normals) {
     IntegrateNormals& integrate = *kernels().integrate_normals;
     const std::int64_t count = elements.finest().element_count();
     normals.resize(static_cast<std::size_t>(count));
-    const IntegrationInput all = integration_input(
-        elements, displacement, {1, 0, FlowKind::MeanCurvature, false, edge_tensors});
+    const IntegrationInput all =
+        integration_input(elements, displacement, {1, 0, FlowKind::MeanCurvature, false});
     parallel_for_chunks(count, [&](std::int64_t begin, std::int64_t end) {
         for_each_batch(elements, all, begin, end,
                        [&](const IntegrationInput& batch) { integrate(batch, normals.data()); });

@@ -17,8 +17,6 @@ struct SystemWeights {
     /// D uses the present metric. S uses the present or, in a conformalized flow, the initial one.
     FlowKind flow = FlowKind::MeanCurvature;
     bool keep_stiffness = false;  ///< whether to fill ElementSystems::stiffnesses
-    /// What keeping edges adds to the present metric (edge_metric.h), or null.
-    const EdgeTensor* edge_tensors = nullptr;
 };
 
 /// The system of one step on the finest level, element by element.
@@ -54,9 +52,8 @@ void assemble_elements(const TrackedElements& elements, const Coefficients& disp
 void multiply(const TrackedElements& elements, const MatrixBlocks& matrices,
               const Coefficients& vector, std::vector<ElementVector>& products);
 
-/// Computes ∫ B_I n over the embedded surface, element by element, with its unit normal n. Edges
-/// that are kept add to the area.
+/// Computes ∫ B_I n over the embedded surface, element by element, with its unit normal n.
 void assemble_normals(const TrackedElements& elements, const Coefficients& displacement,
-                      const EdgeTensor* edge_tensors, std::vector<ElementVector>& normals);
+                      std::vector<ElementVector>& normals);
 
 }  // namespace tracked_mcf

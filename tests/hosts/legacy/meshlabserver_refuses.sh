@@ -51,7 +51,7 @@ refuses "step_size is nan" good step_size=nan
 refuses "step_size is nan" good step_size=nan absolute=true
 refuses "step_size is inf" good step_size=inf absolute=true
 for choice in order={0,5} {flow=2,boundary=3,preserve=3,method=3} \
-    {flow,boundary,preserve,method,keep_edges}=-1; do
+    {flow,boundary,preserve,method}=-1; do
     refuses "${choice/=/ is }" good $choice
 done
 refuses "No face is selected; select" good selected=true

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Does what the README and the pages of the plugin and the tool say: the MeshLab script in stock
-# meshlabserver, which must do what the tool does by default, and all commands of the tool:
+# Does what the README and the pages of the plugin and the tool say: the filter scripts in stock
+# meshlabserver, and all commands of the tool:
 # readme_works.sh PREFIX TOOL README CGAL_MESHES WORK_DIR
 set -euo pipefail
 
@@ -25,10 +25,15 @@ XML
 "$prefix/bin/meshlabserver" -i "$meshes/hand.off" -s "$work/select.mlx" -o "$work/selected.ply" -m ff
 cd "$work"
 
-sed -n '/^```xml$/,/^```$/p' "${pages[@]}" | grep -v '^```' > smooth.mlx
-"$prefix/bin/meshlabserver" -i scan.ply -s smooth.mlx -o smooth.ply | grep "Smoothed"
-"$tool" scan.ply tool.ply --quiet
-"$here/../compare_positions.py" smooth.ply tool.ply scan.ply 0.5
+# The filter scripts of the pages, which must do what the program does by default.
+awk '/^```xml$/ { file = "script_" ++count ".mlx"; next } /^```$/ { file = "" } file { print > file }' "${pages[@]}"
+compare() { # SCRIPT LOG [SUBCOMMAND]
+    "$prefix/bin/meshlabserver" -i scan.ply -s "$1" -o host.ply | grep "$2"
+    "$tool" "${@:3}" scan.ply tool.ply --quiet
+    "$here/../compare_positions.py" host.ply tool.ply scan.ply 0.5
+}
+compare script_1.mlx "Smoothed"
+compare script_2.mlx "Removed noise" remove-noise
 
 commands=$(sed -n '/^```sh$/,/^```$/p' "${pages[@]}" | grep '^tracked_mcf ')
 while read -r _ arguments; do

@@ -26,7 +26,7 @@ remove_noise = tracked_mcf.pymeshlab.apply_coord_remove_noise
 
 # Further arguments than works_in_pymeshlab.RUNS.
 RUNS = [
-    {**COARSE, "detail_size": pymeshlab.PercentageValue(0.3), "keep_edges": 12.3, "order": 2},
+    {**COARSE, "detail_size": pymeshlab.PercentageValue(0.3), "order": 2},
     {**COARSE, "quality": "Displacement"},
     {**COARSE, "strength": True, "quality": "Displacement"},
     {**COARSE, "quality": 2, "method": 2},

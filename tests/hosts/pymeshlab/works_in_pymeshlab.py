@@ -49,8 +49,7 @@ RUNS = [
      [*COARSE_OPTIONS, "--boundary", "free", "--preserve", "volume"]),
     ({**COARSE, "method": "Shared cells"}, [*COARSE_OPTIONS, "--method", "shared-cells"]),
     ({**COARSE, "method": "Paper"}, [*COARSE_OPTIONS, "--method", "paper"]),
-    ({**COARSE, "keep_edges": 25, "order": 2},
-     [*COARSE_OPTIONS, "--keep-edges", "25", "--order", "2"]),
+    ({**COARSE, "order": 2}, [*COARSE_OPTIONS, "--order", "2"]),
 ]
 
 # Invalid arguments, and a word of the expected message.
@@ -74,8 +73,6 @@ WRONG = [
     ({"preserve": -1}, "not valid"),
     ({"quality": 3}, "not valid"),
     ({"quality": "Mean curvature", "flow": "Conformalized"}, "mean curvature"),
-    ({"keep_edges": 180}, "keep_edges is 180"),
-    ({"keep_edges": 25, "flow": "Conformalized"}, "keep_edges"),
     ({"method": "Magic"}, "Possible values"),
     ({"selected": True}, "No face is selected"),
     ({"strength": True}, "no vertex quality"),

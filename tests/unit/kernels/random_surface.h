@@ -25,15 +25,7 @@ struct Surface {
     std::vector<std::int64_t> sample_begin;
     std::vector<std::int64_t> fragment_begin;
     std::vector<std::int32_t> unknowns;
-    std::vector<std::int32_t> fragment_triangle;
-    std::vector<EdgeTensor> edge_tensors;  ///< per triangle, or empty
-    std::vector<Matrix83> displacement;    ///< of each element, one row for each corner
-
-    /// s² ∇N ∇Nᵀ, the same on all fragments.
-    Eigen::Matrix3d added_metric = Eigen::Matrix3d::Zero();
-
-    /// Sets the added metric, with a triangle for each fragment.
-    void add_metric(const Eigen::Matrix3d& metric);
+    std::vector<Matrix83> displacement;  ///< of each element, one row for each corner
 
     std::int64_t element_count() const { return static_cast<std::int64_t>(displacement.size()); }
 
@@ -42,35 +34,9 @@ struct Surface {
                 samples.weights(),
                 fragments.data(),
                 sample_begin.data(),
-                fragment_begin.data(),
-                fragment_triangle.data(),
-                edge_tensors.empty() ? nullptr : edge_tensors.data()};
+                fragment_begin.data()};
     }
 };
-
-inline Eigen::Matrix<double, 3, 2> tangents_of(const Eigen::Vector3d& normal) {
-    Eigen::Matrix<double, 3, 2> tangents;
-    tangents.col(0) = normal.unitOrthogonal();
-    tangents.col(1) = normal.cross(tangents.col(0));
-    return tangents;
-}
-
-inline void Surface::add_metric(const Eigen::Matrix3d& metric) {
-    added_metric = metric;
-    edge_tensors.resize(fragments.size());
-    const auto last = static_cast<std::int32_t>(fragments.size()) - 1;
-    for (std::int32_t f = 0; f <= last; ++f) {
-        const Eigen::Matrix<double, 3, 2> tangents =
-            tangents_of(Eigen::Map<const Eigen::Vector3f>(fragments[f].normal).cast<double>());
-        const Eigen::Matrix2d m = tangents.transpose() * metric * tangents;
-        Eigen::Matrix2d adjugate;
-        adjugate << m(1, 1), -m(0, 1), -m(1, 0), m(0, 0);
-        const Eigen::Matrix3f t = (tangents * adjugate * tangents.transpose()).cast<float>();
-        fragment_triangle.push_back(last - f);
-        edge_tensors[last - f] = {{t(0, 0), t(1, 1), t(2, 2), t(0, 1), t(1, 2), t(2, 0)},
-                                  static_cast<float>(m.determinant())};
-    }
-}
 
 /// Numbers of samples around the widths of vectors and of a chunk, and zero.
 inline constexpr std::array<int, 20> kSampleCounts = {

@@ -110,20 +110,5 @@ TEST(IsThin, ComparesTheAreaWithTheSquareOfTheLongestEdge) {
         is_thin({Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()}, 0));
 }
 
-TEST(RobustDeviation, IsTheDeviationOfNoiseAndIgnoresAFewOutliers) {
-    RawVector<float> magnitudes;
-    EXPECT_EQ(robust_deviation(magnitudes), 0);
-    std::mt19937 random(3);
-    std::normal_distribution<float> noise(0, 2);
-    for (int i = 0; i < 10000; ++i) magnitudes.push_back(std::abs(noise(random)));
-    EXPECT_NEAR(robust_deviation(magnitudes), 2, 0.05);
-    magnitudes.insert(magnitudes.end(), 20000, kNoMagnitude);
-    EXPECT_NEAR(robust_deviation(magnitudes), 2, 0.05);
-    magnitudes.insert(magnitudes.end(), 500, 1e6F);
-    EXPECT_NEAR(robust_deviation(magnitudes), 2, 0.2);
-    magnitudes.assign(3, kNoMagnitude);
-    EXPECT_EQ(robust_deviation(magnitudes), 0);
-}
-
 }  // namespace
 }  // namespace tracked_mcf

@@ -341,17 +341,21 @@ TEST(RemoveNoise, RefusesWhatItCannotDo) {
     EXPECT_THROW(remove_noise(point, {}, {}), InvalidMesh);
     TriangleMesh empty;
     EXPECT_THROW(remove_noise(empty, {}, {}), InvalidMesh);
+    TriangleMesh line = shapes::square(10);
+    for (Eigen::Vector3d& p : line.positions) p[1] = 0;
+    EXPECT_THROW(remove_noise(line, {}, {}), InvalidMesh);
+    TriangleMesh huge = shapes::square(10);
+    for (Eigen::Vector3d& p : huge.positions) p *= 1e61;
+    EXPECT_THROW(remove_noise(huge, {}, {}), InvalidMesh);
 }
 
 TEST(RemoveNoise, IsDefinedForBadMeshes) {
-    TriangleMesh flat = shapes::square(10);
-    for (Eigen::Vector3d& p : flat.positions) p[1] = 0;
     TriangleMesh collapsed = shapes::square(10);
     for (std::size_t i = 0; i < 60; ++i) collapsed.positions[i] = collapsed.positions[0];
     const TriangleMesh triangle{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}};
     const TriangleMesh two{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 1}}, {{0, 1, 2}, {2, 1, 3}}};
     const TriangleMesh copies = shapes::stack(shapes::square(10), 3, 0);
-    for (const TriangleMesh& mesh : {flat, collapsed, triangle, two, copies, shapes::fan(1000),
+    for (const TriangleMesh& mesh : {collapsed, triangle, two, copies, shapes::fan(1000),
                                      shapes::moebius_band(30, 4), shapes::separate_triangles(200),
                                      with_noise(shapes::stack(shapes::square(10), 3, 1e-9), 1)}) {
         for (const double crease_angle : {0.0, 25.0}) {
