@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Makes a mesh, a selection and parameters of bytes, and smooths the mesh.
+// Makes a mesh, a selection and parameters of bytes, and smooths the mesh or removes its noise.
 
 #include <cstddef>
 #include <cstdint>
@@ -10,6 +10,7 @@
 
 #include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/evolve.h"
+#include "filter_tracked_mcf/core/remove_noise.h"
 #include "tests/zoo/properties.h"
 #include "tests/zoo/zoo_case.h"
 
@@ -81,6 +82,17 @@ FlowParameters parameters_of(Bytes& bytes) {
     return p;
 }
 
+NoiseParameters noise_parameters_of(Bytes& bytes) {
+    NoiseParameters p;
+    if (bytes.flag()) p.crease_angle = bytes.number();
+    if (bytes.flag()) p.noise = bytes.number();
+    if (bytes.flag()) p.detail_size = bytes.number();
+    if (bytes.flag()) p.largest_movement = bytes.number();
+    p.boundary = bytes.pick({NoiseBoundary::Free, NoiseBoundary::Locked});
+    p.quality = bytes.pick({Quality::None, Quality::Displacement});
+    return p;
+}
+
 /// Returns the index of a vertex, or seldom one that is out of range.
 int index(Bytes& bytes, int vertex_count) {
     const int taken = bytes.integer(-1, 254);
@@ -91,6 +103,7 @@ zoo::Case case_of(Bytes& bytes) {
     zoo::Case made;
     made.kind = "bytes";
     made.parameters = parameters_of(bytes);
+    if (bytes.flag()) made.noise = noise_parameters_of(bytes);
     const bool has_selection = bytes.flag();
     const int vertex_count = bytes.integer(0, kMostVertices);
     for (int i = 0; i < vertex_count; ++i) {
@@ -106,10 +119,14 @@ zoo::Case case_of(Bytes& bytes) {
     return made;
 }
 
-/// Requires that evolve() refuses a mesh.
+/// Requires that a mesh is refused.
 void require_refusal(zoo::Case& invalid) {
     try {
-        evolve(invalid.mesh, invalid.selection, invalid.parameters);
+        if (invalid.noise) {
+            remove_noise(invalid.mesh, invalid.selection, *invalid.noise);
+        } else {
+            evolve(invalid.mesh, invalid.selection, invalid.parameters);
+        }
     } catch (const Error&) {
         return;
     }

@@ -69,11 +69,15 @@ def evolve_files():
     tetrahedron += [byte for point in POINTS for x in point for byte in (0, 8 + 8 * x)]
     tetrahedron += [i + 1 for face in FACES for i in face]
     depth, iterations, order = 5, 2, 1
+    no_selection = [0]
     for flow, boundary, solver in itertools.product((0, 1), (0, 1, 2), (0, 1)):
         parameters = [depth, iterations, order, 0, 0, 0, flow, boundary, 0, 0, 0, 1, solver, 1, 0, 0, 0,
-                      1, 1]
-        no_selection = [0]
-        yield bytes(parameters + no_selection + tetrahedron)
+                      0, 1, 1]
+        no_noise = [0]
+        yield bytes(parameters + no_noise + no_selection + tetrahedron)
+    for boundary, quality in itertools.product((0, 1), (0, 1)):
+        remove_noise = [1, 0, 0, 0, 0, boundary, quality]
+        yield bytes(parameters + remove_noise + no_selection + tetrahedron)
 
 
 def main():
