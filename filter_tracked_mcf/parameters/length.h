@@ -5,7 +5,7 @@
 
 namespace tracked_mcf {
 
-/// A length in units of the mesh, or in per cent of the diagonal of its bounding box.
+/// A length in units of the mesh, or in per cent of the diagonal of the bounding box of its faces.
 struct Length {
     double value = 0;
     bool in_per_cent = false;

@@ -17,13 +17,13 @@ std::filesystem::path follow_links(const std::filesystem::path& path, std::error
 
 /// An output file that appears complete or not at all. It is written under a temporary name beside
 /// its final path, and commit() renames it. Until then, and if anything fails, an old file stays as
-/// it was.
+/// it was. Only a crash of the system may leave an incomplete file: nothing waits for the disk.
 ///
 /// A pipe is written as it is. A new version of an old file has its mode. Symbolic links are
 /// followed, also those that lead to no file yet.
 class OutputFile {
 public:
-    /// Throws UnwritableFile if `path` cannot be written. Creates no file.
+    /// Throws UnwritableFile if `path` cannot be written. Leaves no file there.
     explicit OutputFile(const std::filesystem::path& path);
 
     /// Writes the temporary file, or the pipe. Throws UnwritableFile. The destructor removes what

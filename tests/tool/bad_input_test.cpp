@@ -79,6 +79,11 @@ const std::vector<BadFile> kBadFiles = {
      "property float z\nelement face 1\nproperty list uchar double vertex_indices\nend_header\n"
      "0 0 0\n1 0 0\n0 1 0\n3 0 1 1e300\n",
      "face 0 refers to vertex 1e+300 of 3"},
+    {"BrokenIndexPly", "a.ply",
+     "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+     "property float z\nelement face 1\nproperty list uchar double vertex_indices\nend_header\n"
+     "0 0 0\n1 0 0\n0 1 0\n3 0 1 1.5\n",
+     "face 0 refers to vertex 1.5 of 3"},
     {"IndexObj", "a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n",
      "line 4: a face refers to vertex 4, but only 3 precede it"},
     {"IndexZeroObj", "a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 0 1 2\n",

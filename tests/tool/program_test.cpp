@@ -132,9 +132,9 @@ TEST_F(Program, AbsoluteStepsAreInSquaredUnitsOfTheMesh) {
 }
 
 TEST_F(Program, ADetailSizeInPerCentIsPartOfTheBoxesDiagonal) {
-    // The vertex far away has no face, but is part of the box.
+    // The vertex far away has no face, and is no part of the box.
     write_file(folder_ / "far.off",
-               "OFF\n5 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n6 6 7\n3 0 2 1\n3 0 1 3\n3 0 3 2\n"
+               "OFF\n5 4 0\n0 0 0\n6 0 0\n0 6 0\n0 0 7\n1e9 0 0\n3 0 2 1\n3 0 1 3\n3 0 3 2\n"
                "3 1 2 3\n");
     const auto positions = [&](const std::string& options) {
         const ProgramRun result = run("far.off b.off --depth 4 --report r.json " + options);

@@ -15,8 +15,9 @@ inline void add_cut(const Eigen::Vector3d& a, const Eigen::Vector3d& b, int axis
     const Eigen::Vector3d& below = a[axis] < b[axis] ? a : b;
     const Eigen::Vector3d& above = a[axis] < b[axis] ? b : a;
     const double fraction = (plane - below[axis]) / (above[axis] - below[axis]);
-    part.add(below + fraction * (above - below), Polygon::kNone, on_edge);
-    part.points[part.size - 1][axis] = plane;
+    Eigen::Vector3d cut = below + fraction * (above - below);
+    cut[axis] = plane;
+    part.add(cut, Polygon::kNone, on_edge);
 }
 
 }  // namespace
@@ -24,8 +25,8 @@ inline void add_cut(const Eigen::Vector3d& a, const Eigen::Vector3d& b, int axis
 Polygon& Polygon::operator=(const Polygon& other) {
     size = other.size;
     std::copy_n(other.points.begin(), size, points.begin());
-    corner = other.corner;
-    edge = other.edge;
+    std::copy_n(other.corner.begin(), size, corner.begin());
+    std::copy_n(other.edge.begin(), size, edge.begin());
     return *this;
 }
 

@@ -104,6 +104,7 @@ void Flow::fill_report(const Domain& domain) {
 bool Flow::step() {
     StepReport report;
     Care care = care_;
+    before_substep_.reset();
     StepResult next = stepper_.advance(state_, stepper_.size(), care, report);
     if (is(next, Stop::Vanished)) {
         end_before_last_step(Stop::Vanished);
@@ -115,7 +116,8 @@ bool Flow::step() {
         next = advance_in_substeps(substeps, care, report);
     }
     if (preserver_ && std::holds_alternative<FlowState>(next)) {
-        next = preserver_->restore(state_, std::get<FlowState>(std::move(next)), care, report);
+        next = preserver_->restore(before_substep_ ? *before_substep_ : state_,
+                                   std::get<FlowState>(std::move(next)), care, report);
     }
     if (const Stop* const reason = std::get_if<Stop>(&next)) {
         report_.stop = *reason;
@@ -128,12 +130,14 @@ bool Flow::step() {
 
 StepResult Flow::advance_in_substeps(int substeps, const Care& care, StepReport& report) {
     stepper_.forget_solutions();
+    before_substep_.reset();
     const StepSize size = 1.0 / substeps * stepper_.size();
     StepReport again;
     StepResult result = Stop::NothingMoves;
     const FlowState* from = &state_;
     for (int substep = 0; substep < substeps && from != nullptr; ++substep) {
         StepResult next = stepper_.advance(*from, size, care, again);
+        if (substep > 0) before_substep_ = std::get<FlowState>(result);
         if (substep > 0 && is(next, Stop::NothingMoves)) break;
         result = std::move(next);
         from = std::get_if<FlowState>(&result);

@@ -94,6 +94,8 @@ private:
     std::optional<Preserver> preserver_;
     FlowState state_;
     FlowState before_;  ///< the state before the last step
+    /// The state from which the last substep was made, if the step in progress has several.
+    std::optional<FlowState> before_substep_;
     FlowReport report_;
 };
 

@@ -164,13 +164,13 @@ double swept_volume_rate(const Corners& initial, const Corners& present,
 }
 
 std::vector<double> along_normals(const std::vector<Eigen::Vector3d>& vectors,
-                                  const TriangleMesh& mesh, const Selection& selection) {
-    const std::vector<std::int32_t> welded = weld_coincident_vertices(mesh);
+                                  const SurfaceView& surface, const Selection& selection) {
+    const std::vector<std::int32_t> welded = weld_coincident_vertices(surface);
     std::vector<Eigen::Vector3d> normals(welded.size(), Eigen::Vector3d::Zero());
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    for (std::size_t i = 0; i < surface.triangles.size(); ++i) {
         if (!selection.empty() && selection[i] == 0) continue;
-        const Eigen::Vector3d normal = twice_vector_area(mesh, mesh.triangles[i]);
-        for (const std::int32_t vertex : mesh.triangles[i]) normals[welded[vertex]] += normal;
+        const Eigen::Vector3d normal = twice_vector_area(surface, surface.triangles[i]);
+        for (const std::int32_t vertex : surface.triangles[i]) normals[welded[vertex]] += normal;
     }
     std::vector<double> components(welded.size());
     for (std::size_t i = 0; i < components.size(); ++i) {

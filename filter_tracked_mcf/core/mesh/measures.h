@@ -63,10 +63,10 @@ double swept_volume_rate(const std::array<Eigen::Vector3d, 3>& initial,
                          const std::array<Eigen::Vector3d, 3>& velocities);
 
 /// Returns the component of each vertex's vector along the vertex's normal, the mean of the normals
-/// of its selected triangles, weighted by area. Coincident vertices of `mesh` have one normal. 0
+/// of its selected triangles, weighted by area. Coincident vertices of `surface` have one normal. 0
 /// where no selected triangle has an area.
 std::vector<double> along_normals(const std::vector<Eigen::Vector3d>& vectors,
-                                  const TriangleMesh& mesh, const Selection& selection = {});
+                                  const SurfaceView& surface, const Selection& selection = {});
 
 /// Returns the positions of a triangle's corners.
 inline std::array<Eigen::Vector3d, 3> corners_of(const std::vector<Eigen::Vector3d>& positions,

@@ -14,9 +14,9 @@ std::vector<std::uint8_t> referenced_vertices(const SurfaceView& surface);
 
 /// Returns, per referenced vertex, the smallest index of a referenced vertex at exactly the same
 /// position, and per unreferenced vertex its own index. 0 and -0 are the same coordinate.
-std::vector<std::int32_t> weld_coincident_vertices(const TriangleMesh& mesh,
+std::vector<std::int32_t> weld_coincident_vertices(const SurfaceView& mesh,
                                                    const std::vector<std::uint8_t>& referenced);
 /// Finds the referenced vertices first.
-std::vector<std::int32_t> weld_coincident_vertices(const TriangleMesh& mesh);
+std::vector<std::int32_t> weld_coincident_vertices(const SurfaceView& mesh);
 
 }  // namespace tracked_mcf

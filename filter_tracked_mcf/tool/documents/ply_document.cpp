@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <ostream>
 
@@ -78,7 +79,7 @@ Points read_positions(const PlyElement& vertices) {
 }
 
 std::int32_t checked_index(double index, std::size_t vertex_count, std::size_t face) {
-    if (index >= 0 && index < static_cast<double>(vertex_count)) {
+    if (index >= 0 && index < static_cast<double>(vertex_count) && index == std::floor(index)) {
         return static_cast<std::int32_t>(index);
     }
     throw UnreadableFile("face " + std::to_string(face) + " refers to vertex " +

@@ -143,5 +143,22 @@ TEST(Clip, NeighboursOfACutShareItsPointsBitForBit) {
     EXPECT_EQ(cuts(left), cuts(right));
 }
 
+TEST(Clip, AFullPolygonKeepsItsPoints) {
+    // A zigzag from inside the slab to both sides: most of its sides are cut twice.
+    const auto x_at = [](int i) { return i == 0 ? 0.5 : i % 2 == 0 ? 2.0 : -1.0; };
+    Polygon zigzag, part;
+    for (int i = 0; i < Polygon::kCapacity; ++i) {
+        zigzag.add({x_at(i), double(i), 0}, Polygon::kNone, Polygon::kNone);
+    }
+    cut_to_slab(zigzag, 0, 0, part);
+    ASSERT_EQ(part.size, Polygon::kCapacity);
+    for (int i = 0; i < part.size; ++i) {
+        const double y = part.points[i][1];
+        const int side = static_cast<int>(y);
+        const double x = x_at(side) + (y - side) * (x_at(side + 1) - x_at(side));
+        EXPECT_NEAR(part.points[i][0], x, 1e-12) << i;
+    }
+}
+
 }  // namespace
 }  // namespace tracked_mcf

@@ -165,6 +165,12 @@ TEST(MemoryOfAFlow, OfAFineMesh) {
     expect_estimate(shapes::bumpy_sphere(100), free_at(0));
 }
 
+TEST(MemoryOfAFlow, ThatMeasuresTheDisplacement) {
+    FlowParameters p = free_at(0);
+    p.quality = Quality::Displacement;
+    expect_estimate(shapes::bumpy_sphere(100), p);
+}
+
 TEST(MemoryOfAFlow, OfFewLargeTriangles) {
     expect_estimate(shapes::box(1, {1, 0.8, 0.6}), free_at(8));
 }
