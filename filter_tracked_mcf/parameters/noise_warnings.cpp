@@ -8,7 +8,7 @@ namespace tracked_mcf {
 std::string changes(const NoiseReport& report) {
     std::ostringstream text;
     text.precision(3);
-    if (report.constrained_vertices == report.vertices) return "Nothing has moved.";
+    if (report.steps == 0) return "Nothing has moved.";
     text << "The noise along the normals is about " << report.noise << ". ";
     if (report.crease_share > 0) {
         text << "Creases were kept; they cross " << 100 * report.crease_share << " % of the area. ";
@@ -31,9 +31,17 @@ std::string changes(const NoiseReport& report) {
 
 std::vector<std::string> warnings_of(const NoiseParameters& /*parameters*/,
                                      const NoiseReport& report, const std::string& /*advice*/) {
-    if (report.constrained_vertices < report.vertices) return {};
-    return {
-        "Nothing has moved: all of the surface is constrained. Free the boundary, or select more."};
+    if (report.constrained_vertices == report.vertices) {
+        return {
+            "Nothing has moved: all of the surface is constrained. Free the boundary, or select "
+            "more."};
+    }
+    if (report.steps == 0) {
+        return {
+            "Nothing has moved: the surface has no noise. To smooth it nevertheless, give a detail "
+            "size."};
+    }
+    return {};
 }
 
 }  // namespace tracked_mcf

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <cstring>
 #include <exception>
+#include <limits>
 #include <numeric>
 #include <sstream>
 #include <utility>
@@ -177,7 +178,7 @@ std::string number(double value) {
 }
 
 /// How far the removal of noise may take a vertex out of the box, in its diagonals.
-constexpr double kNoiseMargin = 0.25;
+const double kNoiseMargin = 0.1 * std::sqrt(3.0);
 
 /// Runs a case and collects failures.
 class Checker {
@@ -292,8 +293,8 @@ void Checker::check_finite() {
 /// the margin of flow/confinement.h. A surface that is scaled, or inflated by a pressure, keeps to
 /// the cube of flow/preserving.cpp around each of its components.
 ///
-/// Steps of fourth order, which remove noise, obey no maximum principle: they overshoot as Taubin's
-/// do. Nothing may fly away.
+/// Steps of fourth order, which remove noise, obey no maximum principle. They keep to a larger box,
+/// see confinement() in core/noise/noisy_surface.h.
 void Checker::check_box() {
     const FlowParameters& parameters = case_.parameters;
     const double diagonal = box_.diagonal().norm();
@@ -418,7 +419,12 @@ void Checker::check_scale() {
         return;
     }
     for (std::size_t i = 0; i < flows_.size(); ++i) {
-        if (!flows_[i] || other.mesh.positions[i] == unit * base_.mesh.positions[i]) continue;
+        const Eigen::Vector3d expected = unit * base_.mesh.positions[i];
+        // Denormal numbers are rounded.
+        if (!flows_[i] || (other.mesh.positions[i] - expected).lpNorm<Eigen::Infinity>() <=
+                              unit * std::numeric_limits<double>::denorm_min()) {
+            continue;
+        }
         fail(Property::Scale, "by " + number(unit) + ": vertex " + std::to_string(i));
         return;
     }
@@ -440,14 +446,14 @@ double Checker::difference(const Case& base, const Run& base_run, const Case& ot
 }
 
 /// Returns the largest difference() to eight runs that move each position by up to the rounding of
-/// clipping, 2^-30 of a cell, or of single precision, in which noise is removed. Coincident
-/// vertices stay coincident.
+/// clipping, 2^-30 of a cell. The removal of noise rounds to single precision, and chooses among a
+/// few treatments: 32 runs find those that are as good. Coincident vertices stay coincident.
 double Checker::effect_of_rounding(const Case& base, const Run& base_run) {
     const std::vector<std::int32_t> first = weld_coincident_vertices(base.mesh);
-    const double rounding = base.noise ? std::ldexp(box_.diagonal().norm(), -30)
+    const double rounding = base.noise ? std::ldexp(box_.diagonal().norm(), -24)
                                        : std::ldexp(base_run.report.cell_size, -30);
     double largest = 0;
-    for (int i = 0; i < 8; ++i) {
+    for (int i = 0; i < (base.noise ? 32 : 8); ++i) {
         Case moved = base;
         std::vector<Eigen::Vector3d>& at = moved.mesh.positions;
         for (Eigen::Vector3d& position : at) position += rounding * random_.point();
@@ -515,7 +521,8 @@ void Checker::check_order() {
         if (!case_.selection.empty()) other.selection[i] = case_.selection[triangle_of[i]];
     }
     // Where a surface has one side, a seam counts as a crease, and which one depends on the order.
-    if (case_.noise && case_.kind == "moebius") return;
+    // The normals of triangles on a line are rounding.
+    if (case_.noise && (case_.kind == "moebius" || case_.kind == "one_line")) return;
     compare(Property::Order, case_, base_, other, vertex_of);
 }
 

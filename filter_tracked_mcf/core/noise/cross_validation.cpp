@@ -38,6 +38,9 @@ constexpr double kTrialNormalLength = 2.6, kTrialStepSize = 0.15;
 constexpr double kCaution = 1.05;
 /// Treatments that do next to nothing are not told apart.
 constexpr double kLeastRest = 0.02;
+/// With less noise than this, in edges, nothing is to be removed: steps would only move vertices
+/// along the surface.
+constexpr double kNoNoise = 1e-4;
 
 /// The perturbation ε: relative to the noise, and the least one that exceeds rounding by far.
 constexpr double kPerturbation = 0.05, kLeastPerturbation = 1e-4;
@@ -48,14 +51,6 @@ const double kTwoPi = 2 * std::acos(-1.0);
 /// Returns (δ k²)² for the waves whose amplitude `steps` steps halve.
 double halved_waves(int steps) {
     return std::expm1(std::log(2.0) / steps);
-}
-
-/// Returns a random sign for each vertex (splitmix64).
-float sign_of(std::int32_t vertex) {
-    std::uint64_t bits = (static_cast<std::uint64_t>(vertex) + 1) * 0x9e3779b97f4a7c15U;
-    bits = (bits ^ (bits >> 30U)) * 0xbf58476d1ce4e5b9U;
-    bits = (bits ^ (bits >> 27U)) * 0x94d049bb133111ebU;
-    return (bits >> 63U) != 0 ? 1.0F : -1.0F;
 }
 
 /// What a treatment does to the heights of the sample's vertices.
@@ -98,6 +93,11 @@ public:
     }
 
     Treatment best() {
+        if (wishes_.detail_size == 0 && noise_ < kNoNoise) {
+            Treatment none;
+            none.noise = noise_;
+            return none;
+        }
         if (wishes_.detail_size > 0) {
             for (std::size_t i = 0; i < kNormalLengths.size(); ++i)
                 try_steps({static_cast<int>(i), 0});
@@ -129,7 +129,7 @@ private:
         perturbation_ = perturbation;
         start_ = {positions, positions};
         parallel_for_rows(sample_.surface.stars.count(), [&](std::int32_t vertex) {
-            start_.perturbed[vertex] += perturbation * sign_of(vertex) * normal(vertex);
+            start_.perturbed[vertex] += perturbation * sample_.signs[vertex] * normal(vertex);
         });
     }
 
@@ -146,8 +146,9 @@ private:
     }
 
     void step(const StepSettings& settings, Twins& twins) {
-        smoothing_.step(settings, twins.plain);
-        smoothing_.step(settings, twins.perturbed);
+        const Eigen::AlignedBox3d box = confinement(start_.plain);
+        smoothing_.step(settings, box, twins.plain);
+        smoothing_.step(settings, box, twins.perturbed);
     }
 
     Effect effect_of(const Twins& twins) const {
@@ -169,9 +170,9 @@ private:
             return height * height;
         });
         effect.divergence =
-            mean([&](std::int32_t vertex) { return sign_of(vertex) * response(vertex); });
+            mean([&](std::int32_t vertex) { return sample_.signs[vertex] * response(vertex); });
         effect.sign_square = mean([&](std::int32_t vertex) {
-            const double taken = sign_of(vertex) - response(vertex);
+            const double taken = sample_.signs[vertex] - response(vertex);
             return taken * taken;
         });
         return effect;

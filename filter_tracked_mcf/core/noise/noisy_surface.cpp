@@ -2,7 +2,9 @@
 #include "filter_tracked_mcf/core/noise/noisy_surface.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 #include "filter_tracked_mcf/core/errors.h"
@@ -49,16 +51,17 @@ struct SidesOfEdges {
     RawVector<Side> sides;
 };
 
-/// Returns the triangles, those of each component oriented like its first one. A surface with
+/// Returns the triangles, those of each component oriented as most of its area is. A surface with
 /// one side gets a seam.
-RawVector<Triangle> oriented_triangles(const MeshTopology& topology) {
+RawVector<Triangle> oriented_triangles(const MeshTopology& topology,
+                                       const std::vector<Eigen::Vector3d>& positions) {
     RawVector<Triangle> triangles = topology.triangles;
     if (topology.is_oriented_consistently()) return triangles;
     const SidesOfEdges edges(topology);
     constexpr std::uint8_t unknown = 2;
     std::vector<std::uint8_t> flipped(topology.triangles.size(), unknown);
-    std::vector<std::int32_t> to_visit;
-    const auto visit_neighbours = [&](std::int32_t triangle) {
+    std::vector<std::int32_t> component;
+    const auto add_neighbours = [&](std::int32_t triangle) {
         for (int side = 0; side < 3; ++side) {
             const std::int32_t edge = topology.edges[triangle][side];
             if (edge == MeshTopology::kNoEdge) continue;
@@ -70,22 +73,25 @@ RawVector<Triangle> oriented_triangles(const MeshTopology& topology) {
             const bool alike = sides[0].forwards != sides[1].forwards;
             const std::uint8_t here = flipped[triangle];
             flipped[other.triangle] = alike ? here : static_cast<std::uint8_t>(1 - here);
-            to_visit.push_back(other.triangle);
+            component.push_back(other.triangle);
         }
     };
     for (std::size_t first = 0; first < flipped.size(); ++first) {
         if (flipped[first] != unknown) continue;
         flipped[first] = 0;
-        to_visit.assign(1, static_cast<std::int32_t>(first));
-        while (!to_visit.empty()) {
-            const std::int32_t triangle = to_visit.back();
-            to_visit.pop_back();
-            visit_neighbours(triangle);
+        component.assign(1, static_cast<std::int32_t>(first));
+        std::array<double, 2> areas = {0, 0};  // as they are, flipped
+        for (std::size_t i = 0; i < component.size(); ++i) {
+            const std::int32_t t = component[i];
+            add_neighbours(t);
+            const auto [a, b, c] = corners_of(positions, topology.triangles[t]);
+            areas[flipped[t]] += twice_vector_area(a, b, c).norm();
             poll_progress();
         }
-    }
-    for (std::size_t t = 0; t < flipped.size(); ++t) {
-        if (flipped[t] == 1) std::swap(triangles[t][1], triangles[t][2]);
+        const std::uint8_t least = areas[1] > areas[0] ? 0 : 1;
+        for (const std::int32_t t : component) {
+            if (flipped[t] == least) std::swap(triangles[t][1], triangles[t][2]);
+        }
     }
     return triangles;
 }
@@ -140,7 +146,7 @@ double mean_side(const std::vector<Eigen::Vector3d>& positions,
 
 SurfaceOfMesh surface_of(const Domain& domain) {
     const TriangleMesh& mesh = domain.mesh();
-    const RawVector<Triangle> triangles = oriented_triangles(domain.topology());
+    const RawVector<Triangle> triangles = oriented_triangles(domain.topology(), mesh.positions);
     std::vector<std::uint8_t> used(mesh.positions.size(), 0);
     for (const Triangle& t : triangles) {
         if (!has_three_vertices(t)) continue;
@@ -170,22 +176,72 @@ SurfaceOfMesh surface_of(const Domain& domain) {
     return result;
 }
 
+Eigen::AlignedBox3d confinement(const Positions& positions) {
+    constexpr double margin = 0.1;  // in diagonals
+    Eigen::AlignedBox3d box;
+    for (const Eigen::Vector3d& position : positions) box.extend(position);
+    const Eigen::Vector3d added = Eigen::Vector3d::Constant(margin * box.diagonal().norm());
+    return {box.min() - added, box.max() + added};
+}
+
 namespace {
 
-/// Marks the kPatch vertices nearest to `seed`, counted in sides.
+/// A vertex and its squared distance from the mean of all.
+struct Ranked {
+    double square;
+    std::int32_t vertex;
+};
+
+bool operator<(const Ranked& a, const Ranked& b) {
+    return std::tie(a.square, a.vertex) < std::tie(b.square, b.vertex);
+}
+
+std::vector<Ranked> ranked(const Positions& positions) {
+    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+    for (const Eigen::Vector3d& position : positions) mean += position;
+    mean /= static_cast<double>(positions.size());
+    std::vector<Ranked> vertices(positions.size());
+    parallel_for_rows(static_cast<std::int64_t>(vertices.size()), [&](std::int32_t i) {
+        vertices[i] = {(positions[i] - mean).squaredNorm(), i};
+    });
+    return vertices;
+}
+
+/// Marks the vertices nearest to `seed`, counted in sides: as many whole rings as have kPatch.
 void mark_patch(const Stars& stars, std::int32_t seed, std::vector<std::uint8_t>& marked) {
-    std::vector<std::int32_t> queue(1, seed);
+    std::vector<std::int32_t> patch(1, seed);
     marked[seed] = 1;
-    for (std::size_t i = 0; i < queue.size() && queue.size() < kPatch; ++i) {
-        const std::int32_t vertex = queue[i];
-        for (std::uint32_t k = stars.neighbour_begin[vertex];
-             k < stars.neighbour_begin[vertex + 1] && queue.size() < kPatch; ++k) {
-            const std::int32_t neighbour = stars.neighbours[k];
-            if (marked[neighbour] != 0) continue;
-            marked[neighbour] = 1;
-            queue.push_back(neighbour);
+    std::size_t ring = 0;
+    while (ring < patch.size() && patch.size() < kPatch) {
+        for (const std::size_t end = patch.size(); ring < end; ++ring) {
+            const std::int32_t vertex = patch[ring];
+            for (std::uint32_t k = stars.neighbour_begin[vertex];
+                 k < stars.neighbour_begin[vertex + 1]; ++k) {
+                const std::int32_t neighbour = stars.neighbours[k];
+                if (marked[neighbour] != 0) continue;
+                marked[neighbour] = 1;
+                patch.push_back(neighbour);
+            }
         }
     }
+}
+
+/// Returns a random sign for each number (splitmix64).
+float sign_of(std::size_t number) {
+    std::uint64_t bits = (std::uint64_t{number} + 1) * 0x9e3779b97f4a7c15U;
+    bits = (bits ^ (bits >> 30U)) * 0xbf58476d1ce4e5b9U;
+    bits = (bits ^ (bits >> 27U)) * 0x94d049bb133111ebU;
+    return (bits >> 63U) != 0 ? 1.0F : -1.0F;
+}
+
+std::vector<float> random_signs(const Positions& positions) {
+    std::vector<Ranked> vertices = ranked(positions);
+    std::sort(vertices.begin(), vertices.end());
+    std::vector<float> signs(vertices.size());
+    for (std::size_t rank = 0; rank < vertices.size(); ++rank) {
+        signs[vertices[rank].vertex] = sign_of(rank);
+    }
+    return signs;
 }
 
 }  // namespace
@@ -196,10 +252,14 @@ Sample sample_of(const NoisySurface& surface, std::int32_t vertex_count) {
     std::vector<std::uint8_t> marked(static_cast<std::size_t>(all), 1);
     if (all > 2 * vertex_count) {
         std::fill(marked.begin(), marked.end(), std::uint8_t{0});
+        std::vector<Ranked> vertices = ranked(surface.positions);
         const std::int32_t patches = vertex_count / kPatch;
+        auto begin = vertices.begin();
         for (std::int32_t i = 0; i < patches; ++i) {
-            const std::int64_t seed = (2 * i + 1) * std::int64_t{all} / (2 * patches);
-            mark_patch(stars, static_cast<std::int32_t>(seed), marked);
+            const auto seed = vertices.begin() + (2 * i + 1) * std::int64_t{all} / (2 * patches);
+            std::nth_element(begin, seed, vertices.end());
+            begin = seed;
+            mark_patch(stars, seed->vertex, marked);
         }
     }
     // Only whole triangles belong to the sample, and only their vertices.
@@ -209,7 +269,7 @@ Sample sample_of(const NoisySurface& surface, std::int32_t vertex_count) {
         for (const std::int32_t vertex : t) used[vertex] = 1;
     }
     const std::vector<std::int32_t> numbers = numbers_of(used);
-    Sample sample{{{{}, 0}, {}, {}}, {}};
+    Sample sample{{{{}, 0}, {}, {}}, {}, {}};
     std::vector<std::uint32_t> star_sizes;
     for (std::int32_t i = 0; i < all; ++i) {
         if (used[i] == 0) continue;
@@ -224,6 +284,7 @@ Sample sample_of(const NoisySurface& surface, std::int32_t vertex_count) {
         const bool whole = begin[i + 1] - begin[i] == star_sizes[i];
         sample.counts.push_back(whole && !sample.surface.is_fixed(i) ? 1 : 0);
     }
+    sample.signs = random_signs(sample.surface.positions);
     return sample;
 }
 

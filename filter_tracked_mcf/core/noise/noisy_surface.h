@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <cstdint>
 #include <vector>
 
@@ -37,15 +38,21 @@ struct SurfaceOfMesh {
 /// Returns the surface of a domain. Throws InvalidMesh if all its sides have length 0.
 SurfaceOfMesh surface_of(const Domain& domain);
 
+/// Returns the box that no step may leave: that of the positions, a tenth of its diagonal larger on
+/// each side.
+Eigen::AlignedBox3d confinement(const Positions& positions);
+
 /// Part of a surface, without the strengths of its vertices.
 struct Sample {
     NoisySurface surface;
     /// Per vertex: whether the sample has all of its star, and it may move.
     std::vector<std::uint8_t> counts;
+    std::vector<float> signs;  ///< per vertex: 1 or -1, at random
 };
 
 /// Returns patches that are spread over the surface and have about so many vertices together; all
-/// of a surface that is not much larger.
+/// of a surface that is not much larger. Neither the patches nor the signs depend on the order of
+/// the vertices or, but for rounding, on the surface's place in space, unless it has symmetries.
 Sample sample_of(const NoisySurface& surface, std::int32_t vertex_count);
 
 }  // namespace tracked_mcf

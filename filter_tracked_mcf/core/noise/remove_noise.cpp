@@ -26,6 +26,9 @@ constexpr std::int32_t kSample = 4000;
 /// Bytes for each vertex and each triangle, beside the mesh.
 constexpr double kBytesPerVertex = 260, kBytesPerTriangle = 90;
 
+/// A step that would take a vertex away is made with a quarter of its size, at most so many times.
+constexpr int kMostShorter = 8;
+
 const double kRadian = std::acos(-1.0) / 180;
 
 void check_memory(const TriangleMesh& mesh) {
@@ -64,10 +67,15 @@ void treat(NoisySurface& surface, double edge, const NoiseParameters& parameters
         best_treatment(sample_of(surface, kSample),
                        {crease, parameters.noise / edge, parameters.detail_size / edge});
     Smoothing smoothing(surface);
+    const Eigen::AlignedBox3d box = confinement(surface.positions);
+    StepSettings settings = treatment.settings;
     for (int step = 0; step < treatment.steps; ++step) {
         enter_phase(0.3 + 0.6 * step / treatment.steps,
                     "Step " + std::to_string(step + 1) + " of " + std::to_string(treatment.steps));
-        smoothing.step(treatment.settings, surface.positions);
+        for (int shorter = 0; !smoothing.step(settings, box, surface.positions); ++shorter) {
+            if (shorter == kMostShorter) break;
+            settings.step_size /= 4;
+        }
     }
     if (crease > 0 && treatment.steps > 0) {
         report.crease_share = crease_share(surface, smoothing.normals(), crease);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <Eigen/Geometry>
+
 #include "filter_tracked_mcf/core/noise/linear_elements.h"
 
 namespace tracked_mcf {
@@ -23,8 +25,10 @@ public:
     /// twice, the second time in the metric of (X, s N). Valid until the next call.
     const Vectors& smooth_normals(const Positions& positions, const StepSettings& settings);
 
-    /// Makes a step: smooths the normals, and then the positions in their metric.
-    void step(const StepSettings& settings, Positions& positions);
+    /// Makes a step: smooths the normals, and then the positions in their metric. Returns false and
+    /// makes none if it would take a vertex out of `box`: an equation of fourth order has no
+    /// maximum principle, so a few vertices beside ones that stay may fly away.
+    bool step(const StepSettings& settings, const Eigen::AlignedBox3d& box, Positions& positions);
 
     /// Returns the normals of the latest call above.
     const Vectors& normals() const { return normals_; }

@@ -105,7 +105,7 @@ TEST(RemoveNoise, TurnsAndScalesWithTheMesh) {
     const Eigen::Affine3d twice(Eigen::Scaling(2.0));
     EXPECT_TRUE(
         same_bits(denoised(shapes::transformed(before, twice)), shapes::transformed(after, twice)));
-    for (const double scale : {1e-60, 1e60}) {
+    for (const double scale : {1e-50, 1e50}) {
         const Eigen::Affine3d larger{Eigen::Scaling(scale)}, smaller{Eigen::Scaling(1 / scale)};
         TriangleMesh mesh = shapes::transformed(before, larger);
         const NoiseReport report = remove_noise(mesh, {}, {});
