@@ -24,4 +24,3 @@ cmake --build build -j "$(nproc)"
 ctest --test-dir build --output-on-failure -j "$(nproc)" "${arguments[@]}"
 # ctest does not tell why a test was skipped.
 grep -h '^skipped: ' build/Testing/Temporary/LastTest.log || true
-tests/hosts/host_table.py build

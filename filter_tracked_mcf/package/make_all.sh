@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Makes the packages for all four hosts and the Python wheel on one Debian, whichever MeshLab is
+# Makes the packages for all four hosts on one Debian, whichever MeshLab is
 # installed, and lists them with the versions that they need: make_all.sh DESTINATION [arguments for cmake]
 #
 # A package runs on the Debian that made it and on later ones, so make packages on the oldest. Sources
@@ -25,10 +25,6 @@ make_one() { # RELEASE SCALAR CMAKE_ARGUMENT...
     cpack --config "$build/CPackConfig.cmake" -B "$build/package"
     cp "$build"/package/*.tar.gz "$destination/"
     made+=("$(basename "$build"/package/*.tar.gz)")
-    if [ "$2" = double ]; then
-        cmake --build "$build" --target wheel
-        cp "$build"/pymeshlab_tracked_mcf-*.whl "$destination/"
-    fi
 }
 made=()
 "$root/external/install_debian.sh" package
@@ -43,4 +39,3 @@ for archive in "${made[@]}"; do
     tar -xOzf "$destination/$archive" "${archive%.tar.gz}/INSTALL.txt" |
         sed -n '/^What is needed/,$p' | grep '^    '
 done
-stat -c '%n: %s bytes' "$destination"/pymeshlab_tracked_mcf-*.whl

@@ -25,7 +25,8 @@ XML
 "$prefix/bin/meshlabserver" -i "$meshes/hand.off" -s "$work/select.mlx" -o "$work/selected.ply" -m ff
 cd "$work"
 
-sed -n '/^```xml$/,/^```$/p' "${pages[@]}" | grep -v '^```' > smooth.mlx
+# The first script. Its page has one for each filter.
+sed -n '/^```xml$/,/^```$/p' "${pages[@]}" | grep -v '^```' | sed '/<\/FilterScript>/q' > smooth.mlx
 "$prefix/bin/meshlabserver" -i scan.ply -s smooth.mlx -o smooth.ply | grep "Smoothed"
 "$tool" scan.ply tool.ply --quiet
 "$here/../compare_positions.py" smooth.ply tool.ply scan.ply 0.5
