@@ -16,7 +16,6 @@
 #   gravomg      external/gravomg.sh
 #   windows      building for Windows and running tests in Wine
 #   arm64        building for ARM64 and running tests in QEMU
-#   zig          building for macOS and for older Linux
 #   checks       formatting, static analysis, sanitizers and coverage
 #
 # Runs apt only if a package is missing, with sudo unless run as root.
@@ -43,7 +42,6 @@ packages_of() {
         gravomg) echo python3-venv ;;
         windows) echo "$(packages_of program)" g++-mingw-w64-x86-64-posix googletest python3 wine wine64 ;;
         arm64) echo "$(packages_of program)" g++-aarch64-linux-gnu googletest python3 qemu-user ;;
-        zig) echo "$(packages_of program)" python3-venv ;;
         checks) echo g++-11 libc++-dev libc++abi-dev clang clang-format clang-tidy-22 libclang-rt-dev llvm git \
             valgrind ;;
         *) echo "install_debian.sh: unknown task '$1'" >&2 && return 1 ;;
