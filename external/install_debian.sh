@@ -12,11 +12,9 @@
 #   experiments  building and running tests/experiments
 #   benchmark    building and running tests/benchmark, CGAL and hypre included
 #   pymeshlab    external/pymeshlab.sh
-#   notebook     running the notebook of the Python package
 #   gravomg      external/gravomg.sh
 #   windows      building for Windows and running tests in Wine
 #   arm64        building for ARM64 and running tests in QEMU
-#   zig          building for macOS and for older Linux
 #   checks       formatting, static analysis, sanitizers and coverage
 #
 # Runs apt only if a package is missing, with sudo unless run as root.
@@ -31,20 +29,19 @@ packages_of() {
         package) echo "$(packages_of plugin)" dpkg-dev file help2man python3 ;;
         python) echo "$(packages_of core)" python3-dev python3-venv ;;
         demo) echo "$(packages_of plugin)" xvfb xauth python3-vtk9 python3-numpy ;;
-        tests) echo "$(packages_of package)" libgtest-dev libgmock-dev libboost-dev \
-            xvfb xauth xdotool imagemagick python3 python3-matplotlib debootstrap ;;
+        tests) echo "$(packages_of package) $(packages_of python)" libgtest-dev libgmock-dev libboost-dev \
+            xvfb xauth xdotool imagemagick debootstrap python3-numpy python3-matplotlib python3-nbclient \
+            python3-ipykernel python3-cloudpickle python3-joblib python3-distributed ;;
         experiments) echo "$(packages_of program)" libgtest-dev libgmock-dev libboost-dev \
             meshlab "$(libraries_recommended_by meshlab)" \
             python3-matplotlib python3-vtk9 python3-numpy xvfb xauth ;;
         benchmark) echo "$(packages_of program)" libgtest-dev libgmock-dev libboost-dev \
             libcgal-dev libhypre-dev python3 ;;
         pymeshlab) echo python3-venv python3-numpy python3-matplotlib ;;
-        notebook) echo python3-venv python3-matplotlib python3-nbclient python3-ipykernel ;;
         gravomg) echo python3-venv ;;
         windows) echo "$(packages_of program)" g++-mingw-w64-x86-64-posix googletest python3 wine wine64 ;;
         arm64) echo "$(packages_of program)" g++-aarch64-linux-gnu googletest python3 qemu-user ;;
-        zig) echo "$(packages_of program)" python3-venv ;;
-        checks) echo g++-11 libc++-dev libc++abi-dev clang clang-format clang-tidy-22 libclang-rt-dev llvm git \
+        checks) echo g++-11 libc++-dev libc++abi-dev clang clang-format clang-tidy-22 gcovr libclang-rt-dev llvm git \
             valgrind ;;
         *) echo "install_debian.sh: unknown task '$1'" >&2 && return 1 ;;
     esac

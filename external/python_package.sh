@@ -1,15 +1,15 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Installs the Python package tracked_mcf into a virtual environment, which is made if it is missing:
-# python_package.sh FOLDER [BUILD_DIR]
+# Installs the Python package tracked_mcf into a virtual environment, which is made if it is missing and then has
+# Debian's packages, too: python_package.sh FOLDER [BUILD_DIR]
 #
 # BUILD_DIR is a build folder of this project, whose core the package then uses. CMake's options stay there.
 set -euo pipefail
 
-folder=${1:?usage: python_package.sh FOLDER [BUILD_DIR]} build=${2:-}
+folder=${1:?usage: python_package.sh FOLDER [BUILD_DIR]} build=${2:+$(realpath "$2")}
 here=$(dirname "$0")
 "$here/install_debian.sh" python
-[ -x "$folder/bin/python" ] || /usr/bin/python3 -m venv "$folder"
+[ -x "$folder/bin/python" ] || /usr/bin/python3 -m venv --system-site-packages "$folder"
 install=("$folder/bin/python" -m pip install -q) package=$here/../filter_tracked_mcf/python
 if [ -z "$build" ]; then
     "${install[@]}" "$package"

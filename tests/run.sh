@@ -19,9 +19,10 @@ external/install_debian.sh tests
 external/cgal_meshes.sh build/cgal-meshes
 external/meshlab_source.sh build/meshlab-source
 cmake -S . -B build -DTRACKED_MCF_TOOL=ON -DTRACKED_MCF_PLUGIN=ON -DTRACKED_MCF_TESTS=ON \
-    "${options[@]}"
+    "-DTRACKED_MCF_PYTHON=$PWD/build/python/bin/python" "${options[@]}"
 cmake --build build -j "$(nproc)"
+external/python_package.sh build/python build
+build/python/bin/python -m pip install -q trimesh # README's script needs it, and no Debian has it
 ctest --test-dir build --output-on-failure -j "$(nproc)" "${arguments[@]}"
 # ctest does not tell why a test was skipped.
 grep -h '^skipped: ' build/Testing/Temporary/LastTest.log || true
-tests/hosts/host_table.py build

@@ -7,8 +7,6 @@
 #include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/parameter_table.h"
 #include "filter_tracked_mcf/parameters/filter_names.h"
-#include "filter_tracked_mcf/plugin/as_typed.h"
-#include "filter_tracked_mcf/plugin/host_python.h"
 
 namespace tracked_mcf {
 
@@ -82,7 +80,7 @@ ParameterValue read(const RichParameterList& list, const Parameter& parameter) {
         if (parameter.type == Parameter::Type::Integer && value.isInt()) return value.getInt();
         if (std::holds_alternative<bool>(initial) && value.isBool()) return value.getBool();
         if (std::holds_alternative<double>(initial) && value.isFloat()) {
-            return as_typed(value.getFloat());
+            return static_cast<double>(value.getFloat());
         }
     }
     throw InvalidParameter(parameter.name +
@@ -114,13 +112,12 @@ private:
 thread_local bool Run::runs = false;
 
 /// Wraps the host's callback, which may be null. Stops if a user has deleted the layer meanwhile,
-/// or closed its document, or pressed Ctrl-C in Python.
+/// or closed its document.
 Progress watched_progress(MeshDocument& document, const MeshModel& layer,
                           vcg::CallBackPos* callback) {
     if (callback == nullptr) return {};
     return [report = as_progress(callback), pointer = QPointer<MeshDocument>(&document),
             id = layer.id()](double fraction, std::string_view phase) {
-        if (python_interrupts()) throw Interrupted();
         const bool goes_on = report(fraction, phase);
         if (pointer.isNull() || pointer->getMesh(id) == nullptr) {
             throw InvalidMesh("The layer was deleted while the filter ran, so the filter stopped.");
@@ -168,7 +165,7 @@ FilterOutcome apply_to_current_layer(MeshDocument& document, const RichParameter
         }
         return outcome;
     };
-    return guard(work, !python_runs());
+    return guard(work);
 }
 
 template <class Parameters>

@@ -41,19 +41,17 @@ std::string with_label(const std::string& message) {
 
 }  // namespace
 
-FilterOutcome guard(const std::function<FilterOutcome()>& work, bool has_dialog) {
+FilterOutcome guard(const std::function<FilterOutcome()>& work) {
     try {
         return work();
     } catch (const std::bad_alloc&) {
-        return {false, "There is not enough memory. Choose a smaller depth.", {}, {}};
+        return {false, "There is not enough memory. Choose a smaller depth.", {}};
     } catch (const InvalidParameter& error) {
-        return {false, has_dialog ? with_label(error.what()) : error.what(), {}, {}};
-    } catch (const Interrupted& error) {
-        return {false, error.what(), {}, {}, true};
+        return {false, with_label(error.what()), {}};
     } catch (const std::exception& error) {
-        return {false, error.what(), {}, {}};
+        return {false, error.what(), {}};
     } catch (...) {
-        return {false, "An unknown error occurred.", {}, {}};
+        return {false, "An unknown error occurred.", {}};
     }
 }
 
@@ -80,12 +78,6 @@ std::string after_summary(const std::vector<std::string>& warnings) {
     std::string text;
     for (const std::string& warning : warnings) text += " Warning: " + warning;
     return text;
-}
-
-std::string joined(const std::vector<std::string>& warnings) {
-    std::string lines;
-    for (const std::string& warning : warnings) lines += (lines.empty() ? "" : "\n") + warning;
-    return lines;
 }
 
 template <class Report>
@@ -153,14 +145,6 @@ std::string summary(const NoiseParameters& parameters, const NoiseReport& report
          << constrained(report.constrained_vertices) << " in " << report.seconds << " s. "
          << changes(report) << after_summary(warnings_of(parameters, report, kAdvice));
     return text.str();
-}
-
-std::string warning_lines(const FlowParameters& parameters, const FlowReport& report) {
-    return joined(warnings_of(parameters, report, kAdvice));
-}
-
-std::string warning_lines(const NoiseParameters& parameters, const NoiseReport& report) {
-    return joined(warnings_of(parameters, report, kAdvice));
 }
 
 Outputs outputs_of(const FlowParameters& parameters, const FlowReport& report) {

@@ -23,21 +23,13 @@ using Outputs = std::map<std::string, std::variant<int, double>>;
 /// How a run of the filter ended.
 struct FilterOutcome {
     bool succeeded;
-    std::string message;       ///< for the user: what was done, or what is wrong and what to do
-    Outputs outputs;           ///< empty after a failure; see outputs_of()
-    std::string warnings;      ///< those of the message, one a line
-    bool interrupted = false;  ///< whether Interrupted was thrown, a failure that the host reports
-};
-
-/// The host must get control at once. It reports why itself, as Python does after Ctrl-C.
-struct Interrupted : Error {
-    Interrupted() : Error("The filter was interrupted.") {}
+    std::string message;  ///< for the user: what was done, or what is wrong and what to do
+    Outputs outputs;      ///< empty after a failure; see outputs_of()
 };
 
 /// Runs `work` and turns any exception into a failed outcome: an exception that a host does not
-/// know ends its program. If the host has a dialog, the message about a parameter says its label
-/// there, too.
-FilterOutcome guard(const std::function<FilterOutcome()>& work, bool has_dialog);
+/// know ends its program. The message about a parameter says its label in the dialog, too.
+FilterOutcome guard(const std::function<FilterOutcome()>& work);
 
 /// Wraps a host's callback, which may be null, for the core.
 Progress as_progress(HostCallback* callback);
@@ -50,10 +42,6 @@ std::uint64_t checksum(const TriangleMesh& mesh);
 /// Describes the report in a few sentences, with its warnings.
 std::string summary(const FlowParameters& parameters, const FlowReport& report);
 std::string summary(const NoiseParameters& parameters, const NoiseReport& report);
-
-/// Returns the warnings, one a line.
-std::string warning_lines(const FlowParameters& parameters, const FlowReport& report);
-std::string warning_lines(const NoiseParameters& parameters, const NoiseReport& report);
 
 /// Returns, in units of the mesh and of the surface that flows:
 /// - `detail_size`, `step_size` (δ), `depth`, `cell_size`, `unknowns`,
@@ -110,8 +98,7 @@ FilterOutcome run_filter(VcgMesh& mesh, const Parameters& parameters, const Laye
     }
     write_positions(moved, mesh);
     if (!report.quality.empty()) write_quality(report.quality, mesh);
-    return {true, summary(parameters, report), outputs_of(parameters, report),
-            warning_lines(parameters, report)};
+    return {true, summary(parameters, report), outputs_of(parameters, report)};
 }
 
 }  // namespace tracked_mcf

@@ -17,10 +17,10 @@
 #include "filter_tracked_mcf/parameters/filter_names.h"
 #include "filter_tracked_mcf/parameters/flow_warnings.h"
 #include "filter_tracked_mcf/parameters/noise_warnings.h"
-#include "filter_tracked_mcf/parameters/pymeshlab_help.h"
 #include "filter_tracked_mcf/parameters/report_values.h"
 #include "filter_tracked_mcf/parameters/run.h"
 #include "filter_tracked_mcf/python/parameters.h"
+#include "filter_tracked_mcf/python/pymeshlab_help.h"
 
 namespace tracked_mcf {
 

@@ -37,7 +37,6 @@ SHARED_THIN_SCANS = ["armadillo_50k.ply", "hand_8k.ply", "elephant_5cc.ply"]
 SKIPPED = 77
 CLAIM = ("- **holds**: ", "- **does not hold**: ")
 
-SPHERE = "sphere:128"
 PAPER = "paper"
 CONVERGED = "converged"
 

@@ -21,9 +21,6 @@ void add_boundary(CLI::App& app);
 /// Writes the finest cells that a patch carries with it.
 void add_cells(CLI::App& app);
 
-/// Counts the solver's iterations in the first step.
-void add_iterations(CLI::App& app);
-
 /// Measures the distance to a minimal surface that a locked boundary spans.
 void add_minimal(CLI::App& app);
 
@@ -36,9 +33,6 @@ void add_pinches(CLI::App& app);
 /// Flows disjoint pieces closer than a cell, together and alone.
 void add_pieces(CLI::App& app);
 
-/// Measures the rate and the cost of calls of the progress callback.
-void add_progress(CLI::App& app);
-
 /// Measures size and time of the set-up.
 void add_setup(CLI::App& app);
 
@@ -47,8 +41,5 @@ void add_sphere(CLI::App& app);
 
 /// Measures area and roundness during a flow.
 void add_stages(CLI::App& app);
-
-/// Compares the solver's error with the discretisation's.
-void add_tolerance(CLI::App& app);
 
 }  // namespace tracked_mcf::experiments

@@ -15,16 +15,13 @@ int main(int argc, char** argv) {
     add_aligned(app);
     add_boundary(app);
     add_cells(app);
-    add_iterations(app);
     add_minimal(app);
     add_noise(app);
     add_pieces(app);
     add_pinches(app);
-    add_progress(app);
     add_setup(app);
     add_sphere(app);
     add_stages(app);
-    add_tolerance(app);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

@@ -10,7 +10,6 @@
 #include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/parameter_table.h"
 #include "filter_tracked_mcf/parameters/flow_warnings.h"
-#include "filter_tracked_mcf/plugin/as_typed.h"
 #include "filter_tracked_mcf/plugin/run_filter.h"
 
 namespace tracked_mcf {
@@ -51,8 +50,8 @@ TEST(ParameterTable, ANumberThatIsNoChoiceIsRefusedWithTheLabels) {
 
 /// Returns the message of a filter that fails with this error.
 template <class Error>
-std::string message_of(const Error& error, bool has_dialog = true) {
-    const FilterOutcome outcome = guard([&]() -> FilterOutcome { throw error; }, has_dialog);
+std::string message_of(const Error& error) {
+    const FilterOutcome outcome = guard([&]() -> FilterOutcome { throw error; });
     EXPECT_FALSE(outcome.succeeded);
     return outcome.message;
 }
@@ -69,28 +68,6 @@ TEST(Guard, AZeroMayBeANumberThatMeshLabCouldNotRead) {
     EXPECT_EQ(message_of(InvalidParameter("iterations is 0; give 1 to 9.")),
               "iterations is 0; give 1 to 9. In the dialog it is \"Smoothing steps\". MeshLab "
               "reads a number with a decimal comma as 0: use a point.");
-}
-
-TEST(Guard, AMessageFitsAHostWithoutADialog) {
-    for (const char* const message : {"depth is 13; give 0 to 12.", "iterations is 0; give more."})
-        EXPECT_EQ(message_of(InvalidParameter(message), false), message);
-}
-
-TEST(AsTyped, RecoversTheDecimalOfAFloat) {
-    EXPECT_EQ(as_typed(1e-5f), 1e-5);
-    EXPECT_EQ(as_typed(0.1f), 0.1);
-    EXPECT_EQ(as_typed(-2.5e-7f), -2.5e-7);
-    EXPECT_EQ(as_typed(0.0f), 0.0);
-    EXPECT_TRUE(std::isnan(as_typed(std::numeric_limits<float>::quiet_NaN())));
-    EXPECT_EQ(as_typed(-std::numeric_limits<float>::infinity()),
-              -std::numeric_limits<double>::infinity());
-}
-
-TEST(AsTyped, KeepsOtherDoubles) {
-    for (const double value : {1e-5, 0.1, 1.0 / 3, 1e300, -1e-300}) {
-        EXPECT_EQ(as_typed(value), value);
-    }
-    EXPECT_EQ(as_typed(0.25), 0.25);
 }
 
 TEST(Outputs, AreTheReportsNumbers) {
@@ -151,19 +128,6 @@ TEST(Summary, NamesTheFirstStepAboveTheToleranceAndTheRemedy) {
                         "steps: step 4, at 0.02 after 100 iterations. Look at the result; "),
               std::string::npos)
         << text;
-}
-
-TEST(Warnings, AreOneALine) {
-    using run_filter_detail::warning_lines;
-    FlowReport report;
-    report.steps.resize(2);
-    EXPECT_EQ(warning_lines({}, report), "");
-    report.steps[0].area = 10;
-    report.steps[1].area = report.area_after = 5;
-    const std::string loss = warning_lines({}, report);
-    EXPECT_EQ(loss.rfind("Step 1 removed 50 % of the area.", 0), 0u) << loss;
-    report.steps[1].reached_tolerance = false;
-    EXPECT_EQ(warning_lines({}, report).rfind(loss + "\nThe solver stopped short of", 0), 0u);
 }
 
 TEST(Summary, NamesTheFlowAndTheConstrainedVertices) {
@@ -314,16 +278,14 @@ TEST(Warnings, TellOfALimitedStepADetailBelowACellAndASuddenLoss) {
 }
 
 TEST(Guard, TurnsEveryExceptionIntoAMessage) {
-    const auto work = [] { return FilterOutcome{true, "done", {{"depth", 5}}, {}}; };
-    const FilterOutcome done = guard(work, true);
+    const auto work = [] { return FilterOutcome{true, "done", {{"depth", 5}}}; };
+    const FilterOutcome done = guard(work);
     EXPECT_TRUE(done.succeeded);
     EXPECT_EQ(done.message, "done");
     EXPECT_EQ(done.outputs.size(), 1u);
     EXPECT_EQ(message_of(InvalidMesh("No faces.")), "No faces.");
     EXPECT_NE(message_of(std::bad_alloc()).find("memory"), std::string::npos);
     EXPECT_FALSE(message_of(42).empty());
-    const FilterOutcome interrupted = guard([]() -> FilterOutcome { throw Interrupted(); }, true);
-    EXPECT_TRUE(!interrupted.succeeded && interrupted.interrupted && !done.interrupted);
 }
 
 TEST(Progress, IsInPercentAndStopsWhenTheHostAsks) {

@@ -12,7 +12,6 @@
 
 #include "filter_tracked_mcf/core/parameter_table.h"
 #include "filter_tracked_mcf/parameters/filter_names.h"
-#include "filter_tracked_mcf/plugin/as_typed.h"
 #include "tests/hosts/plugin_fixture.h"
 
 namespace tracked_mcf {
@@ -70,7 +69,7 @@ void expect_row(const RichParameter& actual, const Parameter& row, Scalarm diago
             break;
         case Parameter::Type::Real:
             ASSERT_EQ(actual.stringType(), "RichFloat");
-            EXPECT_EQ(ParameterValue(as_typed(actual.value().getFloat())), initial);
+            EXPECT_EQ(actual.value().getFloat(), Scalarm(std::get<double>(initial)));
             break;
         case Parameter::Type::Length: {
             ASSERT_EQ(actual.stringType(), "RichAbsPerc");

@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Makes the Debian package and checks its fields and files, and that apt would install it here:
-# debian_package_works.sh BUILD_DIR RELEASE SCALAR TOOL MESHLAB_LIBRARY_DIR WORK_DIR
+# debian_package_works.sh BUILD_DIR RELEASE TOOL MESHLAB_LIBRARY_DIR WORK_DIR
 #
-# TOOL is empty if it is not built. Packages of double precision must be refused. The package stays in
-# WORK_DIR for installed_package_works.sh.
+# TOOL is empty if it is not built. The package stays in WORK_DIR for installed_package_works.sh.
 set -euo pipefail
 
-build=$(realpath "$1") release=$2 scalar=$3 tool=$4 library_dir=$5 work=$(realpath -m "$6")
+build=$(realpath "$1") release=$2 tool=$3 library_dir=$4 work=$(realpath -m "$5")
+source=$(realpath "$(dirname "$0")/../..")
 name=meshlab-plugin-tracked-mcf
 plugin=libfilter_tracked_mcf.so
 rm -rf "$work"
@@ -18,19 +18,10 @@ fail() {
     echo "FAILED: $*"
     exit 1
 }
-make_package() { # With Ninja as the generator, cpack does not build everything first.
-    cpack -G DEB --config "$build/CPackConfig.cmake" -B "$work" -D CPACK_CMAKE_GENERATOR=Ninja
-}
-
-if [ "$scalar" = double ]; then
-    ! make_package > log.txt 2>&1 || fail "makes a package for PyMeshLab"
-    grep -q "A Debian package is for Debian's MeshLab" log.txt || fail "$(cat log.txt)"
-    echo "refused, as expected"
-    exit
-fi
 
 echo "== Fields"
-make_package
+# With Ninja as the generator, cpack does not build everything first.
+cpack -G DEB --config "$build/CPackConfig.cmake" -B "$work" -D CPACK_CMAKE_GENERATOR=Ninja
 version=$(sed -n 's/^CMAKE_PROJECT_VERSION:STATIC=//p' "$build/CMakeCache.txt")-1+meshlab$release
 package=${name}_${version}_$(dpkg --print-architecture).deb
 [ "$(echo ./*.deb)" = "./$package" ] || fail "made $(echo ./*.deb) rather than $package"
@@ -67,7 +58,25 @@ found=$(cd files && find . -type f | sed 's/^\.//' | LC_ALL=C sort)
 for file in "files$library_dir/plugins/$plugin" ${tool:+"files/usr/bin/$tool"}; do
     ! readelf -S "$file" | grep -wF .symtab || fail "$file is not stripped"
     ! readelf -d "$file" | grep -E 'RPATH|RUNPATH' || fail "$file looks for libraries in a folder"
+    ! grep -F -e "$build" -e "$source" "$file" || fail "$file names a folder of this machine"
 done
+
+echo "== Any processor"
+# Only the kernels, which the program chooses for its processor at run time, may have AVX instructions,
+# whose names begin with v. The files of the build, unlike the packed ones, still have symbols.
+for file in "$build/filter_tracked_mcf/plugin/$plugin" ${tool:+"$build/filter_tracked_mcf/tool/$tool"}; do
+    objdump -d --no-show-raw-insn "$file" | awk -v file="$file" '
+        /^[0-9a-f]+ <.*>:$/ { name = $2; any = name !~ /N_AVX[23]/ }
+        $2 ~ /^v[a-z]/ { vectors++; if (any) others[name] = 1 }
+        END {
+            for (name in others) print name " of " file " needs AVX"
+            for (name in others) failed = 1
+            print vectors + 0 " AVX instructions, all in kernels chosen at run time"
+            exit failed
+        }' || fail "not for any processor"
+done
+
+echo "== Changelog"
 zcat "files/usr/share/doc/$name/changelog.Debian.gz" > changelog
 said=$(dpkg-parsechangelog -l changelog -S Version 2>&1) || true
 [ "$said" = "$version" ] || fail "changelog: $said"

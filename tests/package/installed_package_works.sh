@@ -43,10 +43,10 @@ grep "^Remv $name " log.txt || fail "the package does not depend on meshlab"
 echo "== Use"
 "$hosts/bumpy_bowl.py" bowl.off
 "$hosts/float_ply.py" bowl.off in.ply
-"$hosts/legacy/flow_script.sh" depth=5 detail_size=0.1 iterations=2 > smooth.mlx
+"$hosts/legacy/flow_script.sh" depth=5 detail_size=0.125 iterations=2 > smooth.mlx
 inside env HOME="$work/home" XDG_CACHE_HOME="$work/home" xvfb-run -a meshlabserver -i in.ply -s smooth.mlx -o host.ply
 grep -m1 -o "Smoothed .*" log.txt || fail "meshlabserver did not smooth"
-inside tracked_mcf in.ply tool.ply --depth 5 --detail-size 0.1 --iterations 2 --quiet
+inside tracked_mcf in.ply tool.ply --depth 5 --detail-size 0.125 --iterations 2 --quiet
 "$hosts/compare_positions.py" host.ply tool.ply in.ply 0.5
 
 echo "== lintian"

@@ -30,43 +30,17 @@ except ImportError as error:
     sys.exit(77)
 
 HERE = pathlib.Path(__file__).resolve().parent
+sys.path.append(str(HERE.parent / "hosts"))
+import runs  # noqa: E402
+
 COARSE = {"depth": 5, "detail_size": 0.2}
+COARSE_OPTIONS = ["--depth", "5", "--detail-size", "0.2"]
 
-# A parameter, as a keyword and as the program's option. All other tests have the default of most.
-RUNS = [
-    ("detail_size", 0.3, "0.3"),
-    ("detail_size", "20%", "20%"),
-    ("local_detail_size", True, None),
-    ("iterations", 5, "5"),
-    ("order", 2, "2"),
-    ("preserve", "volume", "volume"),
-    ("boundary", "free", "free"),
-    ("boundary", "locked-cells", "locked-cells"),
-    ("quality", "displacement", "displacement"),
-    ("step_size", 1e-3, "1e-3"),
-    ("absolute", numpy.True_, None),
-    ("depth", numpy.int64(4), "4"),
-    ("flow", "conformalized", "conformalized"),
-    ("method", "paper", "paper"),
-    ("tolerance", 1e-5, "1e-5"),
-    ("stabilization", 1, "1"),
-    ("cycles", 2, "2"),
-    ("cubature", 12, "12"),
-    ("threads", 1, "1"),
-]
-# A parameter has no effect, and so is not tested, without these.
-WITH = {"absolute": {"step_size": 1e-3}, "cycles": {"method": "paper"}}
-
-NOISE_RUNS = [
-    ("crease_angle", 5, "5"),
-    ("noise", 0.02, "0.02"),
-    ("noise", "1%", "1%"),
-    ("detail_size", 0.3, "0.3"),
-    ("largest_movement", "0.1%", "0.1%"),
-    ("boundary", "locked", "locked"),
-    ("quality", "displacement", "displacement"),
-    ("threads", numpy.int64(1), "1"),
-]
+# Further runs than those of all hosts. Between them, they set every parameter.
+RUNS = [*runs.RUNS, "detail_size=20%", "tolerance=1e-5", "stabilization=1", "cycles=2 method=paper", "cubature=12",
+        "threads=1"]
+NOISE_RUNS = ["crease_angle=5", "noise=0.02", "noise=1%", "detail_size=0.3", "largest_movement=0.1%", "boundary=locked",
+              "quality=displacement", "threads=1"]
 
 Error = tracked_mcf.Error
 InvalidMesh, InvalidParameter = tracked_mcf.InvalidMesh, tracked_mcf.InvalidParameter
@@ -188,6 +162,19 @@ def read_vertices(path):
     return positions.tobytes(), rows["quality"] if "quality" in kind.names else None
 
 
+def keywords(settings):
+    """Returns keyword arguments for settings in the program's words."""
+    def value_of(text):
+        for type_of in (int, float):
+            try:
+                return type_of(text)
+            except ValueError:
+                pass
+        return True if text == "true" else text
+
+    return {name: value_of(text) for name, text in settings.items()}
+
+
 class WithFolder(unittest.TestCase):
     """Tests that run the program."""
 
@@ -201,34 +188,42 @@ class WithFolder(unittest.TestCase):
     def program(self, mesh, *options):
         """Returns the bytes of the vertices, the qualities and the report."""
         command = [TOOL, *self.subcommand, mesh, self.folder / "out.ply", "--quiet"]
-        subprocess.run([*command, "--report", self.folder / "out.json", *options], check=True)
+        subprocess.run([*command, "--report", self.folder / "out.json", *options], check=True, text=True,
+                       stderr=subprocess.PIPE)
         report = json.loads((self.folder / "out.json").read_text(encoding="utf-8"))
         return *read_vertices(self.folder / "out.ply"), report
 
 
 class Program(WithFolder):
-    function, given, runs = staticmethod(smooth), COARSE, RUNS
+    function, given, runs = staticmethod(smooth), COARSE_OPTIONS, RUNS
 
-    def options(self, parameters):
-        for name, value in parameters.items():
-            yield "--" + name.replace("_", "-")
-            if value is not None:
-                yield str(value)
+    def settings_of(self, run):
+        """Returns {name: value} of a run, as texts."""
+        if self.function is smooth:
+            return runs.settings_of(run, tracked_mcf.default_detail_size(VERTICES, FACES))
+        return dict(word.split("=") for word in run.split())
 
-    def test_each_parameter_gives_the_bits_of_the_program(self):
+    def test_each_run_gives_the_bits_of_the_program(self):
         mesh = self.folder / "bowl.ply"
         write_ply(mesh, VERTICES, FACES, numpy.ones(len(FACES), bool))
-        plain = self.function()[0].tobytes()
-        for name, value, option in self.runs:
-            with self.subTest(name, value=value), warnings.catch_warnings():
+        plain, _ = self.function(**keywords(self.settings_of("")))
+        for run in self.runs:
+            settings = self.settings_of(run)
+            if "strength" in settings:
+                continue  # test_strength() has it
+            with self.subTest(run), warnings.catch_warnings():
                 warnings.simplefilter("ignore")
-                others = WITH.get(name, {})
-                vertices, report = self.function(**{**others, name: value})
-                expected, quality, reported = self.program(
-                    mesh, *self.options({**self.given, **others, name: option}))
+                try:
+                    expected, quality, reported = self.program(mesh, *runs.program_options(settings))
+                except subprocess.CalledProcessError as refusal:
+                    with self.assertRaises(Error) as caught:
+                        self.function(**keywords(settings))
+                    self.assertEqual(refusal.stderr, f"tracked_mcf: {caught.exception}\n")
+                    continue
+                vertices, report = self.function(**keywords(settings))
                 self.assertEqual(vertices.tobytes(), expected)
-                if name not in ("quality", "threads"):
-                    self.assertNotEqual(expected, plain, "the parameter has no effect")
+                if run and not {"quality", "threads"} & set(settings):
+                    self.assertNotEqual(expected, plain.tobytes(), "the run is like the first")
                 if quality is not None:
                     self.assertEqual(report.pop("quality").tobytes(), quality.tobytes())
                 self.compare_reports(report, reported)
@@ -252,7 +247,8 @@ class Program(WithFolder):
 
     def test_all_parameters_are_compared(self):
         names = set(self.function()[1]["parameters"])
-        self.assertEqual(names, {name for name, _, _ in self.runs} | {"selected", "strength"})
+        tested = {name for run in self.runs for name in self.settings_of(run)}
+        self.assertEqual(names, tested | {"selected", "strength"})
 
     def test_defaults_on_a_real_mesh(self):
         moved, report = getattr(tracked_mcf, self.function.__name__)(*read_off(MESH))
@@ -267,7 +263,7 @@ class Program(WithFolder):
         selected = VERTICES[FACES].mean(axis=1)[:, 0] > 0
         write_ply(self.folder / "bowl.ply", VERTICES, FACES, selected)
         vertices, report = self.function(selected=selected)
-        expected, _, _ = self.program(self.folder / "bowl.ply", *self.options({**self.given, "selected": "s"}))
+        expected, _, _ = self.program(self.folder / "bowl.ply", *self.given, "--selected", "s")
         self.assertEqual(vertices.tobytes(), expected)
         self.assertIs(report["parameters"]["selected"], True)
         still = numpy.unique(FACES[~selected])
@@ -281,7 +277,7 @@ class Program(WithFolder):
         rows[:len(VERTICES)] = [f"{row} {s!r}" for row, s in zip(rows, strength.tolist())]
         (self.folder / "bowl.ply").write_text("\n".join([*header, *rows, ""]), encoding="ascii")
         vertices, report = self.function(strength=strength)
-        expected, _, _ = self.program(self.folder / "bowl.ply", *self.options({**self.given, "strength": "s"}))
+        expected, _, _ = self.program(self.folder / "bowl.ply", *self.given, "--strength", "s")
         self.assertEqual(vertices.tobytes(), expected)
         self.assertIs(report["parameters"]["strength"], True)
         self.assertEqual(vertices[strength == 0].tobytes(), VERTICES[strength == 0].tobytes())
@@ -296,7 +292,7 @@ class Program(WithFolder):
 
 
 class NoiseProgram(Program):
-    function, given, runs = staticmethod(remove_noise), {}, NOISE_RUNS
+    function, given, runs = staticmethod(remove_noise), [], NOISE_RUNS
     subcommand = ["remove-noise"]
 
 

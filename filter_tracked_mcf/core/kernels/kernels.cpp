@@ -39,7 +39,7 @@ namespace {
 /// The kernels of an instruction set, or null if they are not compiled for it.
 const Kernels* table_of(InstructionSet instructions) {
     constexpr const Kernels* tables[] = {&HWY_STATIC_DISPATCH(kTable), HWY_CHOOSE_SSSE3(kTable),
-                                         HWY_CHOOSE_AVX2(kTable), HWY_CHOOSE_AVX3(kTable)};
+                                         HWY_CHOOSE_AVX2(kTable)};
     return tables[static_cast<int>(instructions)];
 }
 
@@ -53,11 +53,7 @@ bool has(InstructionSet instructions) {
     const bool ssse3 = __builtin_cpu_supports("ssse3") != 0;
     const bool avx2 = __builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0 &&
                       __builtin_cpu_supports("bmi") != 0 && __builtin_cpu_supports("bmi2") != 0;
-    const bool avx512 =
-        avx2 && __builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512cd") != 0 &&
-        __builtin_cpu_supports("avx512vl") != 0 && __builtin_cpu_supports("avx512dq") != 0 &&
-        __builtin_cpu_supports("avx512bw") != 0;
-    const bool all[] = {true, ssse3, avx2, avx512};
+    const bool all[] = {true, ssse3, avx2};
     return all[static_cast<int>(instructions)];
 #endif
 }
@@ -78,14 +74,13 @@ constexpr const char* kVariable = "TRACKED_MCF_INSTRUCTIONS";
 }  // namespace
 
 std::string_view name_of(InstructionSet instructions) {
-    constexpr std::string_view names[] = {"baseline", "ssse3", "avx2", "avx512"};
+    constexpr std::string_view names[] = {"baseline", "ssse3", "avx2"};
     return names[static_cast<int>(instructions)];
 }
 
 std::vector<InstructionSet> available_instruction_sets() {
     std::vector<InstructionSet> available = {InstructionSet::Baseline};
-    for (const InstructionSet better :
-         {InstructionSet::Ssse3, InstructionSet::Avx2, InstructionSet::Avx512}) {
+    for (const InstructionSet better : {InstructionSet::Ssse3, InstructionSet::Avx2}) {
         const Kernels* const table = table_of(better);
         if (table != nullptr && table != table_of(InstructionSet::Baseline) && has(better)) {
             available.push_back(better);

@@ -21,7 +21,7 @@ namespace tracked_mcf {
 /// kernels.cpp. A kernel may include only files that define nothing but plain structs and
 /// constants: no inline functions except those that compute constants, no templates of the standard
 /// library or Eigen, no default member initializers. A compiler need not inline such code, and the
-/// linker keeps any one of several copies, perhaps the one that needs AVX-512. The test
+/// linker keeps any one of several copies, perhaps the one that needs AVX2. The test
 /// kernel_symbols checks this.
 ///
 /// A kernel calls MulAdd and its relatives where a sum of a product is to be rounded once, if the
@@ -38,12 +38,11 @@ struct Kernels {
 };
 
 /// Instruction sets that the kernels are compiled for. Baseline is that of the rest of the program,
-/// and the only one on ARM64 (NEON) and with MSVC. Avx2 means AVX2, FMA and BMI; Avx512 adds
-/// AVX-512 F, CD, VL, DQ and BW. Baseline on x86-64 and Ssse3 give the same bits; Highway 1.0 has
-/// no vectors for the former.
-enum class InstructionSet { Baseline, Ssse3, Avx2, Avx512 };
+/// and the only one on ARM64 (NEON) and with MSVC. Avx2 means AVX2, FMA and BMI. Baseline
+/// on x86-64 and Ssse3 give the same bits; Highway 1.0 has no vectors for the former.
+enum class InstructionSet { Baseline, Ssse3, Avx2 };
 
-/// Returns "baseline", "ssse3", "avx2" or "avx512".
+/// Returns "baseline", "ssse3" or "avx2".
 std::string_view name_of(InstructionSet instructions);
 
 /// Returns the instruction sets that this program was built for and this machine supports, the best

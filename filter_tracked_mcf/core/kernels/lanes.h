@@ -17,11 +17,11 @@ namespace tracked_mcf::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 /// Highway's tags of vectors: of floats, of as many words, and of half as many doubles.
-constexpr hn::CappedTag<float, 16> kFloats;
+constexpr hn::CappedTag<float, 8> kFloats;
 constexpr hn::RebindToUnsigned<decltype(kFloats)> kWords;
 constexpr hn::Repartition<double, decltype(kFloats)> kDoubles;
 
-/// Number of floats in a vector: 4, 8 or 16.
+/// Number of floats in a vector: 4 or 8.
 constexpr int kLanes = static_cast<int>(hn::MaxLanes(kFloats));
 
 using Lanes = hn::Vec<decltype(kFloats)>;
@@ -68,10 +68,6 @@ static HWY_INLINE Lanes sums_in_blocks(const Lanes* variables) {
     const Lanes high = sums_of_pairs(variables[2], variables[3]);
     return low_halves(low, high) + high_halves(low, high);
 }
-/// a's first two blocks and b's, each pair of blocks added: a0+a1 b0+b1 a2+a3 b2+b3.
-static HWY_INLINE Lanes sums_of_blocks(const Lanes& a, const Lanes& b) {
-    return hn::OddEvenBlocks(b, a) + hn::SwapAdjacentBlocks(hn::OddEvenBlocks(a, b));
-}
 /// The lower halves of a and b, plus the upper ones.
 static HWY_INLINE Lanes sums_of_halves(const Lanes& a, const Lanes& b) {
     return hn::ConcatLowerLower(kFloats, b, a) + hn::ConcatUpperUpper(kFloats, b, a);
@@ -81,12 +77,8 @@ static HWY_INLINE Lanes sums_of_halves(const Lanes& a, const Lanes& b) {
 static HWY_INLINE Lanes sums_of_lanes(const Lanes* variables) {
     if constexpr (kLanes == 4) {
         return sums_in_blocks(variables);
-    } else if constexpr (kLanes == 8) {
-        return sums_of_halves(sums_in_blocks(variables), sums_in_blocks(variables + 4));
     } else {
-        return sums_of_halves(
-            sums_of_blocks(sums_in_blocks(variables), sums_in_blocks(variables + 4)),
-            sums_of_blocks(sums_in_blocks(variables + 8), sums_in_blocks(variables + 12)));
+        return sums_of_halves(sums_in_blocks(variables), sums_in_blocks(variables + 4));
     }
 }
 
@@ -107,24 +99,12 @@ static HWY_INLINE void exchange_halves(Lanes& a, Lanes& b) {
     b = hn::ConcatUpperUpper(kFloats, b, a);
     a = lower;
 }
-/// Exchanges a's odd blocks and b's even blocks.
-static HWY_INLINE void exchange_blocks(Lanes& a, Lanes& b) {
-    const Lanes even = hn::OddEvenBlocks(hn::SwapAdjacentBlocks(b), a);
-    b = hn::OddEvenBlocks(b, hn::SwapAdjacentBlocks(a));
-    a = even;
-}
 
 /// Transposes a square matrix of rows.
 static HWY_INLINE void transpose(Lanes (&rows)[kLanes]) {
     for (int i = 0; i < kLanes; i += 4) transpose_in_blocks(rows + i);
-    if constexpr (kLanes >= 8) {
-        for (int i = 0; i < kLanes / 2; ++i) exchange_halves(rows[i], rows[i + kLanes / 2]);
-    }
-    if constexpr (kLanes == 16) {
-        for (int i = 0; i < 4; ++i) {
-            exchange_blocks(rows[i], rows[i + 4]);
-            exchange_blocks(rows[i + 8], rows[i + 12]);
-        }
+    if constexpr (kLanes == 8) {
+        for (int i = 0; i < 4; ++i) exchange_halves(rows[i], rows[i + 4]);
     }
 }
 

@@ -7,8 +7,8 @@
 
 #include <hwy/detect_compiler_arch.h>
 
-// SSE4 and the later kinds of AVX-512, whose bits are lower, are not faster here.
-#define HWY_DISABLED_TARGETS (HWY_SSE4 | (HWY_AVX3 - 1))
+// SSE4 and all kinds of AVX-512, whose bits are lower than that of AVX2, are not faster here.
+#define HWY_DISABLED_TARGETS (HWY_SSE4 | (HWY_AVX2 - 1))
 
 // ARM64's own set has vectors. Which sets an x86 processor has, kernels.cpp asks GCC and Clang.
 #if !HWY_ARCH_X86 || HWY_COMPILER_MSVC

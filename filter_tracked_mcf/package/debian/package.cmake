@@ -1,13 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# cpack -G DEB makes a Debian package of the plugin and the program, for the MeshLab that Debian has
-# installed. Like the archive's, its files are an install component of their own.
+# The fields and the files of the Debian package.
 
-set(CPACK_PROJECT_CONFIG_FILE "${CMAKE_CURRENT_LIST_DIR}/choose_component.cmake")
-# PyMeshLab is no Debian package, and a plugin for a MeshLab elsewhere cannot depend on Debian's.
-if(NOT MESHLAB_LIBRARY_DIR MATCHES "^/usr/lib/" OR NOT MESHLAB_SCALAR STREQUAL float)
-  return()
-endif()
-
+set(CPACK_PROJECT_CONFIG_FILE "${CMAKE_CURRENT_LIST_DIR}/check_tools.cmake")
 set(CPACK_DEBIAN_PACKAGE_NAME meshlab-plugin-tracked-mcf)
 # Packages of one version for the MeshLabs of several Debians differ in this revision.
 set(CPACK_DEBIAN_PACKAGE_RELEASE "1+meshlab${MESHLAB_SDK_RELEASE}")

@@ -14,9 +14,6 @@ std::map<std::string, QVariant> TrackedMcfPlugin::applyFilter(const QAction* act
                                                               unsigned int& post_condition_mask,
                                                               vcg::CallBackPos* callback) {
     const FilterOutcome outcome = filter(ID(action)).apply(document, parameters, callback);
-    // Python raises an exception when it gets control. After an MLException, PyMeshLab would raise
-    // one of its own, and keep a log that may dangle.
-    if (outcome.interrupted) return {};
     // MLException is the only exception that hosts expect.
     if (!outcome.succeeded) throw MLException(QString::fromStdString(outcome.message));
     log(kBuild + (": " + outcome.message));
@@ -25,11 +22,6 @@ std::map<std::string, QVariant> TrackedMcfPlugin::applyFilter(const QAction* act
     for (const auto& [name, output] : outcome.outputs) {
         outputs[name] = std::visit([](auto number) { return QVariant(number); }, output);
     }
-    // PyMeshLab passes numbers on, but no text: these are the codes of its UTF-8.
-    const std::string& codes = outcome.warnings;
-    outputs["warnings"] = QVariant::fromValue<Eigen::VectorXd>(
-        Eigen::Map<const Eigen::Matrix<char, Eigen::Dynamic, 1>>(codes.data(), codes.size())
-            .cast<double>());
     return outputs;
 }
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Adds the filters of the plugin to PyMeshLab through arrays, where the plugin does not fit:
+"""Adds the filters to PyMeshLab through arrays:
 
     import pymeshlab, tracked_mcf.pymeshlab
     meshes = pymeshlab.MeshSet()
@@ -7,33 +7,24 @@
     meshes.apply_coord_remove_noise()
     meshes.apply_coord_mean_curvature_flow(detail_size=pymeshlab.PercentageValue(1))
 
-help(pymeshlab.MeshSet.apply_coord_remove_noise) explains the parameters. The results have the plugin's
-bits, but coordinates that are -0 become 0. A method of the plugin that is there already stays.
+help(pymeshlab.MeshSet.apply_coord_remove_noise) explains the parameters. A coordinate that is -0 becomes 0.
 """
 
 import numpy
 import pymeshlab
 
-from . import Error, InvalidParameter, _core, default_detail_size, remove_noise, smooth
+from . import Error, InvalidParameter, _core, remove_noise, smooth
 
 __all__ = ["apply_coord_mean_curvature_flow", "apply_coord_remove_noise"]
 
 
-def _as_typed(value):
-    """Returns the decimal number that a user typed: PyMeshLab passes floats."""
-    return float(str(numpy.float32(value)))
-
-
 def _option(parameter, value, layer):
     """Returns the value that the package's function takes for one of PyMeshLab's."""
-    if parameter["type"] == "float":
-        return _as_typed(value)
     if parameter["type"] == "float | str":
-        if isinstance(value, pymeshlab.PercentageValue):  # with PyMeshLab's arithmetic, of floats
-            diagonal = numpy.float32(layer.bounding_box().diagonal())
-            return _as_typed(diagonal * (numpy.float32(value.value()) / numpy.float32(100)))
+        if isinstance(value, pymeshlab.PercentageValue):
+            return layer.bounding_box().diagonal() * value.value() / 100
         if isinstance(value, pymeshlab.PureValue):
-            return _as_typed(value.value())
+            return value.value()
         raise InvalidParameter(f"{parameter['name']} is {value!r}; give a PercentageValue or a PureValue.")
     if parameter["choices"]:
         names = dict(parameter["choices"])
@@ -64,7 +55,7 @@ def _write(meshes, positions):
 
 
 def _results(report):
-    """Returns the values of the report that both filters have under the plugin's keys."""
+    """Returns the values of the report that both filters have, under the plugin's keys."""
     volume_change = report["volume_change"]
     return {**{key: report[key] for key in ("detail_size", "largest_displacement", "rms_displacement",
                                             "area_before", "area_after", "warnings")},
@@ -88,9 +79,8 @@ def _flow_results(report):
             "error_estimate": error_estimate(report["steps"][-1]) if report["steps"] else 0.0}
 
 
-def _method(function, further_results, initial_detail_size):
-    """Makes a method of MeshSet from a function of the package, and returns the method. initial_detail_size
-    returns what the filter's dialog begins with."""
+def _method(function, further_results):
+    """Makes a method of MeshSet from a function of the package, and returns the method."""
     described = _core.filters[function.__name__]
     name = described["method"]
     known = {parameter["name"]: parameter for parameter in described["parameters"] if parameter["label"]}
@@ -103,9 +93,6 @@ def _method(function, further_results, initial_detail_size):
                 raise InvalidParameter(f"Parameter {key} not found. The parameters are {', '.join(known)}.")
             options[key] = _option(known[key], value, layer)
         vertices, faces, selection = layer.vertex_matrix(), layer.face_matrix(), layer.face_selection_array()
-        if "detail_size" not in options:
-            only = selection if selection.any() else None
-            options["detail_size"] = _as_typed(initial_detail_size(vertices, faces, selected=only))
         selected = selection if options.pop("selected", selection.any()) else None
         strength = None
         if options.pop("strength", False):
@@ -129,10 +116,9 @@ def _method(function, further_results, initial_detail_size):
             raise pymeshlab.PyMeshLabException(f"Failed to apply filter: {name}\nDetails: {error}") from error
 
     method.__name__, method.__qualname__, method.__doc__ = name, name, described["help"]
-    if not hasattr(pymeshlab.MeshSet, name):
-        setattr(pymeshlab.MeshSet, name, method)
+    setattr(pymeshlab.MeshSet, name, method)
     return method
 
 
-apply_coord_remove_noise = _method(remove_noise, _noise_results, lambda *_, **__: 0.0)
-apply_coord_mean_curvature_flow = _method(smooth, _flow_results, default_detail_size)
+apply_coord_remove_noise = _method(remove_noise, _noise_results)
+apply_coord_mean_curvature_flow = _method(smooth, _flow_results)

@@ -109,8 +109,8 @@ TEST(Confinement, AStepThatFailsIsMadeAgainWithMoreCare) {
     FlowParameters p = parameters(8, 1e-4, 7);
     p.flow = FlowKind::Conformalized;
     EXPECT_LE(outside(strip, p), 0.01);
-    // Without more care, the first step fails with AVX2 and AVX-512. Whether a later one does
-    // depends on rounding.
+    // Without more care, the first step fails with AVX2. Whether a later one does depends on
+    // rounding.
     EXPECT_GE(evolve(strip, p).steps.size(), 1U);
 }
 

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Checks that the kernels' object files share no code: kernel_symbols.sh <nm> <object file>...
-# If several files define a function, the linker keeps any one of them. If it keeps one for AVX-512,
-# other files call it on processors without AVX-512. So no symbol may be weak, and every global symbol
+# If several files define a function, the linker keeps any one of them. If it keeps one for AVX2,
+# other files call it on processors without AVX2. So no symbol may be weak, and every global symbol
 # must be in the namespace of an instruction set.
 set -euo pipefail
 nm=$1

@@ -59,10 +59,10 @@ TEST_F(InstructionSets, UnknownNamesThrow) {
 
 TEST_F(InstructionSets, UnavailableOnesThrow) {
     const auto best = available_instruction_sets().back();
-    if (best == InstructionSet::Avx512) GTEST_SKIP() << "This machine has all instruction sets.";
-    set("avx512");
+    if (best == InstructionSet::Avx2) GTEST_SKIP() << "This machine has all instruction sets.";
+    set("avx2");
     EXPECT_THROW(choose_instruction_set(), InvalidParameter);
-    EXPECT_THROW(kernels_for(InstructionSet::Avx512), InvalidParameter);
+    EXPECT_THROW(kernels_for(InstructionSet::Avx2), InvalidParameter);
 }
 
 TEST(Kernels, EachInstructionSetHasItsOwn) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "filter_tracked_mcf/parameters/pymeshlab_help.h"
+#include "filter_tracked_mcf/python/pymeshlab_help.h"
 
 #include <iomanip>
 #include <regex>
