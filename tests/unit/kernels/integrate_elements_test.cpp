@@ -246,13 +246,6 @@ TEST(InstructionSetsOfFourLanes, GiveTheSameBits) {
     }
 }
 
-std::string name_of_set(const testing::TestParamInfo<InstructionSet>& info) {
-    return std::string(name_of(info.param));
-}
-
-INSTANTIATE_TEST_SUITE_P(InstructionSets, IntegrateElementsWithEdges,
-                         testing::ValuesIn(available_instruction_sets()), name_of_set);
-
 std::string name_of_case(const testing::TestParamInfo<std::tuple<InstructionSet, bool>>& info) {
     return std::string(name_of(std::get<0>(info.param))) +
            (std::get<1>(info.param) ? "_InitialMetric" : "_PresentMetric");
