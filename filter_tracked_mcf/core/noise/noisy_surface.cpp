@@ -7,7 +7,6 @@
 #include <tuple>
 #include <utility>
 
-#include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/mesh/measures.h"
 
 namespace tracked_mcf {
@@ -154,9 +153,6 @@ SurfaceOfMesh surface_of(const Domain& domain) {
     }
     SurfaceOfMesh result{{{{}, 0}, {}, {}}, numbers_of(used), 0};
     result.edge = mean_side(mesh.positions, triangles);
-    if (!(result.edge > 0)) {
-        throw InvalidMesh("All faces are single points; there is no surface to smooth.");
-    }
     NoisySurface& surface = result.surface;
     std::int32_t origin = -1;  // keeps coordinates small where a mesh is far from 0
     for (std::size_t i = 0; i < used.size(); ++i) {

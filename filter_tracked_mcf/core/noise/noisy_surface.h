@@ -35,7 +35,7 @@ struct SurfaceOfMesh {
     double edge = 0;                     ///< mean length, mesh units
 };
 
-/// Returns the surface of a domain. Throws InvalidMesh if all its sides have length 0.
+/// Returns the surface of a domain. A triangle of it must have an area.
 SurfaceOfMesh surface_of(const Domain& domain);
 
 /// Returns the box that no step may leave: that of the positions, a tenth of its diagonal larger on

@@ -160,19 +160,19 @@ SurfaceOfMesh read_surface(const TriangleMesh& mesh, const Selection& selection,
                         parameters.boundary == NoiseBoundary::Free ? BoundaryCondition::Free
                                                                    : BoundaryCondition::Locked);
     bounding_box(domain.surface());  // throws if the size is none to compute with
-    SurfaceOfMesh result = surface_of(domain);
-    report.vertices = result.surface.stars.count();
     report.triangles = static_cast<std::int64_t>(domain.surface().triangles.size());
-    report.boundary_edges = domain.boundary_edge_count();
-    report.oriented_consistently = domain.topology().is_oriented_consistently();
-    for (const float fidelity : result.surface.fidelity) {
-        if (fidelity == 0) ++report.constrained_vertices;
-    }
     for (const Triangle& t : domain.surface().triangles) {
         if (twice_vector_area(domain.surface(), t).isZero(0)) ++report.degenerate_triangles;
     }
     if (report.degenerate_triangles == report.triangles) {
         throw InvalidMesh("All faces to be smoothed are degenerate: none has an area.");
+    }
+    SurfaceOfMesh result = surface_of(domain);
+    report.vertices = result.surface.stars.count();
+    report.boundary_edges = domain.boundary_edge_count();
+    report.oriented_consistently = domain.topology().is_oriented_consistently();
+    for (const float fidelity : result.surface.fidelity) {
+        if (fidelity == 0) ++report.constrained_vertices;
     }
     return result;
 }

@@ -339,6 +339,8 @@ TEST(RemoveNoise, RefusesWhatItCannotDo) {
     EXPECT_TRUE(same_bits(mesh, before));
     TriangleMesh point{{{1, 2, 3}}, {{0, 0, 0}}};
     EXPECT_THROW(remove_noise(point, {}, {}), InvalidMesh);
+    TriangleMesh points{{{0, 0, 0}, {1, 1, 1}}, {{0, 0, 0}, {1, 1, 1}}};
+    EXPECT_THROW(remove_noise(points, {}, {}), InvalidMesh);
     TriangleMesh empty;
     EXPECT_THROW(remove_noise(empty, {}, {}), InvalidMesh);
     TriangleMesh line = shapes::square(10);
@@ -347,6 +349,24 @@ TEST(RemoveNoise, RefusesWhatItCannotDo) {
     TriangleMesh huge = shapes::square(10);
     for (Eigen::Vector3d& p : huge.positions) p *= 1e61;
     EXPECT_THROW(remove_noise(huge, {}, {}), InvalidMesh);
+}
+
+TEST(RemoveNoise, NothingFliesAway) {
+    // Few vertices of a fan stay, and hold the others like a plate that bends.
+    std::mt19937 random(1);
+    for (int i = 0; i < 40; ++i) {
+        TriangleMesh fan = shapes::fan(40);
+        for (Eigen::Vector3d& p : fan.positions) {
+            p[2] += 0.3 * static_cast<double>(random() % 1000) / 1000;
+            fan.strength.push_back(static_cast<double>(random() % 3) / 2);
+        }
+        Eigen::AlignedBox3d box;
+        for (const Eigen::Vector3d& p : fan.positions) box.extend(p);
+        const double margin = 0.1 * std::sqrt(3.0) * box.diagonal().norm();
+        for (const Eigen::Vector3d& p : denoised(fan).positions) {
+            EXPECT_LE(box.exteriorDistance(p), margin) << i;
+        }
+    }
 }
 
 TEST(RemoveNoise, IsDefinedForBadMeshes) {
