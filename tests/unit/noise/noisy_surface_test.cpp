@@ -56,8 +56,8 @@ TEST(Sample, DoesNotDependOnTheOrderOfVertices) {
         for (std::size_t i = 0; i < sample.signs.size(); ++i) {
             const Eigen::Vector3d at =
                 (result.edge * sample.surface.positions[i] + origin).array() * 1e6;
-            found.insert({{std::round(at[0]), std::round(at[1]), std::round(at[2])},
-                          sample.signs[i]});
+            found.insert(
+                {{std::round(at[0]), std::round(at[1]), std::round(at[2])}, sample.signs[i]});
         }
         return found;
     };
