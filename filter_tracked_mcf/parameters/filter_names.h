@@ -19,8 +19,8 @@ inline constexpr FilterNames kNames = {};
 template <>
 inline constexpr FilterNames kNames<FlowParameters> = {
     "Mean Curvature Flow", "apply_coord_mean_curvature_flow",
-    "Smooths the surface by <b>mean-curvature flow</b>, which removes noise and detail below a "
-    "chosen size, and keeps sharp edges if asked to. Only positions and, if asked for, vertex "
+    "Smooths the surface by <b>mean-curvature flow</b>, which removes detail below a chosen size. "
+    "To keep creases, take <i>Remove Noise</i>. Only positions and, if asked for, vertex "
     "qualities change.<br>See Ming Chuang and Michael Kazhdan: <b>Fast Mean-Curvature Flow via "
     "Finite-Elements Tracking</b>, 2011, <a "
     "href=\"https://doi.org/10.1111/j.1467-8659.2011.01899.x\">"
@@ -30,9 +30,8 @@ template <>
 inline constexpr FilterNames kNames<NoiseParameters> = {
     "Remove Noise", "apply_coord_remove_noise",
     "Removes <b>noise</b> from scans and parts, and keeps creases and larger detail. It measures "
-    "the "
-    "noise, so the defaults suit most meshes; a mesh without noise hardly changes. Only positions "
-    "and, if asked for, vertex qualities change."};
+    "the noise, so the defaults suit most meshes; a mesh without noise stays as it is. Only "
+    "positions and, if asked for, vertex qualities change."};
 
 /// Says what is wrong where a layer has no quality for the parameter `strength`.
 inline constexpr const char* kNoQuality =
