@@ -80,8 +80,9 @@ RawVector<Triangle> oriented_triangles(const MeshTopology& topology,
         flipped[first] = 0;
         component.assign(1, static_cast<std::int32_t>(first));
         std::array<double, 2> areas = {0, 0};  // as they are, flipped
-        for (std::size_t i = 0; i < component.size(); ++i) {
-            const std::int32_t t = component[i];
+        std::size_t visited = 0;
+        while (visited < component.size()) {
+            const std::int32_t t = component[visited++];
             add_neighbours(t);
             const auto [a, b, c] = corners_of(positions, topology.triangles[t]);
             areas[flipped[t]] += twice_vector_area(a, b, c).norm();
