@@ -258,6 +258,14 @@ TEST(RemoveNoise, HalvesWavesOfTheDetailSize) {
                 1e-9 * parameters.detail_size);
 }
 
+TEST(RemoveNoise, ReportsTheDetailSizeThatItIsGiven) {
+    NoiseParameters parameters;
+    parameters.detail_size = 0.7;
+    const NoiseReport report = report_of(with_noise(shapes::geodesic_sphere(8), 0.1), parameters);
+    EXPECT_GT(report.steps, 0);
+    EXPECT_NEAR(report.detail_size, parameters.detail_size, 1e-6);
+}
+
 TEST(RemoveNoise, TakesTheNoiseItIsTold) {
     const TriangleMesh before = with_noise(shapes::geodesic_sphere(20), 0.2);
     const double edge = mean_edge_length(before);
