@@ -161,7 +161,7 @@ Parameters parameters_of(const nb::dict& given, const TriangleMesh& mesh) {
     Parameters parameters;
     for (const auto& parameter : parameter_table<Parameters>()) {
         const nb::object value = given[parameter.name.c_str()];
-        if (value.is_none() && depends_on_method(parameter)) continue;
+        if (value.is_none()) continue;
         const auto set = [&](const ParameterValue& taken) { parameter.set(parameters, taken); };
         switch (parameter.type) {
             case Parameter::Type::Switch:

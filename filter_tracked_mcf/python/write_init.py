@@ -9,13 +9,19 @@ import textwrap
 
 
 def keyword(parameter):
-    """Returns the parameter as in a signature, such as "order: int = 1"."""
-    return f"{parameter['name']}: {parameter['type']} = {parameter['default']!r}"
+    """Returns the parameter as in a signature, such as "order: int | None = 1"."""
+    optional = "" if parameter["type"].endswith("None") else " | None"
+    return f"{parameter['name']}: {parameter['type']}{optional} = {parameter['default']!r}"
 
 
 def paragraph(parameter):
-    text = textwrap.indent(textwrap.fill(parameter["help"], 100), 4 * " ")
-    return textwrap.indent(f"{keyword(parameter)}\n{text}", 8 * " ")
+    """Returns the parameter's help. help() shows it in 80 columns."""
+    def wrapped(text, columns, indent):
+        return textwrap.wrap(text, columns, initial_indent=indent * " ", subsequent_indent=12 * " ",
+                             break_on_hyphens=False)
+
+    first = f"{parameter['name']}: {parameter['type']} = {parameter['default']!r}"
+    return "\n".join(wrapped(first, 80, 8) + wrapped(parameter["help"], 80, 12))
 
 
 def main(folder, template, output):

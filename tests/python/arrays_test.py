@@ -6,6 +6,8 @@ Ends with 77, which tells CTest that the test was skipped, where the package is 
 """
 
 import _thread
+import copy
+import importlib
 import importlib.metadata
 import inspect
 import json
@@ -18,6 +20,7 @@ import sys
 import tempfile
 import threading
 import time
+import types
 import typing
 import unittest
 import warnings
@@ -53,7 +56,13 @@ WRONG = [
     ({"detail_size": "%"}, InvalidParameter, "such as '1%'"),
     ({"detail_size": "-1%"}, InvalidParameter, "detail_size is -1; give 0 or more"),
     ({"detail_size": []}, TypeError, "detail_size is []"),
-    ({"selected": [0, 1]}, InvalidParameter, "the type int64; give an array of bools"),
+    ({"selected": [0.0, 1.0]}, InvalidParameter, "the type float64; give an array of bools"),
+    ({"selected": [3042]}, InvalidParameter, "selected has an index outside 0 to 3041"),
+    ({"selected": numpy.ones(3042, int)}, InvalidParameter, "3042 integers that are 0 or 1; give an array of bools"),
+    ({"selected": []}, InvalidMesh, "No face is selected"),
+    ({"fixed": [-1]}, InvalidParameter, "fixed has an index outside 0 to 1599"),
+    ({"fixed": [True]}, InvalidParameter, "fixed has the shape (1,) and the type bool; give 1600 bools"),
+    ({"fixed": range(1600)}, InvalidMesh, "Nothing can move"),
     ({"selected": [True]}, InvalidParameter, "one for each of the 3042 faces"),
     ({"selected": numpy.zeros(3042, bool)}, InvalidMesh, "No face is selected"),
     ({"strength": [1]}, InvalidParameter, "one for each of the 1600 vertices"),
@@ -312,6 +321,33 @@ class Arrays(unittest.TestCase):
                       FACES.astype(">i4")):
             self.assertEqual(self.function(faces=faces)[0].tobytes(), expected.tobytes())
 
+    def test_none_is_the_default_of_each_parameter(self):
+        names = list(inspect.signature(getattr(tracked_mcf, self.function.__name__)).parameters)[2:]
+        nothing = {name: None for name in names if name not in COARSE}
+        self.assertEqual(self.function(**nothing)[0].tobytes(), self.function()[0].tobytes())
+
+    def test_indices_select_faces_and_fix_vertices(self):
+        chosen = VERTICES[FACES].mean(axis=1)[:, 0] > 0
+        self.assertEqual(self.function(selected=numpy.flatnonzero(chosen))[0].tobytes(),
+                         self.function(selected=chosen)[0].tobytes())
+        fixed = VERTICES[:, 1] > 0.5
+        moved, _ = self.function(fixed=fixed)
+        self.assertEqual(self.function(fixed=numpy.flatnonzero(fixed))[0].tobytes(), moved.tobytes())
+        stays = (moved == VERTICES).all(axis=1)
+        self.assertTrue(stays[fixed].all())
+        self.assertLess(stays[~fixed].mean(), 0.3)
+        weak = self.function(fixed=fixed, strength=numpy.full(1600, 0.5))[0]
+        self.assertEqual(weak[fixed].tobytes(), VERTICES[fixed].tobytes())
+        self.assertNotEqual(weak.tobytes(), moved.tobytes())
+        self.assertEqual(self.function(fixed=[])[0].tobytes(), self.function()[0].tobytes())
+
+    def test_reports_have_the_documented_keys(self):
+        kind = tracked_mcf.NoiseReport if self.function is remove_noise else tracked_mcf.FlowReport
+        report = self.function(quality="displacement")[1]
+        self.assertEqual(set(report), set(typing.get_type_hints(kind)))
+        if self.function is smooth:
+            self.assertEqual(set(report["steps"][0]), set(typing.get_type_hints(tracked_mcf._reports.StepReport)))
+
     def test_single_precision_stays(self):
         single = VERTICES.astype("f4")
         moved = self.function(single)[0]
@@ -368,6 +404,73 @@ class Arrays(unittest.TestCase):
         self.assertEqual(VERTICES.tobytes() + FACES.tobytes(), before)
 
 
+class Meshes(unittest.TestCase):
+    """Meshes of other packages. Only trimesh is installed: the others are stand-ins with their members."""
+
+    def moved(self, mesh):
+        result, report = tracked_mcf.smooth(mesh, **COARSE)
+        self.assertIs(type(result), type(mesh))
+        return result
+
+    def test_trimesh(self):
+        trimesh = self.package("trimesh")
+        mesh = trimesh.Trimesh(VERTICES, FACES, process=False)
+        normals = mesh.vertex_normals.copy()
+        result = self.moved(mesh)
+        self.assertEqual(result.vertices.tobytes(), smooth()[0].tobytes())
+        self.assertEqual(mesh.vertices.tobytes(), VERTICES.tobytes())
+        self.assertGreater(abs(result.vertex_normals - normals).max(), 0.01)
+        *_, (step, last) = tracked_mcf.steps(mesh, **COARSE)
+        self.assertEqual((step, last.vertices.tobytes()), (3, result.vertices.tobytes()))
+        self.assertEqual(tracked_mcf.default_detail_size(mesh), tracked_mcf.default_detail_size(VERTICES, FACES))
+
+    def package(self, name):
+        try:
+            return importlib.import_module(name)
+        except ImportError:
+            self.skipTest(f"needs {name}")
+
+    def test_meshio(self):
+        mesh = Stand(points=VERTICES, cells_dict={"triangle": FACES, "line": FACES[:, :2]})
+        self.assertEqual(self.moved(mesh).points.tobytes(), smooth()[0].tobytes())
+        self.assertIs(mesh.points, VERTICES)
+        mesh.cells_dict["quad"] = FACES
+        with self.assertRaisesRegex(InvalidMesh, "The mesh has quad; give triangles only"):
+            tracked_mcf.smooth(mesh)
+
+    def test_pyvista(self):
+        padded = numpy.insert(FACES, 0, 3, axis=1).ravel()
+        mesh = Stand(points=VERTICES, faces=padded, is_all_triangles=True, point_data={"Normals": VERTICES, "kept": 1},
+                     cell_data={})
+        result = self.moved(mesh)
+        self.assertEqual(result.points.tobytes(), smooth()[0].tobytes())
+        self.assertEqual((list(result.point_data), list(mesh.point_data)), (["kept"], ["Normals", "kept"]))
+        mesh.is_all_triangles = False
+        with self.assertRaisesRegex(InvalidMesh, "triangulate"):
+            tracked_mcf.smooth(mesh)
+
+    def test_open3d(self):
+        calls = []
+        mesh = Stand(vertices=Vector(VERTICES), triangles=Vector(FACES), has_vertex_normals=lambda: True,
+                     compute_vertex_normals=lambda: calls.append("vertices"))
+        self.assertEqual(numpy.asarray(self.moved(mesh).vertices).tobytes(), smooth()[0].tobytes())
+        self.assertEqual(calls, ["vertices"])
+
+    def test_anything_else_is_refused(self):
+        for mesh in (VERTICES, None, "scan.ply"):
+            with self.assertRaisesRegex(TypeError, "give arrays of vertices and faces"):
+                tracked_mcf.smooth(mesh)
+
+
+class Vector(list):
+    """Stands for Open3D's vectors, which are made from arrays."""
+
+
+class Stand(types.SimpleNamespace):
+    def copy(self):
+        return copy.deepcopy(self)
+
+
 class NoiseArrays(Arrays):
     function, wrong = staticmethod(remove_noise), WRONG + NOISE_WRONG
 
@@ -395,6 +498,22 @@ class NoiseArrays(Arrays):
             return numpy.std(z - (x * x + y * y) / 2)
 
         self.assertLess(noise(remove_noise()[0]), 0.5 * noise(VERTICES))
+
+
+class Curvature(unittest.TestCase):
+    def test_of_a_sphere(self):
+        trimesh = self.package("trimesh")
+        sphere = trimesh.creation.icosphere(5, radius=2)  # with edges of 0.075
+        curvature = tracked_mcf.mean_curvature(sphere, detail_size="10%")
+        self.assertEqual(curvature.shape, (len(sphere.vertices),))
+        self.assertLess(abs(curvature - 0.5).max(), 0.005)
+        scale = 1 + numpy.random.default_rng(1).normal(scale=0.003, size=(len(sphere.vertices), 1))
+        error = tracked_mcf.mean_curvature(scale * sphere.vertices, sphere.faces, detail_size=0.75) - 0.5
+        self.assertLess(numpy.sqrt((error**2).mean()), 0.05)
+        half = tracked_mcf.mean_curvature(sphere, selected=sphere.triangles_center[:, 2] > 0)
+        self.assertEqual(half[sphere.vertices[:, 2] < -0.1].max(), 0)
+
+    package = Meshes.package
 
 
 class Errors(unittest.TestCase):
@@ -443,6 +562,17 @@ class Progress(unittest.TestCase):
             self.assertEqual(fractions, sorted(fractions))
             self.assertEqual(fractions[-1], 1)
             self.assertRegex(" ".join(phase for _, phase in calls), "Step 1 of [1-9] ")
+
+    def test_true_draws_a_bar(self):
+        script = ("import sys, arrays_test\n"
+                  "{}"
+                  "arrays_test.smooth(depth=7, progress=True, iterations=20)\n"
+                  "list(arrays_test.Steps().steps(progress=True))")
+        for without_tqdm in "", "sys.modules['tqdm'] = sys.modules['tqdm.auto'] = None\n":
+            done = subprocess.run([sys.executable, "-c", script.format(without_tqdm)], cwd=HERE, check=True,
+                                  capture_output=True, text=True)
+            self.assertRegex(done.stderr, r"\d%[^\r]*")
+            self.assertEqual(done.stdout, "")
 
     def test_false_cancels(self):
         for function, no in ((smooth, False), (smooth, numpy.False_), (remove_noise, False)):
@@ -499,7 +629,10 @@ class Steps(unittest.TestCase):
         self.assertEqual([step for step, _ in seen], [2, 4])
         for step, moved in seen:
             self.assertEqual(moved.tobytes(), smooth(step_size=1e-3, iterations=step)[0].tobytes())
-        *_, (step, last) = self.steps(VERTICES.astype("float32"), order=2)
+        flow = self.steps(VERTICES.astype("float32"), order=2)
+        self.assertIsNone(flow.report)
+        *_, (step, last) = flow
+        self.assertEqual(len(flow.report["steps"]), 3)
         self.assertEqual((step, last.dtype), (3, numpy.float32))
         self.assertEqual(last.tobytes(), smooth(VERTICES.astype("float32"), order=2)[0].tobytes())
 
@@ -558,25 +691,27 @@ class Documents(WithFolder):
             public = getattr(tracked_mcf, function.__name__)
             keywords = inspect.signature(public).parameters
             names = list(keywords)
-            self.assertEqual(names, ["vertices", "faces", *function()[1]["parameters"], "progress"])
+            self.assertEqual(names, ["vertices", "faces", *function()[1]["parameters"], "fixed", "progress"])
+            lines = inspect.getdoc(public).splitlines()
+            self.assertLessEqual(max(map(len, lines)), 76)  # help() indents them by 4
             for name in names[2:]:
                 self.assertRegex(inspect.getdoc(public), f"\n    {name}\\b")
         for name, value in (("detail_size", 0.0), ("order", 1), ("preserve", "none"), ("cubature", 3),
                             ("absolute", False), ("selected", None), ("stabilization", None)):
             self.assertIs(type(keywords[name].default), type(value))
             self.assertEqual(keywords[name].default, value)
-        self.assertEqual(keywords["preserve"].annotation, "Literal['none', 'area', 'volume']")
+        self.assertEqual(keywords["preserve"].annotation, "Literal['none', 'area', 'volume'] | None")
         self.assertEqual([name for name in inspect.signature(tracked_mcf.steps).parameters if name != "every"], names)
         if sys.version_info >= (3, 10):  # with types such as `float | str`
             for function in (tracked_mcf.remove_noise, tracked_mcf.smooth, tracked_mcf.steps,
-                             tracked_mcf.default_detail_size):
+                             tracked_mcf.default_detail_size, tracked_mcf.mean_curvature):
                 known = {*inspect.signature(function).parameters, "return"}
                 self.assertEqual(set(typing.get_type_hints(function)), known)
         self.assertTrue((pathlib.Path(tracked_mcf.__file__).parent / "py.typed").exists())
 
     def test_wrong_calls_get_short_errors(self):
         for call in (lambda: tracked_mcf.remove_noise(VERTICES, FACES, 1),
-                     lambda: tracked_mcf.smooth(VERTICES), lambda: tracked_mcf.smooth(VERTICES, FACES, 1),
+                     lambda: tracked_mcf.smooth(VERTICES, FACES, 1),
                      lambda: tracked_mcf.steps(VERTICES, FACES, oder=2),
                      lambda: tracked_mcf.default_detail_size(VERTICES, FACES, order=2)):
             with self.assertRaises(TypeError) as raised:
@@ -584,18 +719,20 @@ class Documents(WithFolder):
             self.assertLess(len(str(raised.exception)), 100)
 
     def test_readme(self):
-        """The README's script does what the program does."""
+        """The README's script runs, and writes what it says."""
         try:
             import trimesh
         except ImportError:
             self.skipTest("needs trimesh")
         blocks = pathlib.Path(README).read_text(encoding="utf-8").split("```python\n")[1:]
         [script] = [block.split("```")[0] for block in blocks if "trimesh" in block]
-        trimesh.Trimesh(VERTICES, FACES, process=False).export(self.folder / "scan.ply")
-        subprocess.run([sys.executable, "-c", script], cwd=self.folder, check=True)
-        expected, _, _ = self.program(self.folder / "scan.ply", "--detail-size", "0.5%", "--order", "2")
-        written = numpy.frombuffer(expected, "<f8").astype("<f4")  # as trimesh does
-        self.assertEqual(read_vertices(self.folder / "smooth.ply")[0], written.tobytes())
+        done = subprocess.run([sys.executable, "-W", "error", "-c", script], cwd=self.folder, check=True,
+                              capture_output=True, text=True)
+        noise, before, after = map(float, done.stdout.split())
+        self.assertAlmostEqual(noise, 0.005, delta=0.0005)
+        self.assertTrue(0.98 * before < after < before, done.stdout)
+        radii = numpy.linalg.norm(trimesh.load_mesh(self.folder / "smooth.ply").vertices, axis=1)
+        self.assertLess(radii.std(), 0.002)  # the noise was 0.005
 
 
 if __name__ == "__main__":
