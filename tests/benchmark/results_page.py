@@ -42,7 +42,7 @@ class Page:
         self._say("Made by `run_benchmark.py` alone; [README.md](README.md) says what is measured and "
                   "how the peers are tuned. To reproduce:\n")
         self._say("```sh\nexternal/install_debian.sh benchmark && external/cgal_meshes.sh "
-                  "build/cgal-meshes\ncmake -S . -B build -DTRACKED_MCF_PLUGIN=OFF "
+                  "build/cgal-meshes\ncmake -S . -B build -DTRACKED_MCF_PLUGIN=OFF -DTRACKED_MCF_TESTS=ON "
                   "-DTRACKED_MCF_BENCHMARK=ON\ncmake --build build -j --target "
                   "tracked_mcf_benchmark\n" + self._command + "\n```\n")
         self._say(f"Unless said otherwise: medians; the noisy {self._main}; one thread; seconds of "
@@ -67,7 +67,7 @@ class Page:
                   "MeshLab's filters are those of the official PyMeshLab, which use one thread. *Beside 2* means "
                   "that two other processes, which never wait, run meanwhile. Medians; wall seconds, then "
                   "processor seconds. To reproduce:\n")
-        self._say("```sh\nexternal/pymeshlab.sh build/pymeshlab\ncmake -S . -B build -DTRACKED_MCF_PLUGIN=OFF\n"
+        self._say("```sh\nexternal/pymeshlab.sh build/pymeshlab\ncmake -S . -B build -DTRACKED_MCF_PLUGIN=OFF -DTRACKED_MCF_TESTS=ON\n"
                   "cmake --build build -j --target tracked_mcf tracked_mcf_benchmark\n" + self._command + "\n```\n")
         self._machine()
         self._whole_jobs()

@@ -37,6 +37,9 @@ SHARED_THIN_SCANS = ["armadillo_50k.ply", "hand_8k.ply", "elephant_5cc.ply"]
 SKIPPED = 77
 CLAIM = ("- **holds**: ", "- **does not hold**: ")
 
+# How the line begins that names the command of a page.
+MADE_BY = "Made by"
+
 PAPER = "paper"
 CONVERGED = "converged"
 
@@ -65,7 +68,15 @@ class Experiment:
         self._rows = []
         self._text = io.StringIO()
         self._missed = 0
-        self.say(f"# {description.strip().splitlines()[0]}\n\n{origin()}\n")
+        self.say(f"# {description.strip().splitlines()[0]}\n\n{self._command()} {origin()}\n")
+
+    def _command(self):
+        """Returns a sentence with the command that makes the page. It names no folder of this machine."""
+        script = pathlib.Path(sys.argv[0]).resolve().relative_to(TOP)
+        words = [f"--{name} FOLDER" for name in ("meshes", "pairs") if getattr(self.options, name, None)]
+        if self.options.quick:
+            words.append("--quick")
+        return f"{MADE_BY} `{' '.join([str(script), *words])}`."
 
     def meshes(self, shared, cgal):
         """Returns the paths of the meshes named `shared` if the folder has them, else of `cgal`."""
@@ -195,12 +206,19 @@ def origin():
     return f"Commit {commit}, {datetime.date.today()}, {os.cpu_count()} cores, {processor()}."
 
 
+def link(folder, name, lines):
+    """Returns a line with links to a page and its pictures, and the command that makes it."""
+    pictures = [f"[{path.name}]({path.name})" for path in sorted(folder.glob(f"{name[:-3]}*.png"))]
+    command = [f"`{line.split('`')[1]}`" for line in lines if line.startswith(MADE_BY)]
+    return ", ".join([f"- [{lines[0][2:].rstrip('.')}]({name})", *command, *pictures])
+
+
 def write_list_of_pages(folder):
     """Writes the folder's README.md: what the pages say of the paper's claims, and links to them."""
     pages = {path.name: path.read_text(encoding="utf-8").splitlines()
              for path in sorted(folder.glob("*.md")) if path.name != "README.md"}
     claims = [line for lines in pages.values() for line in lines if line.startswith(CLAIM)]
-    links = [f"- [{lines[0][2:].rstrip('.')}]({name})" for name, lines in pages.items()]
+    links = [link(folder, name, lines) for name, lines in pages.items()]
     (folder / "README.md").write_text("\n".join(
         ["# Results of the experiments", "", *links, "", "The paper's claims:", "", *claims, ""]),
         encoding="utf-8")
