@@ -82,6 +82,16 @@ void MeshFile::set_quality(const std::vector<double>& quality) {
     document_->set_quality(quality);
 }
 
+void MeshFile::write_doubles() {
+    document_->write_doubles();
+}
+
+bool MeshFile::writes_floats(const fs::path& file) const {
+    const Format* const format = format_of(file);
+    return format->convert == convert_to_stl ||
+           (format == format_of(path_) && document_->writes_floats());
+}
+
 void MeshFile::write(const TriangleMesh& moved, std::ostream& out, const fs::path& file) const {
     const Format* const format = format_of(file);
     if (format == format_of(path_))

@@ -43,6 +43,13 @@ public:
     /// Gives each vertex a number, which write() writes to a PLY file as the property `quality`.
     void set_quality(const std::vector<double>& quality);
 
+    /// Makes write() write coordinates and normals as doubles where the format has them. Otherwise
+    /// a PLY file keeps its types.
+    void write_doubles();
+
+    /// Returns whether write() rounds coordinates to floats.
+    bool writes_floats(const std::filesystem::path& file) const;
+
     /// Writes the mesh with the positions of `moved`, which triangle_mesh() made, in the format of
     /// the extension of `file`; PLY and STL are binary.
     void write(const TriangleMesh& moved, std::ostream& out,

@@ -9,13 +9,15 @@
 namespace tracked_mcf {
 namespace {
 
-/// Reads `content`, doubles x of every vertex, and returns what is written.
+/// Reads `content`, multiplies x of every vertex by 2, and returns what is written, in doubles.
 std::string written_with_x_doubled(const std::string& content) {
     const TemporaryFolder folder;
     write_file(folder / "in.ply", content);
     MeshFile file(folder / "in.ply");
     TriangleMesh mesh = file.triangle_mesh();
     for (auto& p : mesh.positions) p.x() *= 2;
+    file.write_doubles();
+    EXPECT_FALSE(file.writes_floats("out.ply"));
     return written(file, mesh, "out.ply");
 }
 
@@ -50,6 +52,40 @@ TEST(Ply, EveryEncodingIsRead) {
     big += '\3';
     for (const int i : {0, 1, 2}) big += reversed(packed(i));
     EXPECT_EQ(written_with_x_doubled(big), kPlainInDoubles + kPlainBody);
+}
+
+TEST(Ply, CoordinatesAndNormalsKeepTheirType) {
+    const std::string head =
+        "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\n"
+        "property float y\nproperty float z\nproperty double nx\nproperty float ny\n"
+        "property float nz\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n";
+    const std::string face = packed(std::uint8_t{3}, 0, 1, 2);
+    const auto vertex = [](float x, float y, double nx, float nz) {
+        return packed(x, y, 0.f) + packed(nx) + packed(0.f, nz);
+    };
+    const TemporaryFolder folder;
+    write_file(folder / "in.ply",
+               head + vertex(0, 0, 1, 0) + vertex(1, 0, 1, 0) + vertex(0, .1f, 1, 0) + face);
+    const MeshFile file(folder / "in.ply");
+    EXPECT_TRUE(file.writes_floats("out.ply"));
+    EXPECT_TRUE(file.writes_floats("out.stl"));
+    EXPECT_FALSE(file.writes_floats("out.obj"));
+    TriangleMesh mesh = file.triangle_mesh();
+    mesh.positions[1].x() = 1 + 1e-9;
+    EXPECT_EQ(written(file, mesh, "out.ply"),
+              head + vertex(0, 0, 0, 1) + vertex(1, 0, 0, 1) + vertex(0, .1f, 0, 1) + face);
+}
+
+TEST(Ply, IntegerCoordinatesBecomeDoubles) {
+    const TemporaryFolder folder;
+    write_file(folder / "in.ply",
+               "ply\nformat ascii 1.0\nelement vertex 3\nproperty int x\nproperty int y\n"
+               "property int z\nelement face 1\nproperty list uchar int vertex_indices\n"
+               "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+    const MeshFile file(folder / "in.ply");
+    EXPECT_FALSE(file.writes_floats("out.ply"));
+    EXPECT_NE(written(file, file.triangle_mesh(), "out.ply").find("property double x\n"),
+              std::string::npos);
 }
 
 TEST(Ply, BigEndianDoublesAreRead) {
@@ -218,8 +254,9 @@ TEST(Ply, TheQualityReplacesThePropertyOfThatNameOrComesLast) {
     };
     EXPECT_EQ(with_quality(header + coordinates("float") + rest +
                            packed(0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 1.f, .5f) + face),
-              header + coordinates("double") + "property double quality\n" + rest +
-                  packed(0., 0., 0., .25, 1., 0., 0., -1., 0., 1., .5, 1e-9) + face);
+              header + coordinates("float") + "property double quality\n" + rest +
+                  packed(0.f, 0.f, 0.f) + packed(.25) + packed(1.f, 0.f, 0.f) + packed(-1.) +
+                  packed(0.f, 1.f, .5f) + packed(1e-9) + face);
     EXPECT_EQ(with_quality(header + "property float quality\n" + coordinates("double") + rest +
                            packed(9.f, 0., 0., 0., 9.f, 1., 0., 0., 9.f, 0., 1., .5) + face),
               header + "property double quality\n" + coordinates("double") + rest +

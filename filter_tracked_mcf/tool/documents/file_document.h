@@ -52,6 +52,13 @@ public:
     /// Returns what set_quality() was given.
     const std::vector<double>& quality() const { return quality_; }
 
+    /// Makes write() write coordinates and normals as doubles. Otherwise a PLY file keeps its
+    /// types.
+    void write_doubles() { doubles_ = true; }
+
+    /// Returns whether write() rounds coordinates to floats.
+    virtual bool writes_floats() const { return false; }
+
     /// Names what the file has besides positions, polygons and colours of vertices: what other
     /// formats do not keep.
     virtual std::vector<std::string> extras() const = 0;
@@ -61,11 +68,14 @@ public:
     virtual void write(std::ostream& out, const Points& positions) const = 0;
 
 protected:
+    bool doubles() const { return doubles_; }
+
     Points positions_;
     Polygons polygons_;
 
 private:
     std::vector<double> quality_;
+    bool doubles_ = false;
 };
 
 /// A file format, known by the extension of its files.

@@ -110,16 +110,22 @@ Polygons read_polygons(const PlyElement& faces, std::size_t vertex_count) {
     return polygons;
 }
 
-/// Returns double for what has been computed in doubles, even if it was read as floats: far from
-/// the origin, floats cannot hold a smooth surface.
-PlyType written_type(const PlyElement& element, const PlyProperty& property) {
+/// Returns whether the property is a number that a flow changes.
+bool is_computed(const PlyElement& element, const PlyProperty& property) {
     const bool is_vertex = element.name == "vertex", is_face = element.name == "face";
-    const bool computed = (is_vertex && index_in(kCoordinates, property.name) >= 0) ||
-                          ((is_vertex || is_face) && index_in(kNormal, property.name) >= 0);
-    return computed && !property.is_list() ? PlyType::Double : property.type;
+    return !property.is_list() &&
+           ((is_vertex && index_in(kCoordinates, property.name) >= 0) ||
+            ((is_vertex || is_face) && index_in(kNormal, property.name) >= 0));
 }
 
-void write_header(std::ostream& out, const PlyTable& table) {
+/// Returns the file's own type, but double for computed numbers that are neither float nor double
+/// in the file, or for all of them if `doubles` is true.
+PlyType written_type(const PlyElement& element, const PlyProperty& property, bool doubles) {
+    if (!is_computed(element, property)) return property.type;
+    return doubles || property.type != PlyType::Float ? PlyType::Double : PlyType::Float;
+}
+
+void write_header(std::ostream& out, const PlyTable& table, bool doubles) {
     out << "ply\nformat binary_little_endian 1.0\n";
     for (const std::string& comment : table.comments) out << comment << '\n';
     for (const PlyElement& element : table.elements) {
@@ -127,7 +133,8 @@ void write_header(std::ostream& out, const PlyTable& table) {
         for (const PlyProperty& property : element.properties) {
             out << "property ";
             if (property.is_list()) out << "list " << name_of(property.count_type) << ' ';
-            out << name_of(written_type(element, property)) << ' ' << property.name << '\n';
+            out << name_of(written_type(element, property, doubles)) << ' ' << property.name
+                << '\n';
         }
     }
     out << "end_header\n";
@@ -144,15 +151,15 @@ Points face_normals(const Points& positions, const Polygons& polygons) {
 /// Writes the rows of an element with coordinates from `positions`, unless null, and normals from
 /// `normals`, unless empty; a zero normal keeps the old one.
 void write_rows(std::ostream& out, const PlyElement& element, const Points* positions,
-                const Points& normals) {
+                const Points& normals, bool doubles) {
     struct Source {
-        bool is_double;
+        bool computed, is_double;
         int coordinate, normal;  ///< or -1
     };
     std::vector<Source> sources;
     for (const PlyProperty& property : element.properties) {
-        const bool is_number = !property.is_list();
-        sources.push_back({is_number && written_type(element, property) == PlyType::Double,
+        sources.push_back({is_computed(element, property),
+                           written_type(element, property, doubles) == PlyType::Double,
                            positions ? index_in(kCoordinates, property.name) : -1,
                            normals.empty() ? -1 : index_in(kNormal, property.name)});
     }
@@ -162,11 +169,11 @@ void write_rows(std::ostream& out, const PlyElement& element, const Points* posi
                                  std::string_view bytes) {
         const Source& source =
             sources[static_cast<std::size_t>(&property - element.properties.data())];
-        if (source.is_double) {
+        if (source.computed) {
             double number = number_at(bytes.data(), property.type);
             if (source.coordinate >= 0) number = (*positions)[row][source.coordinate];
             if (source.normal >= 0 && !normals[row].isZero(0)) number = normals[row][source.normal];
-            block += as_bytes(number);
+            block += source.is_double ? as_bytes(number) : as_bytes(static_cast<float>(number));
         } else {
             block += bytes;
         }
@@ -184,6 +191,13 @@ PlyDocument::PlyDocument(PlyTable table) : table_(std::move(table)) {
     positions_ = read_positions(element_with_rows(table_, "vertex", "vertices"));
     polygons_ = read_polygons(element_with_rows(table_, "face", "faces; a surface is needed"),
                               positions_.size());
+}
+
+bool PlyDocument::writes_floats() const {
+    const auto& properties = vertices().properties;
+    return !doubles() && std::all_of(properties.begin(), properties.end(), [](const auto& p) {
+        return index_in(kCoordinates, p.name) < 0 || p.type == PlyType::Float;
+    });
 }
 
 std::vector<Color> PlyDocument::vertex_colors() const {
@@ -227,17 +241,17 @@ void PlyDocument::write(std::ostream& out, const Points& positions) const {
         }
     }
     const PlyTable& table = with_quality ? *with_quality : table_;
-    write_header(out, table);
+    write_header(out, table, doubles());
     for (const PlyElement& element : table.elements) {
         Points normals;
         if (element.name == "vertex") {
             if (has_normals(element)) {
                 normals = corner_normals(positions, polygons_, polygons_.corners, positions.size());
             }
-            write_rows(out, element, &positions, normals);
+            write_rows(out, element, &positions, normals, doubles());
         } else if (element.name == "face") {
             if (has_normals(element)) normals = face_normals(positions, polygons_);
-            write_rows(out, element, nullptr, normals);
+            write_rows(out, element, nullptr, normals, doubles());
         } else {
             out << element.rows;
         }

@@ -12,6 +12,7 @@ public:
     /// Throws UnreadableFile if a part of a surface is missing or out of range.
     explicit PlyDocument(PlyTable table);
 
+    bool writes_floats() const override;
     std::vector<Color> vertex_colors() const override;
     std::vector<std::string> extras() const override;
 
