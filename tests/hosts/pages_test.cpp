@@ -70,8 +70,9 @@ void expect_table(const std::string& file, const std::string& heading, const std
 
 TEST(Pages, TablesHaveTheNamesAndDefaultsOfAllParameters) {
     const char* const in_dialogs = "\n\\| `([a-z_]+)` \\| ([^|]*) \\|";
-    expect_table<FlowParameters>("README.md", "\n## Parameters", in_dialogs, true);
-    expect_table<NoiseParameters>("README.md", "\n## Remove Noise", in_dialogs, true);
+    const char* const file = "filter_tracked_mcf/parameters/README.md";
+    expect_table<FlowParameters>(file, "\n## Mean Curvature Flow", in_dialogs, true);
+    expect_table<NoiseParameters>(file, "\n## Remove Noise", in_dialogs, true);
     expect_table<FlowParameters>("filter_tracked_mcf/tool/README.md", "\nFurther options",
                                  "\n\\| `--([a-z-]+) [^`]*` \\| ([^| ]+) \\|", false);
 }
