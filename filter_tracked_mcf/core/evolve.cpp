@@ -108,6 +108,8 @@ void compare(const TriangleMesh& before, const std::vector<Eigen::Vector3d>& aft
     }
     report.largest_displacement = std::sqrt(largest);
     report.rms_displacement = std::sqrt(squares / static_cast<double>(report.vertices));
+    if (selection.empty() && report.boundary_edges == 0 && report.oriented_consistently)
+        report.volume_before = enclosed_volume(before);
     report.volume_change =
         parallel_sum(static_cast<std::int64_t>(before.triangles.size()), 0.0,
                      [&](std::int64_t begin, std::int64_t end) {

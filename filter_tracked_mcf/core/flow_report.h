@@ -64,6 +64,7 @@ struct FlowReport {
     /// surface has moved along its normals. Of a closed surface, it is the change of the enclosed
     /// volume. Means nothing unless the triangles are oriented consistently.
     double volume_change = 0;
+    double volume_before = 0;  ///< enclosed, mesh units³; 0 unless all of a closed surface flows
     bool oriented_consistently = true;
     double largest_displacement = 0;  ///< of a vertex, mesh units
     double rms_displacement = 0;      ///< of the referenced vertices, mesh units

@@ -32,6 +32,7 @@ struct NoiseReport {
     double area_before = 0, area_after = 0;  ///< of the smoothed triangles, mesh units²
     /// Volume between the initial and the final surface, mesh units³, see FlowReport.
     double volume_change = 0;
+    double volume_before = 0;  ///< see FlowReport
     bool oriented_consistently = true;
     /// Per vertex of the mesh: how far it has moved along the normal of the result, mesh units.
     /// Empty unless NoiseParameters::quality asks for it.

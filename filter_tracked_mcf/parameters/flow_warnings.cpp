@@ -33,11 +33,11 @@ std::string early_stop(const FlowReport& report, int iterations) {
                    "detail size or step size.";
         case Stop::Pinched:
             return (made > 0 ? stopped : "Nothing has moved: ") +
-                   "so much has pinched that preserving would blow up what is left.";
+                   "so much has pinched that preserving would inflate what is left.";
         case Stop::StepFailed:
             return (made > 0 ? stopped : "Nothing has moved: ") + "step " +
                    std::to_string(made + 1) +
-                   " failed, in 16 smaller steps, too: the surface left its bounds, or the "
+                   " failed, even in 16 smaller steps: the surface left its bounds, or the "
                    "equations could not be solved. Take a smaller detail size or step size, or a "
                    "greater depth.";
         case Stop::NotPreserved:
@@ -120,35 +120,6 @@ std::string shortfall(const FlowReport& report, double tolerance) {
 bool converged(const FlowReport& report) {
     return std::all_of(report.steps.begin(), report.steps.end(),
                        [](const StepReport& step) { return step.reached_tolerance; });
-}
-
-std::string changes(const FlowReport& report) {
-    std::ostringstream text;
-    text.precision(3);
-    if (report.steps.empty()) text << "Nothing has moved. ";
-    if (report.unselected_triangles > 0) {
-        text << "Only the " << report.triangles + report.zero_strength_triangles << " selected of "
-             << report.triangles + report.zero_strength_triangles + report.unselected_triangles
-             << " faces may move. ";
-    }
-    if (report.zero_strength_triangles > 0) {
-        text << report.zero_strength_triangles
-             << " faces stay, because their vertices have strength 0. ";
-    }
-    if (report.steps.empty()) return text.str().substr(0, text.str().size() - 1);
-    if (report.stop == Stop::None) {
-        text << (report.has_strengths ? "Where the strength is 1, waves" : "Waves") << " of length "
-             << report.detail_size << " keep half of their amplitude. ";
-    }
-    text << "The step size was " << report.step_size
-         << " squared units of the mesh. The vertices moved by up to "
-         << report.largest_displacement << ", RMS " << report.rms_displacement
-         << "; the area changed by "
-         << 100 * (report.area_after - report.area_before) / report.area_before << " %";
-    if (report.oriented_consistently)
-        text << ", the volume by " << report.volume_change << " cubic units";
-    text << ".";
-    return text.str();
 }
 
 std::vector<std::string> warnings_of(const FlowParameters& parameters, const FlowReport& report,

@@ -12,10 +12,6 @@ namespace tracked_mcf {
 /// Returns whether all steps reached the tolerance.
 bool converged(const FlowReport& report);
 
-/// Says in a sentence or two what was removed and how far the surface has moved: the detail size
-/// and δ, displacements, and the change of area and volume.
-std::string changes(const FlowReport& report);
-
 /// Returns up to five warnings for a user. If the flow stopped before its last step: where, why,
 /// and what to do. If the step size was limited, the cells are too wide for the detail size, or a
 /// step removed more than a tenth of the area: how far, and what to do. If steps did not reach the

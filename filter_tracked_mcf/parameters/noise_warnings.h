@@ -8,9 +8,6 @@
 
 namespace tracked_mcf {
 
-/// Says in a few sentences what the noise was, what was kept, and how far the surface has moved.
-std::string changes(const NoiseReport& report);
-
 /// Returns a warning for a user if nothing can move. `advice` is for solvers that stop short, which
 /// this filter has not.
 std::vector<std::string> warnings_of(const NoiseParameters& parameters, const NoiseReport& report,

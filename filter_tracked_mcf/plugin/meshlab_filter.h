@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <sstream>
+#include <string>
 #include <vector>
 
 #include "filter_tracked_mcf/parameters/filter_names.h"
@@ -29,6 +31,13 @@ struct MeshLabFilter {
     FilterOutcome (*apply)(MeshDocument& document, const RichParameterList& parameters,
                            vcg::CallBackPos* callback);
 };
+
+/// Passes each line of the message to `log`, the first after the name of the build.
+template <class Log>
+void log_lines(const std::string& message, const Log& log) {
+    std::istringstream lines(kBuild + (": " + message));
+    for (std::string line; std::getline(lines, line);) log(line);
+}
 
 /// Returns the plugin's filters. Their places are MeshLab's identifiers of its actions.
 const std::vector<MeshLabFilter>& meshlab_filters();

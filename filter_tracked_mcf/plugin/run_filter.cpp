@@ -5,14 +5,13 @@
 #include <exception>
 #include <limits>
 #include <new>
-#include <numeric>
-#include <sstream>
 #include <string>
 
 #include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/parameter_table.h"
 #include "filter_tracked_mcf/parameters/flow_warnings.h"
 #include "filter_tracked_mcf/parameters/noise_warnings.h"
+#include "filter_tracked_mcf/parameters/summary.h"
 
 namespace tracked_mcf {
 
@@ -68,26 +67,10 @@ namespace {
 
 const char* const kAdvice = "Look at the result; a smaller detail size or depth may help.";
 
-double seconds_of(const std::vector<StepReport>& steps) {
-    return std::accumulate(steps.begin(), steps.end(), 0.0, [](double sum, const StepReport& step) {
-        return sum + step.assemble_seconds + step.solve_seconds;
-    });
-}
-
-std::string after_summary(const std::vector<std::string>& warnings) {
-    std::string text;
-    for (const std::string& warning : warnings) text += " Warning: " + warning;
-    return text;
-}
-
 template <class Report>
 double volume_change(const Report& report) {
     return report.oriented_consistently ? report.volume_change
                                         : std::numeric_limits<double>::quiet_NaN();
-}
-
-std::string constrained(std::int64_t count) {
-    return count > 0 ? " (" + std::to_string(count) + " constrained)" : "";
 }
 
 double error_estimate(Solver solver, const StepReport& step) {
@@ -121,31 +104,16 @@ std::uint64_t checksum(const TriangleMesh& mesh) {
     return sum;
 }
 
-std::string summary(const FlowParameters& parameters, const FlowReport& report) {
-    std::ostringstream text;
-    text.precision(3);
-    text << "Smoothed " << report.vertices << " vertices"
-         << constrained(report.constrained_vertices) << " by " << report.steps.size()
-         << (report.steps.size() == 1 ? " step" : " steps") << " of "
-         << (parameters.flow == FlowKind::Conformalized ? "conformalized " : "")
-         << "mean-curvature flow: depth " << report.depth << ", " << report.unknowns << " unknowns"
-         << constrained(report.constrained_unknowns) << ", " << report.setup_seconds
-         << " s for the set-up and " << seconds_of(report.steps) << " s for the steps. "
-         << changes(report);
-    if (report.degenerate_triangles > 0) {
-        text << " " << report.degenerate_triangles << " faces have zero area and were ignored.";
-    }
-    return text.str() + after_summary(warnings_of(parameters, report, kAdvice));
+template <class Parameters, class Report>
+std::string message_of(const Parameters& parameters, const Report& report) {
+    std::string text = summary(parameters, report);
+    for (const std::string& warning : warnings_of(parameters, report, kAdvice))
+        text += "\nWarning: " + warning;
+    return text;
 }
 
-std::string summary(const NoiseParameters& parameters, const NoiseReport& report) {
-    std::ostringstream text;
-    text.precision(3);
-    text << "Removed noise from " << report.vertices << " vertices"
-         << constrained(report.constrained_vertices) << " in " << report.seconds << " s. "
-         << changes(report) << after_summary(warnings_of(parameters, report, kAdvice));
-    return text.str();
-}
+template std::string message_of(const FlowParameters&, const FlowReport&);
+template std::string message_of(const NoiseParameters&, const NoiseReport&);
 
 Outputs outputs_of(const FlowParameters& parameters, const FlowReport& report) {
     const double error =

@@ -39,9 +39,9 @@ namespace run_filter_detail {
 /// Returns a checksum of the bits of all positions and triangles.
 std::uint64_t checksum(const TriangleMesh& mesh);
 
-/// Describes the report in a few sentences, with its warnings.
-std::string summary(const FlowParameters& parameters, const FlowReport& report);
-std::string summary(const NoiseParameters& parameters, const NoiseReport& report);
+/// Returns the summary() of a run and its warnings, in lines.
+template <class Parameters, class Report>
+std::string message_of(const Parameters& parameters, const Report& report);
 
 /// Returns, in units of the mesh and of the surface that flows:
 /// - `detail_size`, `step_size` (δ), `depth`, `cell_size`, `unknowns`,
@@ -98,7 +98,7 @@ FilterOutcome run_filter(VcgMesh& mesh, const Parameters& parameters, const Laye
     }
     write_positions(moved, mesh);
     if (!report.quality.empty()) write_quality(report.quality, mesh);
-    return {true, summary(parameters, report), outputs_of(parameters, report)};
+    return {true, message_of(parameters, report), outputs_of(parameters, report)};
 }
 
 }  // namespace tracked_mcf

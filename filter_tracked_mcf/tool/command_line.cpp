@@ -47,8 +47,8 @@ struct ProgramTexts<FlowParameters> {
         "Examples:\n"
         "  tracked_mcf scan.ply smooth.ply\n"
         "      the defaults: removes the finest noise\n"
-        "  tracked_mcf scan.ply smooth.ply --detail-size 0.5% --order 2\n"
-        "      removes detail smaller than 0.5 % of the model's diagonal and keeps larger shapes\n"
+        "  tracked_mcf scan.ply smooth.ply --detail-size 2% --order 2\n"
+        "      removes detail smaller than 2 % of the model's diagonal and keeps larger shapes\n"
         "  tracked_mcf face.obj face_smooth.obj --depth 8 --boundary free\n"
         "      resolves finer detail, and lets the rim move\n"
         "  tracked_mcf scan.ply smooth.ply --preserve volume\n"
@@ -121,7 +121,7 @@ Length length_of(const std::string& option, std::string text) {
     if (length.in_per_cent) text.pop_back();
     if (!CLI::detail::lexical_cast(text, length.value)) {
         throw CLI::ValidationError(
-            option, "give a length such as 1.5, or 0.5% of the bounding box's diagonal");
+            option, "give a length such as 1.5, or 2% of the bounding box's diagonal");
     }
     return length;
 }
@@ -223,8 +223,13 @@ void add_files(CLI::App& app, CommandLine& line) {
     add_path(app, "--report", line.report,
              help_of("Write sizes, times, residuals, error estimates and memory to a JSON file."))
         ->type_name("FILE.json");
+    app.add_flag("--double", line.doubles,
+                 help_of("Write a PLY file's coordinates and normals as doubles. Without this "
+                         "option they keep their type."));
     app.add_flag("--quiet", line.quiet,
                  help_of("No summary and no progress bar; errors and warnings only."));
+    app.add_flag("--verbose", line.verbose,
+                 help_of("The summary also has the numbers of the grid and of the solver."));
 }
 
 /// An empty value is a mistake, such as a variable of a script that is not set.

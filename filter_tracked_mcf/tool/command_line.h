@@ -19,7 +19,9 @@ struct CommandLine {
     std::string selected;  ///< property of INPUT that selects faces; empty for all faces
     std::string strength;  ///< property of INPUT's vertices; empty for none
     int every = 0;         ///< every how many steps the surface is written, too; 0 for never
+    bool doubles = false;  ///< whether PLY files get doubles, whatever INPUT has
     bool quiet = false;
+    bool verbose = false;  ///< whether the numbers of grid and solver are printed, too
 
     /// What --help or --version print. Unless it is empty, there is nothing else to do.
     std::string answer;

@@ -11,6 +11,7 @@
 #include "filter_tracked_mcf/core/parameter_table.h"
 #include "filter_tracked_mcf/parameters/length.h"
 #include "filter_tracked_mcf/parameters/run.h"
+#include "filter_tracked_mcf/parameters/summary.h"
 #include "filter_tracked_mcf/tool/command_line.h"
 #include "filter_tracked_mcf/tool/file_error.h"
 #include "filter_tracked_mcf/tool/interrupts.h"
@@ -73,6 +74,8 @@ void smooth(CommandLineOf<Parameters> line) {
 
     MeshFile file(line.input);
     TriangleMesh mesh = file.triangle_mesh();
+    if (line.doubles) file.write_doubles();
+    mesh.single_precision = file.writes_floats(line.output);
     set_lengths(line, &mesh);
     Selection selection;
     if (!line.selected.empty()) selection = file.selection_by(line.selected);
@@ -101,7 +104,11 @@ void smooth(CommandLineOf<Parameters> line) {
     if (interrupted()) return;  // the end of the last temporary file ends the program
     output.commit();
     if (report_file) report_file->commit();
-    if (!line.quiet) std::cout << summary(line, report) << std::flush;
+    if (!line.quiet) {
+        std::cout << summary(line.parameters, report) << '\n';
+        if (line.verbose) std::cout << solver_details(line.parameters, report);
+        std::cout << line.output.u8string() << " was written.\n" << std::flush;
+    }
     for (const std::string& warning : all_warnings) complain("warning: " + warning);
 }
 

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "filter_tracked_mcf/tool/report_json.h"
 
-#include <algorithm>
-#include <iomanip>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <variant>
 
 #include "filter_tracked_mcf/parameters/flow_warnings.h"
@@ -44,46 +41,6 @@ Json as_json(const ReportValue& value) {
     return std::visit([](const auto& held) { return as_json(held); }, value.value);
 }
 
-/// Says how the steps were solved, such as "4 to 6 iterations of conjugate gradients".
-std::string effort(const FlowParameters& parameters, const std::vector<StepReport>& steps) {
-    const auto [least, most] = std::minmax_element(
-        steps.begin(), steps.end(),
-        [](const auto& a, const auto& b) { return a.solver_iterations < b.solver_iterations; });
-    const bool cycles = parameters.solver == Solver::OneWCycle;
-    std::ostringstream text;
-    text << least->solver_iterations;
-    if (most->solver_iterations > least->solver_iterations)
-        text << " to " << most->solver_iterations;
-    text << (cycles ? " W-cycle" : " iteration") << (most->solver_iterations == 1 ? "" : "s");
-    if (!cycles) text << " of conjugate gradients";
-    return text.str();
-}
-
-double total_seconds(const FlowReport& report) {
-    double seconds = report.setup_seconds;
-    for (const StepReport& step : report.steps)
-        seconds += step.assemble_seconds + step.solve_seconds;
-    return seconds;
-}
-
-template <class Report>
-std::string counts(const CommandLine& line, const Report& report) {
-    std::ostringstream text;
-    text << line.input.u8string() << ": " << report.vertices << " vertices, " << report.triangles
-         << " triangles";
-    if (report.degenerate_triangles > 0) {
-        text << ", of which " << report.degenerate_triangles << " have zero area and were ignored";
-    }
-    return text.str();
-}
-
-template <class Report>
-std::string constrained(const Report& report) {
-    if (report.constrained_vertices == 0) return {};
-    return "\n" + std::to_string(report.constrained_vertices) +
-           " vertices are constrained: they keep their positions";
-}
-
 template <class Parameters, class Report>
 std::string json_of(const CommandLineOf<Parameters>& line, const Report& report,
                     const std::vector<std::string>& warnings) {
@@ -109,34 +66,6 @@ std::string report_json(const CommandLineOf<FlowParameters>& line, const FlowRep
 std::string report_json(const CommandLineOf<NoiseParameters>& line, const NoiseReport& report,
                         const std::vector<std::string>& warnings) {
     return json_of(line, report, warnings);
-}
-
-std::string summary(const CommandLineOf<FlowParameters>& line, const FlowReport& report) {
-    std::ostringstream text;
-    text << counts(line, report) << "\ndepth " << report.depth << ": " << report.cells << " cells, "
-         << report.unknowns << " unknowns";
-    if (report.constrained_unknowns > 0)
-        text << ", of which " << report.constrained_unknowns << " are constrained";
-    text << constrained(report);
-    if (!report.steps.empty())
-        text << "\nsolved by " << effort(line.parameters, report.steps) << " in each step";
-    text << "\n"
-         << changes(report) << "\n"
-         << report.steps.size() << (report.steps.size() == 1 ? " step in " : " steps in ")
-         << std::fixed << std::setprecision(1) << total_seconds(report)
-         << " s: " << line.output.u8string() << "\n";
-    return text.str();
-}
-
-std::string summary(const CommandLineOf<NoiseParameters>& line, const NoiseReport& report) {
-    std::ostringstream text;
-    text << counts(line, report) << constrained(report) << "\n"
-         << changes(report) << "\n"
-         << report.steps << (report.steps == 1 ? " step" : " steps");
-    if (report.sharpenings > 0) text << ", then creases sharpened,";
-    text << " in " << std::fixed << std::setprecision(1) << report.seconds
-         << " s: " << line.output.u8string() << "\n";
-    return text.str();
 }
 
 std::vector<std::string> warnings(const CommandLineOf<FlowParameters>& line,

@@ -16,10 +16,6 @@ std::string report_json(const CommandLineOf<FlowParameters>& line, const FlowRep
 std::string report_json(const CommandLineOf<NoiseParameters>& line, const NoiseReport& report,
                         const std::vector<std::string>& warnings);
 
-/// Returns the main numbers of the report in a few lines for a person.
-std::string summary(const CommandLineOf<FlowParameters>& line, const FlowReport& report);
-std::string summary(const CommandLineOf<NoiseParameters>& line, const NoiseReport& report);
-
 /// Returns warnings, one line each, that are printed even without a summary.
 std::vector<std::string> warnings(const CommandLineOf<FlowParameters>& line,
                                   const FlowReport& report);

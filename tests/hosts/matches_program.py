@@ -29,7 +29,7 @@ def compare(program, host, takes_options, work, settings, ulps):
     """Returns whether both smooth the mesh, with the same result, rather than refuse to."""
     mesh, ours, theirs = (work / name for name in ("in.ply", "program.ply", "host.ply"))
     theirs.unlink(missing_ok=True)
-    options = [*runs.program_options(settings), "--quiet", "--report", work / "report.json"]
+    options = [*runs.program_options(settings), "--quiet", "--double", "--report", work / "report.json"]
     code, message = run([program, mesh, ours, *options])
     given = options[:-2] if takes_options else [f"{name}={value}" for name, value in runs.by_index(settings).items()]
     host_code, log = run([*host, mesh, theirs, *given])

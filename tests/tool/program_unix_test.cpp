@@ -113,11 +113,11 @@ TEST_F(ProgramOnUnix, TooLittleMemoryToReadDoesNotBlameTheDepth) {
 
 TEST_F(ProgramOnUnix, GermanLocaleChangesNoNumber) {
     ASSERT_EQ(run("a.off plain.off --depth 3 --step-size 1.5e-5").exit_code, 0);
-    const ProgramRun german =
-        run_program(folder_, "a.off german.off --depth 3 --step-size 1.5e-5 --report r.json",
-                    "LC_ALL=de_DE.UTF-8");
+    const ProgramRun german = run_program(
+        folder_, "a.off german.off --depth 3 --step-size 1.5e-5 --verbose --report r.json",
+        "LC_ALL=de_DE.UTF-8");
     ASSERT_EQ(german.exit_code, 0);
-    EXPECT_THAT(german.output, HasSubstr("The step size was 1.5e-05 squared units"));
+    EXPECT_THAT(german.output, HasSubstr("\nStep size 1.5e-05, "));
     EXPECT_EQ(read_file(folder_ / "german.off"), read_file(folder_ / "plain.off"));
     EXPECT_THAT(read_file(folder_ / "r.json"), HasSubstr("\"step_size\": 1.5e-05"));
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "filter_tracked_mcf/tool/report_json.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,12 +9,14 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "filter_tracked_mcf/parameters/summary.h"
 #include "tests/tool/temporary_folder.h"
 
 namespace tracked_mcf {
 namespace {
 
 using Json = nlohmann::json;
+using ::testing::HasSubstr;
 
 TEST(Report, HoldsEveryMemberUnderItsName) {
     CommandLineOf<FlowParameters> line;
@@ -58,6 +61,7 @@ TEST(Report, HoldsEveryMemberUnderItsName) {
     report.area_before = 20.5;
     report.area_after = 19.5;
     report.volume_change = -2.5;
+    report.volume_before = 10.5;
     report.largest_displacement = 0.75;
     report.rms_displacement = 0.25;
     report.setup_seconds = 13.5;
@@ -76,7 +80,8 @@ TEST(Report, HoldsEveryMemberUnderItsName) {
                        "method": "shared-cells", "tolerance": 0.5, "stabilization": 0.25, "cycles": 2, "threads": 1},
         "vertices": 1, "triangles": 2, "degenerate_triangles": 3, "boundary_edges": 4,
         "constrained_vertices": 15, "detail_size": 0.4375, "step_size": 0.0625,
-        "area_before": 20.5, "area_after": 19.5, "volume_change": -2.5,
+        "area_before": 20.5, "area_after": 19.5,
+        "volume_before": 10.5, "volume_after": 8, "volume_change": -2.5,
         "largest_displacement": 0.75, "rms_displacement": 0.25, "converged": false, "stop": "vanished",
         "warnings": ["first", "second"],
         "depth": 5, "cell_size": 6.5, "cells": 7, "elements": 14, "unknowns": 8, "constrained_unknowns": 9,
@@ -119,6 +124,7 @@ TEST(Report, HasAVolumeOnlyOfConsistentlyOrientedFaces) {
     FlowReport report;
     report.volume_change = 0.5;
     EXPECT_EQ(Json::parse(report_json({}, report, {}))["volume_change"], 0.5);
+    EXPECT_TRUE(Json::parse(report_json({}, report, {}))["volume_before"].is_null());
     report.oriented_consistently = false;
     EXPECT_TRUE(Json::parse(report_json({}, report, {}))["volume_change"].is_null());
 }
@@ -133,35 +139,28 @@ TEST(Report, SaysWhetherAllStepsConverged) {
     EXPECT_EQ(converged(), false);
 }
 
-std::string line_on_solving(Solver solver, const std::vector<int>& iterations) {
-    CommandLineOf<FlowParameters> line;
-    line.parameters.solver = solver;
+TEST(Details, TellTheGridAndTheSolversIterations) {
+    FlowParameters parameters;
     FlowReport report;
-    for (const int count : iterations) {
-        report.steps.emplace_back();
-        report.steps.back().solver_iterations = count;
-    }
-    const std::string text = summary(line, report);
-    const std::size_t begin = text.find("solved by ");
-    return text.substr(begin, text.find('\n', begin) - begin);
-}
-
-TEST(Summary, TellsTheSolversIterations) {
-    EXPECT_EQ(line_on_solving(Solver::Converged, {5, 4, 11}),
-              "solved by 4 to 11 iterations of conjugate gradients in each step");
-    EXPECT_EQ(line_on_solving(Solver::Converged, {1}),
-              "solved by 1 iteration of conjugate gradients in each step");
-    EXPECT_EQ(line_on_solving(Solver::OneWCycle, {1, 1}), "solved by 1 W-cycle in each step");
-    EXPECT_EQ(line_on_solving(Solver::OneWCycle, {3, 3}), "solved by 3 W-cycles in each step");
-}
-
-TEST(Summary, TellsConstrainedVertices) {
-    FlowReport report;
-    EXPECT_EQ(summary({}, report).find("constrained"), std::string::npos);
-    report.constrained_vertices = 7;
-    EXPECT_NE(summary({}, report).find("\n7 vertices are constrained: they keep their positions\n"),
-              std::string::npos)
-        << summary({}, report);
+    report.depth = 7;
+    report.cell_size = 0.25;
+    report.cells = 10;
+    report.unknowns = 30;
+    const std::string grid =
+        "Grid of depth 7: cells 0.25 wide, 10 of them occupied, 30 unknowns.\n";
+    EXPECT_EQ(solver_details(parameters, report), grid);
+    report.step_size = 0.0156;
+    report.steps.resize(3);
+    report.steps[0].solver_iterations = 5;
+    report.steps[1].solver_iterations = 4;
+    report.steps[2].solver_iterations = 11;
+    EXPECT_EQ(solver_details(parameters, report),
+              grid +
+                  "Step size 0.0156, in squared units of the mesh, solved by 4 to 11 iterations "
+                  "of conjugate gradients in each step.\n");
+    parameters.solver = Solver::OneWCycle;
+    report.steps.resize(1);
+    EXPECT_THAT(solver_details(parameters, report), HasSubstr("solved by 5 W-cycles"));
 }
 
 TEST(Report, NamesEveryWayToStop) {

@@ -86,9 +86,14 @@ TEST(Evolve, ReportsHowTheSurfaceChanged) {
     const double change = enclosed_volume(mesh) - enclosed_volume(before);
     EXPECT_NEAR(report.volume_change, change, 1e-12);
     EXPECT_LT(report.volume_change, -0.01);
+    EXPECT_EQ(report.volume_before, enclosed_volume(before));
     EXPECT_TRUE(report.oriented_consistently);
     std::swap(mesh.triangles[0][0], mesh.triangles[0][1]);
-    EXPECT_FALSE(evolve(mesh, parameters(5, 1e-3, 1)).oriented_consistently);
+    const FlowReport flipped = evolve(mesh, parameters(5, 1e-3, 1));
+    EXPECT_FALSE(flipped.oriented_consistently);
+    EXPECT_EQ(flipped.volume_before, 0);
+    mesh.triangles.erase(mesh.triangles.begin());
+    EXPECT_EQ(evolve(mesh, parameters(5, 1e-3, 1)).volume_before, 0) << "the surface is open";
 }
 
 TEST(Evolve, ReportsFiniteNumbersWhateverUnusedVerticesAre) {
@@ -111,6 +116,7 @@ TEST(Evolve, ReportsTheVolumeOfTheSelectedPart) {
     const double change = enclosed_volume(mesh) - enclosed_volume(before);
     EXPECT_NEAR(report.volume_change, change, 1e-12);
     EXPECT_LT(report.volume_change, -0.01);
+    EXPECT_EQ(report.volume_before, 0);
 }
 
 TEST(Evolve, ProgressRisesFromZeroToOne) {

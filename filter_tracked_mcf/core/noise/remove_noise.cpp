@@ -144,6 +144,8 @@ void measure_change(const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>
         squares += distance * distance;
     }
     report.rms_displacement = std::sqrt(squares / static_cast<double>(report.vertices));
+    if (selection.empty() && report.boundary_edges == 0 && report.oriented_consistently)
+        report.volume_before = enclosed_volume(mesh);
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
         if (!selection.empty() && selection[i] == 0) continue;
         report.volume_change += swept_volume(corners_of(mesh.positions, mesh.triangles[i]),

@@ -14,7 +14,7 @@ bool TrackedMcfPlugin::applyFilter(QAction* action, MeshDocument& document,
     const FilterOutcome outcome = filter(ID(action)).apply(document, parameters, callback);
     if (!outcome.succeeded) errorMessage = QString::fromStdString(outcome.message);
     // Of failures, too: meshlabserver does not print errorMessage.
-    Log(kBuild + (": " + outcome.message));
+    log_lines(outcome.message, [this](const std::string& line) { Log(line); });
     return outcome.succeeded;
 }
 

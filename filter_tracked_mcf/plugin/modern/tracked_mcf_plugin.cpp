@@ -16,7 +16,7 @@ std::map<std::string, QVariant> TrackedMcfPlugin::applyFilter(const QAction* act
     const FilterOutcome outcome = filter(ID(action)).apply(document, parameters, callback);
     // MLException is the only exception that hosts expect.
     if (!outcome.succeeded) throw MLException(QString::fromStdString(outcome.message));
-    log(kBuild + (": " + outcome.message));
+    log_lines(outcome.message, [this](const std::string& line) { log(line); });
     post_condition_mask = static_cast<unsigned int>(postCondition(action));
     std::map<std::string, QVariant> outputs;
     for (const auto& [name, output] : outcome.outputs) {

@@ -248,7 +248,8 @@ def check_script(way, program, page, mesh, work):
         (work / "libfilter_tracked_mcf.so").symlink_to(pathlib.Path(way).resolve())
     load(mesh).save_current_mesh(str(work / "scan.ply"))
     subprocess.run([sys.executable, "-c", script], cwd=work, check=True)
-    subprocess.run([program, work / "scan.ply", work / "out.ply", "--quiet", "--detail-size", "0.5%"], check=True)
+    subprocess.run([program, work / "scan.ply", work / "out.ply", "--quiet", "--double", "--detail-size", "2%"],
+                   check=True)
     found, expected = vertices(load(work / "smooth.ply")), vertices(load(work / "out.ply"))
     if abs(found - expected).max() > 1e-6 * abs(expected).max():
         sys.exit(f"the script of {page} does not do what the program does")

@@ -290,6 +290,7 @@ TEST(RemoveNoise, ReportsWhatItHasDone) {
     EXPECT_EQ(report.triangles, 8000);
     EXPECT_EQ(report.constrained_vertices, 0);
     EXPECT_NEAR(report.volume_change, shapes::volume(mesh) - shapes::volume(before), 1e-12);
+    EXPECT_NEAR(report.volume_before, shapes::volume(before), 1e-12);
     EXPECT_EQ(report.area_before, surface_area(before));
     EXPECT_EQ(report.area_after, surface_area(mesh));
     EXPECT_LT(report.area_after, report.area_before);
