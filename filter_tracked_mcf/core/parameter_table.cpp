@@ -91,21 +91,21 @@ const std::vector<ParameterOf<P>>& parameter_table() {
               "solve."),
         named(choice<&P::preserve>({{"None", "none"}, {"Area", "area"}, {"Volume", "volume"}}),
               "preserve", "Preserve",
-              "Of each connected part. Area: no vertex may stay. Volume: also if some vertices "
-              "stay."),
+              "Each connected part keeps its area or volume. Area needs a surface of which no "
+              "vertex is held."),
         named(
             choice<&P::boundary>(
                 {{"Locked", "locked"}, {"Locked cells (paper)", "locked-cells"}, {"Free", "free"}}),
             "boundary", "Boundary",
-            "Locked: its vertices stay. Locked cells: all in its grid cells stays. Free: it moves "
-            "too."),
+            "Locked holds the rim's vertices. Locked cells holds all that is in their grid cells. "
+            "Free moves all."),
         named(of_host<P>(Type::Selected), "selected", "Affect only selected faces",
               "Vertices of other faces stay. Select a little more than needed, because the seam "
               "cannot "
               "move."),
-        named(of_host<P>(Type::Strength), "strength", "Strength from vertex quality",
-              "A number from 0 to 1 at each vertex multiplies the detail size. A vertex with 0 "
-              "stays."),
+        named(
+            of_host<P>(Type::Strength), "strength", "Strength from vertex quality",
+            "A number from 0 to 1 at each vertex multiplies the detail size. 0 holds the vertex."),
         named(choice<&P::quality>({{"Kept", "none"},
                                    {"Displacement", "displacement"},
                                    {"Mean curvature", "mean-curvature"}}),
@@ -121,17 +121,16 @@ const std::vector<ParameterOf<P>>& parameter_table() {
               "The step size is in squared units of the mesh."),
         named(integer<&P::depth>(0, kMaximumDepth, ", where 0 chooses automatically"), "depth",
               "Octree depth (expert)",
-              "2^depth grid cells a side, 1 to 12; one more: 4 times the time and memory. 0 is "
-              "automatic."),
-        named(
-            choice<&P::flow>(
-                {{"Mean curvature", "mean-curvature"}, {"Conformalized", "conformalized"}}),
-            "flow", "Flow (expert)",
-            "Mean curvature: thin parts pinch. Conformalized: if closed without handles, becomes a "
-            "sphere."),
+              "The grid has 2^depth cells a side, 1 to 12. One more takes 4 times the time and "
+              "memory. 0 is automatic."),
+        named(choice<&P::flow>(
+                  {{"Mean curvature", "mean-curvature"}, {"Conformalized", "conformalized"}}),
+              "flow", "Flow (expert)",
+              "By mean curvature, thin parts pinch. By the conformalized flow, a closed surface "
+              "without handles becomes a sphere."),
         named(method(), "method", "Method (expert)",
-              "Shared cells: close parts stick together. Paper: also one W-cycle a step, only to "
-              "compare."),
+              "By Shared cells, close parts stick together. By Paper, too, and each step is one "
+              "W-cycle: only to compare."),
         named(access<&P::tolerance>(Type::Real, {0, 1, ", such as 1e-3", true}), "tolerance", "",
               "Except with method paper: a step is solved when the error estimate, relative to the "
               "step in the energy norm, is at most this number; greater than 0, less than 1. A "
