@@ -69,8 +69,8 @@ void check_range(const std::string& name, double value, const Range& range) {
     const bool fits = range.open ? value > range.smallest && value < range.largest
                                  : value >= range.smallest && value <= range.largest;
     if (fits) return;  // a NaN does not
-    throw InvalidParameter(name + " is " + shortest(value) + "; give " + text_of(range) +
-                           range.advice + ".");
+    throw InvalidParameter(
+        name, "is " + shortest(value) + "; give " + text_of(range) + range.advice + ".", value);
 }
 
 template <>

@@ -83,8 +83,8 @@ ParameterValue read(const RichParameterList& list, const Parameter& parameter) {
             return static_cast<double>(value.getFloat());
         }
     }
-    throw InvalidParameter(parameter.name +
-                           " is missing or has the wrong type. Save a filter script in MeshLab to "
+    throw InvalidParameter(parameter.name,
+                           "is missing or has the wrong type. Save a filter script in MeshLab to "
                            "see how it is written.");
 }
 

@@ -63,9 +63,11 @@ Length length_of(const Parameter& parameter, nb::handle value) {
         if (number.is_valid()) return {PyFloat_AsDouble(number.ptr()), true};
         PyErr_Clear();
     }
-    throw InvalidParameter(parameter.name + " is " + code_of(value) +
-                           "; give a number in units of the mesh, or a string such as '1%', in per "
-                           "cent of the diagonal of its bounding box.");
+    throw InvalidParameter(
+        parameter.name,
+        "is " + code_of(value) +
+            "; give a number in units of the mesh, or a string such as '1%', in per "
+            "cent of the diagonal of its bounding box.");
 }
 
 /// Returns the value that functions take for a choice: an int if its name is a number, else its
@@ -93,8 +95,8 @@ int choice_of(const Parameter& parameter, nb::handle value) {
     for (std::size_t i = 0; i < parameter.choices.size(); ++i) {
         if (literal(parameter.choices[i]) == given) return static_cast<int>(i);
     }
-    throw InvalidParameter(parameter.name + " is " + given + "; give one of " +
-                           literals(parameter) + ".");
+    throw InvalidParameter(parameter.name,
+                           "is " + given + "; give one of " + literals(parameter) + ".");
 }
 
 /// Returns whether the default is not the same with method paper, as that of the stabilisation.

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <functional>
+#include <numeric>
 #include <sstream>
 
 #include "filter_tracked_mcf/core/errors.h"
@@ -130,8 +131,7 @@ Length length_of(const std::string& option, std::string text) {
 template <class Parameters>
 void add_parameter(CLI::App& app, CommandLineOf<Parameters>& line,
                    const ParameterOf<Parameters>& parameter) {
-    std::string option = "--" + parameter.name;
-    std::replace(option.begin(), option.end(), '_', '-');
+    const std::string option = option_of(parameter.name);
     const std::string help = help_of(parameter.help);
     const ParameterValue& value = parameter.initial;
     const std::string first = std::visit([](auto v) { return CLI::detail::to_string(v); }, value);
@@ -269,7 +269,49 @@ void check_paths(const CommandLine& line, bool has_quality) {
     }
 }
 
+/// Returns how many letters must be inserted, removed or replaced to turn one word into the other.
+std::size_t distance(const std::string& a, const std::string& b) {
+    std::vector<std::size_t> row(b.size() + 1);  // from the first letters of a to those of b
+    std::iota(row.begin(), row.end(), 0);
+    for (const char letter : a) {
+        std::size_t above_left = row[0]++;
+        for (std::size_t j = 0; j < b.size(); ++j) {
+            const std::size_t replaced = above_left + (letter == b[j] ? 0 : 1);
+            above_left = row[j + 1];
+            row[j + 1] = std::min({replaced, above_left + 1, row[j] + 1});
+        }
+    }
+    return row.back();
+}
+
+/// Returns a question for the option that is nearest to the first unknown one; empty if none is
+/// near.
+std::string suggestion(const CLI::App& app) {
+    for (const std::string& word : app.remaining()) {
+        if (word.rfind("--", 0) != 0) continue;
+        const std::string unknown = word.substr(0, word.find('='));
+        std::string nearest;
+        std::size_t least = unknown.size() / 3 + 1;
+        for (const CLI::Option* const option : app.get_options()) {
+            const std::string name = option->get_name();
+            const bool is_begun = name.rfind(unknown, 0) == 0;
+            const std::size_t changes = is_begun ? 0 : distance(unknown, name);
+            if (changes >= least) continue;
+            nearest = name;
+            least = changes;
+        }
+        return nearest.empty() ? "" : " Do you mean " + nearest + "?";
+    }
+    return {};
+}
+
 }  // namespace
+
+std::string option_of(const std::string& parameter) {
+    std::string option = "--" + parameter;
+    std::replace(option.begin(), option.end(), '_', '-');
+    return option;
+}
 
 template <class Parameters>
 CommandLineOf<Parameters> parse_command_line(std::vector<std::string> arguments) {
@@ -293,7 +335,8 @@ CommandLineOf<Parameters> parse_command_line(std::vector<std::string> arguments)
         line.answer = app.version() + "\n";
         return line;
     } catch (const CLI::ParseError& error) {
-        throw InvalidParameter(std::string(error.what()) + ". Run " + Texts::kCommand + " --help.");
+        throw InvalidParameter(std::string(error.what()) + "." + suggestion(app) + " Run " +
+                               Texts::kCommand + " --help.");
     }
     check_paths(line, line.parameters.quality != Quality::None);
     return line;

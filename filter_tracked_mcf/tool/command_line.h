@@ -31,6 +31,9 @@ struct CommandLineOf : CommandLine {
     Parameters parameters;  ///< but for the lengths
 };
 
+/// Returns the option of a parameter, such as "--detail-size" for detail_size.
+std::string option_of(const std::string& parameter);
+
 /// Parses the arguments of the program, without its name and the filter's. `Parameters` is
 /// FlowParameters or NoiseParameters. Throws InvalidParameter for unknown options, values that are
 /// no values of their option, and unknown formats. validate() checks the ranges of parameters.

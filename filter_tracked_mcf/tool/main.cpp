@@ -138,7 +138,8 @@ int main(int argc, char** argv) {
         }
         return Done;
     } catch (const InvalidParameter& error) {
-        return fail(BadUsage, error.what());
+        return fail(BadUsage, error.name.empty() ? error.what()
+                                                 : option_of(error.name) + ' ' + error.problem);
     } catch (const UnwritableFile& error) {
         return fail(Unwritable, error.what());
     } catch (const UnreadableFile& error) {
