@@ -244,15 +244,15 @@ void check_paths(const CommandLine& line, bool has_quality) {
         throw InvalidParameter(path.u8string() +
                                ": the extension tells the format; give .ply, .obj, .off or .stl.");
     }
-    if (!line.selected.empty() && format_of(line.input)->parse != parse_ply) {
+    if (!line.selected.empty() && !format_of(line.input)->has_numbers) {
         throw InvalidParameter(
             "--selected needs a PLY file as INPUT: only PLY has properties to select by.");
     }
-    if (!line.strength.empty() && format_of(line.input)->parse != parse_ply) {
+    if (!line.strength.empty() && !format_of(line.input)->has_numbers) {
         throw InvalidParameter(
             "--strength needs a PLY file as INPUT: only PLY has numbers at vertices.");
     }
-    if (has_quality && format_of(line.output)->parse != parse_ply) {
+    if (has_quality && !format_of(line.output)->has_numbers) {
         throw InvalidParameter("--quality needs a PLY file as OUTPUT: only PLY can hold it.");
     }
     const StepFiles steps(line.output, line.every);
