@@ -99,13 +99,6 @@ const std::vector<ParameterOf<P>>& parameter_table() {
             "boundary", "Boundary",
             "Locked: its vertices stay. Locked cells: all in its grid cells stays. Free: it moves "
             "too."),
-        named(of_host<P>(Type::Selected), "selected", "Affect only selected faces",
-              "Vertices of other faces stay. Select a little more than needed, because the seam "
-              "cannot "
-              "move."),
-        named(of_host<P>(Type::Strength), "strength", "Strength from vertex quality",
-              "A number from 0 to 1 at each vertex multiplies the detail size. A vertex with 0 "
-              "stays."),
         named(choice<&P::quality>({{"Kept", "none"},
                                    {"Displacement", "displacement"},
                                    {"Mean curvature", "mean-curvature"}}),
@@ -157,6 +150,16 @@ const std::vector<ParameterOf<P>>& parameter_table() {
         named(integer<&P::threads>(0, kMaximumThreads, ", where 0 takes one for each processor"),
               "threads", "", kThreadsHelp),
     };
+    return table;
+}
+
+template <>
+const std::vector<Input>& input_table<P>() {
+    static const std::vector<Input> table = {
+        selected("Vertices of other faces stay. Select a little more than needed, because the seam "
+                 "cannot move."),
+        strength("A number from 0 to 1 at each vertex multiplies the detail size. A vertex with 0 "
+                 "stays.")};
     return table;
 }
 

@@ -24,6 +24,9 @@ std::string label_of(const std::string& name) {
     for (const auto& parameter : parameter_table<Parameters>()) {
         if (parameter.name == name) return parameter.label;
     }
+    for (const Input& input : input_table<Parameters>()) {
+        if (input.name == name) return input.label;
+    }
     return {};
 }
 

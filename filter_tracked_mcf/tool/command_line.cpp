@@ -23,12 +23,12 @@ constexpr std::size_t kNameColumns = 26, kTextColumns = 70;
 
 const std::string kLength = " X, in units of the mesh, or X% of its bounding box's diagonal. ";
 
-const std::string kProperty =
+const std::string kFaceProperty =
     "Only selected faces move. PROPERTY is the name of a number that the faces of a PLY file have, "
     "or else its vertices. A face is selected if its number is not 0, or if the numbers of all its "
     "vertices are not 0. 'flags' is where MeshLab saves a selection: only its bit 32 counts. ";
 
-const std::string kStrength =
+const std::string kVertexProperty =
     "PROPERTY is the name of a number that the vertices of a PLY file have; MeshLab's vertex "
     "quality is 'quality'. ";
 
@@ -143,14 +143,6 @@ void add_parameter(CLI::App& app, CommandLineOf<Parameters>& line,
             app.add_flag_function(
                 option, [set](auto count) { set(count > 0); }, help);
             break;
-        case Parameter::Type::Selected:
-            app.add_option(option, line.selected, help_of(kProperty + parameter.help))
-                ->type_name("PROPERTY");
-            break;
-        case Parameter::Type::Strength:
-            app.add_option(option, line.strength, help_of(kStrength + parameter.help))
-                ->type_name("PROPERTY");
-            break;
         case Parameter::Type::Integer:
             app.add_option_function<int>(option, set, help)->type_name("N")->default_str(first);
             break;
@@ -186,6 +178,12 @@ void add_parameter(CLI::App& app, CommandLineOf<Parameters>& line,
 template <class Parameters>
 void add_rows(CLI::App& app, CommandLineOf<Parameters>& line) {
     for (const auto& row : parameter_table<Parameters>()) add_parameter(app, line, row);
+    for (const Input& input : input_table<Parameters>()) {
+        const std::string& property = input.of_faces ? kFaceProperty : kVertexProperty;
+        app.add_option(option_of(input.name), line.properties[input.name],
+                       help_of(property + input.help))
+            ->type_name("PROPERTY");
+    }
 }
 
 void add_parameters(CLI::App& app, CommandLineOf<FlowParameters>& line) {
@@ -244,13 +242,10 @@ void check_paths(const CommandLine& line, bool has_quality) {
         throw InvalidParameter(path.u8string() +
                                ": the extension tells the format; give .ply, .obj, .off or .stl.");
     }
-    if (!line.selected.empty() && !format_of(line.input)->has_numbers) {
-        throw InvalidParameter(
-            "--selected needs a PLY file as INPUT: only PLY has properties to select by.");
-    }
-    if (!line.strength.empty() && !format_of(line.input)->has_numbers) {
-        throw InvalidParameter(
-            "--strength needs a PLY file as INPUT: only PLY has numbers at vertices.");
+    for (const auto& [name, property] : line.properties) {
+        if (property.empty() || format_of(line.input)->has_numbers) continue;
+        throw InvalidParameter(option_of(name) +
+                               " needs a PLY file as INPUT: only PLY has properties.");
     }
     if (has_quality && !format_of(line.output)->has_numbers) {
         throw InvalidParameter("--quality needs a PLY file as OUTPUT: only PLY can hold it.");

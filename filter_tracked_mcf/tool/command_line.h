@@ -16,9 +16,9 @@ struct CommandLine {
     std::filesystem::path input, output;
     std::filesystem::path report;           ///< empty for none
     std::map<std::string, Length> lengths;  ///< those that were given, by the parameter's name
-    std::string selected;  ///< property of INPUT that selects faces; empty for all faces
-    std::string strength;  ///< property of INPUT's vertices; empty for none
-    int every = 0;         ///< every how many steps the surface is written, too; 0 for never
+    /// The properties of INPUT for inputs, by the input's name; empty for none.
+    std::map<std::string, std::string> properties;
+    int every = 0;  ///< every how many steps the surface is written, too; 0 for never
     bool quiet = false;
 
     /// What --help or --version print. Unless it is empty, there is nothing else to do.

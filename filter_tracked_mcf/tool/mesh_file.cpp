@@ -69,7 +69,7 @@ Selection MeshFile::selection_by(const std::string& name) const {
     return selection;
 }
 
-std::vector<double> MeshFile::strength_by(const std::string& name) const {
+std::vector<double> MeshFile::numbers_by(const std::string& name) const {
     std::vector<double> numbers = document_->numbers(NumbersOf::Vertices, name);
     if (numbers.empty()) {
         throw InvalidParameter(

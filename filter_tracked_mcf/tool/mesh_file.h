@@ -36,7 +36,7 @@ public:
     Selection selection_by(const std::string& name) const;
 
     /// Returns the number `name` of each vertex. Throws InvalidParameter if there is none.
-    std::vector<double> strength_by(const std::string& name) const;
+    std::vector<double> numbers_by(const std::string& name) const;
 
     /// Gives each vertex a number, which write() writes to a PLY file as the property `quality`.
     void set_quality(const std::vector<double>& quality);
