@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <limits>
 #include <stdexcept>
+#include <string>
 
 namespace tracked_mcf {
 
@@ -19,9 +21,20 @@ struct InvalidMesh : Error {
     using Error::Error;
 };
 
-/// A parameter is outside its range.
+/// A parameter is outside its range, or does not fit the mesh or another parameter.
 struct InvalidParameter : Error {
     using Error::Error;
+    /// what() is the name, a space and the problem. `refused` is the number that the parameter is.
+    InvalidParameter(const std::string& parameter, const std::string& what_is_wrong,
+                     double refused = std::numeric_limits<double>::quiet_NaN())
+        : Error(parameter + ' ' + what_is_wrong),
+          name(parameter),
+          problem(what_is_wrong),
+          number(refused) {}
+
+    std::string name;     ///< Parameter::name; empty if no single parameter is wrong
+    std::string problem;  ///< such as "is 13; give 0 to 12."
+    double number = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// The flow is expected to need more memory than is free.

@@ -31,11 +31,13 @@ double progress_before(int step, int iterations) {
 /// The area has grown if it did so by more than this fraction.
 constexpr double kGrowth = 1e-3;
 
-/// Sets the flow up; returns it in place, since it cannot be moved.
-Flow set_up(const TriangleMesh& mesh, const Selection& selection, FlowParameters parameters) {
+/// Sets the flow up; returns it in place, since it cannot be moved. Sets the triangles that flow.
+Flow set_up(const TriangleMesh& mesh, const Inputs& inputs, FlowParameters parameters,
+            Selection& moving) {
     const ProgressSpan span(0, progress_before(0, parameters.iterations));
     enter_setup_phase(kFindEdges);
-    const Domain domain(mesh, selection, parameters.boundary);
+    const Domain domain(mesh, inputs, parameters.boundary);
+    moving = domain.selection();
     enter_setup_phase(kMeasureSurface);
     check_preservable(domain, parameters);
     if (domain.constrains_all_vertices()) {
@@ -139,12 +141,6 @@ std::vector<double> measure_quality(Quality quality, Flow& flow, const TriangleM
     return along_normals(vectors, {after, before.triangles}, selection);
 }
 
-std::int64_t count_moving(const TriangleMesh& mesh, const Selection& selection) {
-    const auto all = static_cast<std::int64_t>(mesh.triangles.size());
-    if (selection.empty()) return all;
-    return all - std::count(selection.begin(), selection.end(), 0);
-}
-
 /// Returns whether a mean-curvature flow has made the area grow, which the exact one does not. The
 /// tolerance is relative to the displacement of the whole surface, so the grid may displace parts
 /// that are much thinner than its cells by more than their width.
@@ -170,7 +166,7 @@ double default_detail_size(const TriangleMesh& mesh, const Selection& selection)
     return kDefaultDetailInEdges * mean_edge_length(mesh, selection);
 }
 
-FlowReport evolve(TriangleMesh& mesh, const Selection& selection, const FlowParameters& parameters,
+FlowReport evolve(TriangleMesh& mesh, const Inputs& inputs, const FlowParameters& parameters,
                   const Progress& progress, const StepObserver& on_step) {
     std::optional<ProgressMeter> meter;
     if (progress) meter.emplace(progress);
@@ -179,10 +175,9 @@ FlowReport evolve(TriangleMesh& mesh, const Selection& selection, const FlowPara
     const std::int64_t memory_before = resident_memory_bytes();
     const Stopwatch setup;
     enter_setup_phase(kCheckMesh);
-    validate(mesh);
-    check_selection(mesh, selection);
-    const Selection moving = without_zero_strength(mesh, selection);
-    Flow flow = set_up(mesh, moving, parameters);
+    validate(mesh, inputs);
+    Selection moving;
+    Flow flow = set_up(mesh, inputs, parameters, moving);
     const double setup_seconds = setup.seconds();
 
     const double area_before = surface_area(mesh, moving);
@@ -201,9 +196,6 @@ FlowReport evolve(TriangleMesh& mesh, const Selection& selection, const FlowPara
     FlowReport report = flow.report();
     add_effort(discarded, report.steps);
     report.setup_seconds = setup_seconds;
-    report.has_strengths = !mesh.strength.empty();
-    report.zero_strength_triangles = count_moving(mesh, selection) - report.triangles;
-    report.unselected_triangles -= report.zero_strength_triangles;
     report.area_before = area_before;
     report.area_after = after.area;
     compare(mesh, after.positions, moving, report);

@@ -30,7 +30,7 @@ using StepObserver = std::function<void(int step, const std::vector<Eigen::Vecto
 ///
 /// Throws InvalidMesh, InvalidParameter, NotEnoughMemory or Cancelled (errors.h)
 /// and leaves the mesh unchanged.
-FlowReport evolve(TriangleMesh& mesh, const Selection& selection, const FlowParameters& parameters,
+FlowReport evolve(TriangleMesh& mesh, const Inputs& inputs, const FlowParameters& parameters,
                   const Progress& progress = {}, const StepObserver& on_step = {});
 
 /// Returns the detail size that a flow of these triangles takes by default, see

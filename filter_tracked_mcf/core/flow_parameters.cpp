@@ -46,7 +46,8 @@ void validate(const FlowParameters& parameters) {
     if (parameters.quality == Quality::MeanCurvature &&
         parameters.flow != FlowKind::MeanCurvature) {
         throw InvalidParameter(
-            "quality asks for the mean curvature, which a conformalized flow does not know; take "
+            "quality",
+            "asks for the mean curvature, which a conformalized flow does not know; take "
             "the mean-curvature flow, or another quality.");
     }
 }

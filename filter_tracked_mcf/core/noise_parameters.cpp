@@ -34,16 +34,21 @@ const std::vector<ParameterOf<NoiseParameters>>& parameter_table() {
               "Boundary",
               "Free: the rim of an open mesh is smoothed, too. Locked: its vertices stay, with "
               "their noise."),
-        named(of_host<P>(Type::Selected), "selected", "Affect only selected faces",
-              "Vertices of other faces stay."),
-        named(of_host<P>(Type::Strength), "strength", "Strength from vertex quality",
-              "A number from 0 to 1 at each vertex: 0 keeps the vertex, 1 smooths it as "
-              "elsewhere."),
         named(choice<&P::quality>({{"Kept", "none"}, {"Displacement", "displacement"}}), "quality",
               "Vertex quality", "For colours: how far the vertex moved along its normal."),
         named(integer<&P::threads>(0, kMaximumThreads, ", where 0 takes one for each processor"),
               "threads", "", kThreadsHelp),
     };
+    return table;
+}
+
+template <>
+const std::vector<Input>& input_table<NoiseParameters>() {
+    using namespace parameter_rows;
+    static const std::vector<Input> table = {
+        selected("Vertices of other faces stay."),
+        strength("A number from 0 to 1 at each vertex: 0 keeps the vertex, 1 smooths it as "
+                 "elsewhere.")};
     return table;
 }
 

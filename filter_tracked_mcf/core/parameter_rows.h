@@ -62,17 +62,6 @@ ParameterOf<Owner<member>> choice(std::vector<NamedChoice> choices) {
     return row;
 }
 
-/// A row that sets no member.
-template <class P>
-ParameterOf<P> of_host(Parameter::Type type) {
-    ParameterOf<P> row;
-    row.type = type;
-    row.range = {0, 1, ""};
-    row.get = [](const P&) -> ParameterValue { return false; };
-    row.set = [](P&, const ParameterValue&) {};
-    return row;
-}
-
 /// Completes a row.
 template <class P>
 ParameterOf<P> named(ParameterOf<P> row, std::string name, std::string label, std::string help) {
@@ -81,6 +70,31 @@ ParameterOf<P> named(ParameterOf<P> row, std::string name, std::string label, st
     row.help = std::move(help);
     row.initial = row.get(P());
     return row;
+}
+
+/// The row of Inputs::selection.
+inline Input selected(std::string help) {
+    return {{Parameter::Type::Switch,
+             {0, 1, ""},
+             {},
+             "selected",
+             "Affect only selected faces",
+             std::move(help),
+             false},
+            &Inputs::selection};
+}
+
+/// The row of Inputs::strength.
+inline Input strength(std::string help) {
+    return {{Parameter::Type::Switch,
+             {0, 1, ""},
+             {},
+             "strength",
+             "Strength from vertex quality",
+             std::move(help),
+             false},
+            nullptr,
+            &Inputs::strength};
 }
 
 inline constexpr int kMaximumThreads = 1024;

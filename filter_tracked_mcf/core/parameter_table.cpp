@@ -69,8 +69,8 @@ void check_range(const std::string& name, double value, const Range& range) {
     const bool fits = range.open ? value > range.smallest && value < range.largest
                                  : value >= range.smallest && value <= range.largest;
     if (fits) return;  // a NaN does not
-    throw InvalidParameter(name + " is " + shortest(value) + "; give " + text_of(range) +
-                           range.advice + ".");
+    throw InvalidParameter(
+        name, "is " + shortest(value) + "; give " + text_of(range) + range.advice + ".", value);
 }
 
 template <>
@@ -99,13 +99,6 @@ const std::vector<ParameterOf<P>>& parameter_table() {
             "boundary", "Boundary",
             "Locked holds the rim's vertices. Locked cells holds all that is in their grid cells. "
             "Free moves all."),
-        named(of_host<P>(Type::Selected), "selected", "Affect only selected faces",
-              "Vertices of other faces stay. Select a little more than needed, because the seam "
-              "cannot "
-              "move."),
-        named(
-            of_host<P>(Type::Strength), "strength", "Strength from vertex quality",
-            "A number from 0 to 1 at each vertex multiplies the detail size. 0 holds the vertex."),
         named(choice<&P::quality>({{"Kept", "none"},
                                    {"Displacement", "displacement"},
                                    {"Mean curvature", "mean-curvature"}}),
@@ -156,6 +149,16 @@ const std::vector<ParameterOf<P>>& parameter_table() {
         named(integer<&P::threads>(0, kMaximumThreads, ", where 0 takes one for each processor"),
               "threads", "", kThreadsHelp),
     };
+    return table;
+}
+
+template <>
+const std::vector<Input>& input_table<P>() {
+    static const std::vector<Input> table = {
+        selected("Vertices of other faces stay. Select a little more than needed, because the seam "
+                 "cannot move."),
+        strength("A number from 0 to 1 at each vertex multiplies the detail size. 0 holds the "
+                 "vertex.")};
     return table;
 }
 

@@ -8,6 +8,7 @@
 
 #include "filter_tracked_mcf/core/flow_parameters.h"
 #include "filter_tracked_mcf/core/noise_parameters.h"
+#include "filter_tracked_mcf/core/triangle_mesh.h"
 
 namespace tracked_mcf {
 
@@ -33,9 +34,7 @@ struct NamedChoice {
 /// One parameter, and how hosts offer it.
 struct Parameter {
     enum class Type {
-        Switch,    ///< bool, off by default; in the program a flag
-        Selected,  ///< bool; no member, because hosts select the faces that move
-        Strength,  ///< bool; no member, because hosts give each vertex its strength
+        Switch,  ///< bool, off by default; in the program a flag
         Integer,
         Real,
         Length,  ///< double, in units of the mesh; hosts also take per cent of the box's diagonal
@@ -70,6 +69,25 @@ template <>
 const std::vector<ParameterOf<FlowParameters>>& parameter_table();
 template <>
 const std::vector<ParameterOf<NoiseParameters>>& parameter_table();
+
+/// One of the Inputs, and how hosts offer it: dialogs and scripts as a switch, which takes it from
+/// the layer's selection or vertex quality; the program as the name of a property; Python as an
+/// array.
+struct Input : Parameter {
+    Selection Inputs::*of_faces = nullptr;  ///< the member, or null
+    std::vector<double> Inputs::*of_vertices = nullptr;
+};
+
+/// Returns the inputs of a filter. Hosts offer them after its parameters.
+///
+/// To add an input, add a member to Inputs, its checks to validate(), and a row to the table.
+template <class Parameters>
+const std::vector<Input>& input_table();
+
+template <>
+const std::vector<Input>& input_table<FlowParameters>();
+template <>
+const std::vector<Input>& input_table<NoiseParameters>();
 
 /// Throws InvalidParameter unless `value` is in the range of the parameter `name`.
 void check_range(const std::string& name, double value, const Range& range);

@@ -44,14 +44,14 @@ struct NoiseReport {
 /// Removes noise from `mesh`, or only from its selected triangles, and keeps creases. Noise is what
 /// single vertices do independently of their neighbours.
 ///
-/// Each vertex smooths as much as TriangleMesh::strength says. Positions are written at the very
+/// Each vertex smooths as much as Inputs::strength says. Positions are written at the very
 /// end, after the last call of `progress` has returned true. Vertices that do not move keep their
 /// bits: those of the locked boundary, of unselected triangles, with strength 0, and in no
 /// triangle.
 ///
 /// Throws InvalidMesh, InvalidParameter, NotEnoughMemory or Cancelled (errors.h) and leaves the
 /// mesh unchanged.
-NoiseReport remove_noise(TriangleMesh& mesh, const Selection& selection,
+NoiseReport remove_noise(TriangleMesh& mesh, const Inputs& inputs,
                          const NoiseParameters& parameters, const Progress& progress = {});
 
 }  // namespace tracked_mcf

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "filter_tracked_mcf/core/triangle_mesh.h"
 
+#include <algorithm>
 #include <limits>
 #include <string>
 
@@ -21,9 +22,21 @@ void check_triangle(const TriangleMesh& mesh, const Triangle& triangle) {
                               " has a coordinate that is not a finite number; remove or repair it "
                               "first.");
         }
-        if (mesh.strength.empty()) continue;
-        const double strength = mesh.strength[vertex];
-        if (!(strength >= 0 && strength <= 1)) {
+    }
+}
+
+template <class Given, class Items>
+void check_count(const Given& given, const Items& items, const char* what, const char* of) {
+    if (given.empty() || given.size() == items.size()) return;
+    throw InvalidParameter("There are " + std::to_string(given.size()) + ' ' + what + " for the " +
+                           std::to_string(items.size()) + ' ' + of + "; give one for each.");
+}
+
+void check_strengths(const TriangleMesh& mesh, const std::vector<double>& strengths) {
+    for (const Triangle& triangle : mesh.triangles) {
+        for (const std::int32_t vertex : triangle) {
+            const double strength = strengths[vertex];
+            if (strength >= 0 && strength <= 1) continue;  // a NaN is not
             throw InvalidMesh("The strength of vertex " + std::to_string(vertex) + " is " +
                               std::to_string(strength) + "; give numbers from 0 to 1.");
         }
@@ -42,12 +55,20 @@ void validate(const TriangleMesh& mesh) {
         throw InvalidMesh(
             "The mesh has more than 2147483647 vertices or faces; simplify it first.");
     }
-    if (!mesh.strength.empty() && mesh.strength.size() != mesh.positions.size()) {
-        throw InvalidMesh("There are " + std::to_string(mesh.strength.size()) +
-                          " strengths for the " + std::to_string(mesh.positions.size()) +
-                          " vertices; give one for each.");
-    }
     for (const Triangle& triangle : mesh.triangles) check_triangle(mesh, triangle);
+}
+
+void validate(const TriangleMesh& mesh, const Inputs& inputs) {
+    validate(mesh);
+    check_count(inputs.selection, mesh.triangles, "flags of selection", "triangles");
+    check_count(inputs.strength, mesh.positions, "strengths", "vertices");
+    const auto is_set = [](auto flag) { return flag != 0; };
+    const Selection& selection = inputs.selection;
+    if (!selection.empty() && std::none_of(selection.begin(), selection.end(), is_set)) {
+        throw InvalidMesh(
+            "No face is selected; select the faces to smooth, or smooth the whole mesh.");
+    }
+    if (!inputs.strength.empty()) check_strengths(mesh, inputs.strength);
 }
 
 }  // namespace tracked_mcf

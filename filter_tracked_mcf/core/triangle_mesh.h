@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace tracked_mcf {
@@ -17,10 +18,6 @@ using Triangle = std::array<std::int32_t, 3>;
 struct TriangleMesh {
     std::vector<Eigen::Vector3d> positions;  ///< one per vertex
     std::vector<Triangle> triangles;         ///< indices into positions
-    /// Per vertex: a number from 0 to 1 that multiplies the detail size; empty if all are 1. At 0,
-    /// a vertex stays. Coincident vertices take the strength of the first.
-    // Without the initializer, GCC would warn where a mesh is made of two members.
-    std::vector<double> strength = {};  // NOLINT(readability-redundant-member-init)
     /// Whether the positions are floats, to which whoever keeps them rounds the result. Only
     /// NoiseParameters::largest_movement depends on it: it holds after the rounding.
     bool single_precision = false;
@@ -29,9 +26,24 @@ struct TriangleMesh {
 /// One flag per triangle of a mesh: nonzero if the triangle flows. Empty if all triangles flow.
 using Selection = std::vector<std::uint8_t>;
 
-/// Throws InvalidMesh unless the mesh has vertices and triangles, all indices are in range, all
-/// vertices that triangles use are finite, and their strengths from 0 to 1. Unreferenced vertices
-/// are not checked.
+/// What a call takes beside the mesh and the parameters: data of the mesh's triangles and vertices.
+struct Inputs {
+    Inputs(Selection selected = {}, std::vector<double> strengths = {})
+        : selection(std::move(selected)), strength(std::move(strengths)) {}
+
+    Selection selection;
+    /// Per vertex: a number from 0 to 1 that multiplies the detail size; empty if all are 1. At 0,
+    /// a vertex stays. Coincident vertices take the strength of the first.
+    std::vector<double> strength;
+};
+
+/// Throws InvalidMesh unless the mesh has vertices and triangles, all indices are in range, and all
+/// vertices that triangles use are finite. Unreferenced vertices are not checked.
 void validate(const TriangleMesh& mesh);
+
+/// Throws the same and InvalidMesh if no triangle is selected, or if the strength of a vertex that
+/// triangles use is not from 0 to 1; InvalidParameter if the inputs are not as many as triangles or
+/// vertices.
+void validate(const TriangleMesh& mesh, const Inputs& inputs);
 
 }  // namespace tracked_mcf

@@ -35,19 +35,13 @@ ReportValue parameter_value(const Parameter& parameter, const ParameterValue& va
     return {std::get<double>(value)};
 }
 
-/// Returns all parameters of a filter.
+/// Returns all parameters of a filter, and the inputs.
 template <class Parameters>
-ReportObject parameter_values(const Parameters& parameters, const ReportValue& selected,
-                              const ReportValue& strength) {
+ReportObject parameter_values(const Parameters& parameters, const ReportObject& inputs) {
     ReportObject values;
-    for (const auto& row : parameter_table<Parameters>()) {
-        const auto value = [&] {
-            if (row.type == Parameter::Type::Selected) return selected;
-            if (row.type == Parameter::Type::Strength) return strength;
-            return parameter_value(row, row.get(parameters));
-        };
-        values.emplace_back(row.name, value());
-    }
+    for (const auto& row : parameter_table<Parameters>())
+        values.emplace_back(row.name, parameter_value(row, row.get(parameters)));
+    values.insert(values.end(), inputs.begin(), inputs.end());
     return values;
 }
 
@@ -83,13 +77,12 @@ ReportValue step_values(const StepReport& step, Solver solver) {
 
 }  // namespace
 
-ReportObject report_values(const FlowParameters& parameters, const ReportValue& selected,
-                           const ReportValue& strength, const FlowReport& report,
-                           const std::vector<std::string>& warnings) {
+ReportObject report_values(const FlowParameters& parameters, const ReportObject& inputs,
+                           const FlowReport& report, const std::vector<std::string>& warnings) {
     ReportList steps;
     for (const StepReport& step : report.steps)
         steps.push_back(step_values(step, parameters.solver));
-    return {{"parameters", {parameter_values(parameters, selected, strength)}},
+    return {{"parameters", {parameter_values(parameters, inputs)}},
             {"vertices", {report.vertices}},
             {"triangles", {report.triangles}},
             {"degenerate_triangles", {report.degenerate_triangles}},
@@ -123,10 +116,9 @@ ReportObject report_values(const FlowParameters& parameters, const ReportValue& 
             {"peak_memory_bytes", {report.peak_memory_bytes}}};
 }
 
-ReportObject report_values(const NoiseParameters& parameters, const ReportValue& selected,
-                           const ReportValue& strength, const NoiseReport& report,
-                           const std::vector<std::string>& warnings) {
-    return {{"parameters", {parameter_values(parameters, selected, strength)}},
+ReportObject report_values(const NoiseParameters& parameters, const ReportObject& inputs,
+                           const NoiseReport& report, const std::vector<std::string>& warnings) {
+    return {{"parameters", {parameter_values(parameters, inputs)}},
             {"vertices", {report.vertices}},
             {"triangles", {report.triangles}},
             {"degenerate_triangles", {report.degenerate_triangles}},

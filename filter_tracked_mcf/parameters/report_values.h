@@ -25,16 +25,14 @@ struct ReportValue {
 };
 
 /// Returns the parameters, the members of the flow's report but for the quality, and the warnings,
-/// under their names in the code. `selected` and `strength` are the parameters of these names. The
+/// under their names in the code. `inputs` follow the parameters. The
 /// stabilisation is the one used. W-cycles have no tolerance: error_estimate and reached_tolerance
 /// of their steps are null.
-ReportObject report_values(const FlowParameters& parameters, const ReportValue& selected,
-                           const ReportValue& strength, const FlowReport& report,
-                           const std::vector<std::string>& warnings);
+ReportObject report_values(const FlowParameters& parameters, const ReportObject& inputs,
+                           const FlowReport& report, const std::vector<std::string>& warnings);
 
 /// Returns the same of a removal of noise.
-ReportObject report_values(const NoiseParameters& parameters, const ReportValue& selected,
-                           const ReportValue& strength, const NoiseReport& report,
-                           const std::vector<std::string>& warnings);
+ReportObject report_values(const NoiseParameters& parameters, const ReportObject& inputs,
+                           const NoiseReport& report, const std::vector<std::string>& warnings);
 
 }  // namespace tracked_mcf

@@ -7,10 +7,9 @@
 namespace tracked_mcf {
 
 /// Applies the filter of these parameters. See evolve().
-inline FlowReport run(TriangleMesh& mesh, const Selection& selection,
-                      const FlowParameters& parameters, const Progress& progress,
-                      const StepObserver& on_step = {}) {
-    return evolve(mesh, selection, parameters, progress, on_step);
+inline FlowReport run(TriangleMesh& mesh, const Inputs& inputs, const FlowParameters& parameters,
+                      const Progress& progress, const StepObserver& on_step = {}) {
+    return evolve(mesh, inputs, parameters, progress, on_step);
 }
 
 /// Returns the number of steps that the filter has kept.
@@ -19,10 +18,9 @@ inline int steps_of(const FlowReport& report) {
 }
 
 /// Applies the filter of these parameters, which has no steps to observe. See remove_noise().
-inline NoiseReport run(TriangleMesh& mesh, const Selection& selection,
-                       const NoiseParameters& parameters, const Progress& progress,
-                       const StepObserver& /*on_step*/ = {}) {
-    return remove_noise(mesh, selection, parameters, progress);
+inline NoiseReport run(TriangleMesh& mesh, const Inputs& inputs, const NoiseParameters& parameters,
+                       const Progress& progress, const StepObserver& /*on_step*/ = {}) {
+    return remove_noise(mesh, inputs, parameters, progress);
 }
 
 inline int steps_of(const NoiseReport& report) {

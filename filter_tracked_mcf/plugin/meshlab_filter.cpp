@@ -46,12 +46,7 @@ void add(RichParameterList& list, const ParameterOf<Parameters>& parameter,
     const auto add_rich = [&list](const auto& rich_parameter) { list.addParam(rich_parameter); };
     switch (parameter.type) {
         case Parameter::Type::Switch:
-        case Parameter::Type::Strength:
             return add_rich(RichBool(name, std::get<bool>(value), label, help));
-        case Parameter::Type::Selected: {
-            const bool some = layer != nullptr && has_selected_faces(layer->cm);
-            return add_rich(RichBool(name, some, label, help));
-        }
         case Parameter::Type::Integer:
             return add_rich(RichInt(name, std::get<int>(value), label, help));
         case Parameter::Type::Real:
@@ -83,8 +78,8 @@ ParameterValue read(const RichParameterList& list, const Parameter& parameter) {
             return static_cast<double>(value.getFloat());
         }
     }
-    throw InvalidParameter(parameter.name +
-                           " is missing or has the wrong type. Save a filter script in MeshLab to "
+    throw InvalidParameter(parameter.name,
+                           "is missing or has the wrong type. Save a filter script in MeshLab to "
                            "see how it is written.");
 }
 
@@ -132,6 +127,10 @@ RichParameterList rich_parameters(const MeshModel* layer) {
     for (const auto& parameter : parameter_table<Parameters>()) {
         if (!parameter.label.empty()) add(list, parameter, layer);
     }
+    for (const Input& input : input_table<Parameters>()) {
+        const bool is_on = input.of_faces && layer != nullptr && has_selected_faces(layer->cm);
+        list.addParam(RichBool(text(input.name), is_on, text(input.label), rich(input.help)));
+    }
     return list;
 }
 
@@ -144,21 +143,22 @@ FilterOutcome apply_to_current_layer(MeshDocument& document, const RichParameter
         MeshModel* const layer = document.mm();
         if (layer == nullptr) throw InvalidMesh("There is no layer to smooth; open a mesh first.");
         Parameters parameters;
-        LayerInput from_layer;
         for (const auto& parameter : parameter_table<Parameters>()) {
-            if (parameter.label.empty()) continue;
-            const ParameterValue value = read(list, parameter);
-            parameter.set(parameters, value);
-            if (parameter.type == Parameter::Type::Selected)
-                from_layer.selected_only = std::get<bool>(value);
-            if (parameter.type == Parameter::Type::Strength)
-                from_layer.strength_by_quality = std::get<bool>(value);
+            if (!parameter.label.empty()) parameter.set(parameters, read(list, parameter));
         }
-        if (from_layer.strength_by_quality && !layer->hasDataMask(MeshModel::MM_VERTQUALITY)) {
-            throw InvalidMesh(kNoQuality);
+        Inputs inputs;
+        for (const Input& input : input_table<Parameters>()) {
+            if (!std::get<bool>(read(list, input))) continue;
+            if (input.of_faces) {
+                inputs.*input.of_faces = selected_faces(layer->cm);
+            } else if (layer->hasDataMask(MeshModel::MM_VERTQUALITY)) {
+                inputs.*input.of_vertices = vertex_quality(layer->cm);
+            } else {
+                throw InvalidMesh(kNoQuality);
+            }
         }
-        FilterOutcome outcome = run_filter(layer->cm, parameters, from_layer,
-                                           watched_progress(document, *layer, callback));
+        FilterOutcome outcome =
+            run_filter(layer->cm, parameters, inputs, watched_progress(document, *layer, callback));
         update_box_and_normals(*layer);
         if (parameters.quality != Quality::None) {
             layer->updateDataMask(MeshModel::MM_VERTQUALITY);

@@ -23,19 +23,21 @@ std::string label_of(const std::string& name) {
     for (const auto& parameter : parameter_table<Parameters>()) {
         if (parameter.name == name) return parameter.label;
     }
+    for (const Input& input : input_table<Parameters>()) {
+        if (input.name == name) return input.label;
+    }
     return {};
 }
 
-/// Appends the dialog's label of the parameter whose name begins the message. A name has the same
-/// label in all dialogs.
-std::string with_label(const std::string& message) {
-    const std::string name = message.substr(0, message.find(' '));
-    std::string label = label_of<FlowParameters>(name);
-    if (label.empty()) label = label_of<NoiseParameters>(name);
-    if (label.empty()) return message;
-    const bool is_zero = message.rfind(name + " is 0;", 0) == 0;
-    return message + " In the dialog it is \"" + label + "\"." +
-           (is_zero ? " MeshLab reads a number with a decimal comma as 0: use a point." : "");
+/// Returns the message with the parameter's label in the dialog. A name has the same label in all
+/// dialogs.
+std::string message_of(const InvalidParameter& error) {
+    std::string label = label_of<FlowParameters>(error.name);
+    if (label.empty()) label = label_of<NoiseParameters>(error.name);
+    if (label.empty()) return error.what();
+    return std::string(error.what()) + " In the dialog it is \"" + label + "\"." +
+           (error.number == 0 ? " MeshLab reads a number with a decimal comma as 0: use a point."
+                              : "");
 }
 
 }  // namespace
@@ -46,7 +48,7 @@ FilterOutcome guard(const std::function<FilterOutcome()>& work) {
     } catch (const std::bad_alloc&) {
         return {false, "There is not enough memory. Choose a smaller depth.", {}};
     } catch (const InvalidParameter& error) {
-        return {false, with_label(error.what()), {}};
+        return {false, message_of(error), {}};
     } catch (const std::exception& error) {
         return {false, error.what(), {}};
     } catch (...) {

@@ -70,27 +70,19 @@ double default_detail_size_of(const VcgMesh& mesh) {
     return run_filter_detail::default_detail_size_or_zero(to_triangle_mesh(mesh), selection);
 }
 
-/// What a filter takes from a layer besides its vertices and faces.
-struct LayerInput {
-    bool selected_only = false;        ///< only the selected faces move
-    bool strength_by_quality = false;  ///< the vertices' quality is TriangleMesh::strength
-};
-
-/// Applies the filter of these parameters to a mesh of any vcglib type, or its selected faces only,
-/// and returns the message for the user. It throws what the core and `progress` throw, so call it
-/// under guard(). It writes nothing but positions and, if asked for, the vertices' quality, and
-/// writes them last: a failure or a cancelled run leaves the mesh as it was. Throws InvalidMesh if
-/// `progress` has changed a position or a face: a user may apply other filters meanwhile. The host
-/// updates normals and bounding box.
+/// Applies the filter of these parameters to a mesh of any vcglib type, with inputs for the faces
+/// and vertices that are not deleted, and returns the message for the user. It throws what the core
+/// and `progress` throw, so call it under guard(). It writes nothing but positions and, if asked
+/// for, the vertices' quality, and writes them last: a failure or a cancelled run leaves the mesh
+/// as it was. Throws InvalidMesh if `progress` has changed a position or a face: a user may apply
+/// other filters meanwhile. The host updates normals and bounding box.
 template <class VcgMesh, class Parameters>
-FilterOutcome run_filter(VcgMesh& mesh, const Parameters& parameters, const LayerInput& input,
+FilterOutcome run_filter(VcgMesh& mesh, const Parameters& parameters, const Inputs& inputs,
                          const Progress& progress) {
     using namespace run_filter_detail;
-    const Selection selection = input.selected_only ? selected_faces(mesh) : Selection();
     TriangleMesh moved = to_triangle_mesh(mesh);
-    if (input.strength_by_quality) moved.strength = vertex_quality(mesh);
     const std::uint64_t before = checksum(moved);
-    const auto report = run(moved, selection, parameters, progress);
+    const auto report = run(moved, inputs, parameters, progress);
     if (checksum(to_triangle_mesh(mesh)) != before) {
         throw InvalidMesh(
             "The layer changed while the filter ran, so the result was not written. Apply the "

@@ -14,6 +14,7 @@
 
 #include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/evolve.h"
+#include "filter_tracked_mcf/core/parameter_table.h"
 #include "filter_tracked_mcf/parameters/filter_names.h"
 #include "filter_tracked_mcf/parameters/flow_warnings.h"
 #include "filter_tracked_mcf/parameters/noise_warnings.h"
@@ -93,38 +94,43 @@ TriangleMesh mesh_of(nb::handle vertices, nb::handle faces) {
     return mesh;
 }
 
-/// What one of the arguments with a number for each face or vertex must be.
+/// What an argument with a number for each face or vertex must be.
 struct Column {
-    const char* name;
     const char* kinds;   ///< of NumPy's types
+    const char* type;    ///< to which the numbers are converted
     const char* wanted;  ///< in words
-    const char* of;      ///< what has the numbers
 };
 
-/// Copies the numbers, as `type`; none if None is given.
+/// Copies the numbers of an input of `count` faces or vertices; none if None is given.
 template <class Number>
-std::vector<Number> column_of(nb::handle given, const Column& column, const char* type,
-                              std::size_t count) {
+std::vector<Number> numbers_of(const nb::kwargs& arguments, const Input& input,
+                               const Column& column, std::size_t count) {
+    const nb::object given = arguments[input.name.c_str()];
     if (given.is_none()) return {};
     const nb::object array = numpy().attr("asarray")(given);
     if (!has_kind(array, column.kinds) || !array.attr("shape").equal(nb::make_tuple(count))) {
-        throw InvalidParameter(description(column.name, array) + "; give an array of " +
+        throw InvalidParameter(description(input.name.c_str(), array) + "; give an array of " +
                                column.wanted + ", one for each of the " + std::to_string(count) +
-                               " " + column.of + ".");
+                               (input.of_faces ? " faces." : " vertices."));
     }
     const auto numbers = nb::cast<nb::ndarray<const Number, nb::ndim<1>, nb::c_contig>>(
-        numpy().attr("ascontiguousarray")(array, type));
+        numpy().attr("ascontiguousarray")(array, column.type));
     return {numbers.data(), numbers.data() + count};
 }
 
-Selection selection_of(nb::handle given, const TriangleMesh& mesh) {
-    return column_of<std::uint8_t>(given, {"selected", "b", "bools", "faces"}, "uint8",
-                                   mesh.triangles.size());
-}
-
-std::vector<double> strength_of(nb::handle given, const TriangleMesh& mesh) {
-    return column_of<double>(given, {"strength", "fiu", "numbers from 0 to 1", "vertices"},
-                             "float64", mesh.positions.size());
+template <class Parameters>
+Inputs inputs_of(const nb::kwargs& arguments, const TriangleMesh& mesh) {
+    Inputs inputs;
+    for (const Input& input : input_table<Parameters>()) {
+        if (input.of_faces) {
+            inputs.*input.of_faces = numbers_of<std::uint8_t>(
+                arguments, input, {"b", "uint8", "bools"}, mesh.triangles.size());
+        } else {
+            inputs.*input.of_vertices = numbers_of<double>(
+                arguments, input, {"fiu", "float64", "real numbers"}, mesh.positions.size());
+        }
+    }
+    return inputs;
 }
 
 /// Moves numbers into an array of this shape, without a copy.
@@ -197,20 +203,23 @@ template <class Parameters>
 nb::tuple filtered(nb::handle vertices, nb::handle faces, const nb::object& on_step,
                    const nb::object& progress, const nb::kwargs& given) {
     TriangleMesh mesh = mesh_of(vertices, faces);
-    mesh.strength = strength_of(given["strength"], mesh);
-    const Selection selection = selection_of(given["selected"], mesh);
+    const Inputs inputs = inputs_of<Parameters>(given, mesh);
     const auto parameters = parameters_of<Parameters>(given, mesh);
     auto report = [&] {
         const nb::gil_scoped_release released;
-        return run(mesh, selection, parameters, progress_by(progress),
+        return run(mesh, inputs, parameters, progress_by(progress),
                    observer_by(on_step, mesh.single_precision));
     }();
     const std::vector<std::string> warnings = warnings_of(parameters, report, kAdvice);
 
+    ReportObject given_inputs;
+    for (const Input& input : input_table<Parameters>()) {
+        given_inputs.emplace_back(input.name, ReportValue{!given[input.name.c_str()].is_none()});
+    }
     nb::dict values;
     values["version"] = TRACKED_MCF_VERSION;
-    values.update(nb::borrow<nb::dict>(as_python(report_values(
-        parameters, {!selection.empty()}, {!mesh.strength.empty()}, report, warnings))));
+    values.update(
+        nb::borrow<nb::dict>(as_python(report_values(parameters, given_inputs, report, warnings))));
     if (!report.quality.empty()) {
         const std::size_t count = report.quality.size();
         values["quality"] = array_of(std::move(report.quality), {count});
@@ -218,10 +227,10 @@ nb::tuple filtered(nb::handle vertices, nb::handle faces, const nb::object& on_s
     return nb::make_tuple(vertices_of(std::move(mesh.positions), mesh.single_precision), values);
 }
 
-double default_detail_size_of(nb::handle vertices, nb::handle faces, nb::handle selected) {
+double default_detail_size_of(nb::handle vertices, nb::handle faces, const nb::kwargs& given) {
     const TriangleMesh mesh = mesh_of(vertices, faces);
     validate(mesh);
-    return default_detail_size(mesh, selection_of(selected, mesh));
+    return default_detail_size(mesh, inputs_of<FlowParameters>(given, mesh).selection);
 }
 
 /// Raises the error's class of the package, which Python code defines.
@@ -270,5 +279,5 @@ NB_MODULE(_core, module) {
     add_filter<NoiseParameters>(module, "remove_noise");
     add_filter<FlowParameters>(module, "smooth");
     module.def("default_detail_size", default_detail_size_of, "vertices"_a.none(), "faces"_a.none(),
-               "selected"_a.none());
+               "inputs"_a);
 }

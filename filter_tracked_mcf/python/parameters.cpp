@@ -63,9 +63,11 @@ Length length_of(const Parameter& parameter, nb::handle value) {
         if (number.is_valid()) return {PyFloat_AsDouble(number.ptr()), true};
         PyErr_Clear();
     }
-    throw InvalidParameter(parameter.name + " is " + code_of(value) +
-                           "; give a number in units of the mesh, or a string such as '1%', in per "
-                           "cent of the diagonal of its bounding box.");
+    throw InvalidParameter(
+        parameter.name,
+        "is " + code_of(value) +
+            "; give a number in units of the mesh, or a string such as '1%', in per "
+            "cent of the diagonal of its bounding box.");
 }
 
 /// Returns the value that functions take for a choice: an int if its name is a number, else its
@@ -93,8 +95,8 @@ int choice_of(const Parameter& parameter, nb::handle value) {
     for (std::size_t i = 0; i < parameter.choices.size(); ++i) {
         if (literal(parameter.choices[i]) == given) return static_cast<int>(i);
     }
-    throw InvalidParameter(parameter.name + " is " + given + "; give one of " +
-                           literals(parameter) + ".");
+    throw InvalidParameter(parameter.name,
+                           "is " + given + "; give one of " + literals(parameter) + ".");
 }
 
 /// Returns whether the default is not the same with method paper, as that of the stabilisation.
@@ -114,9 +116,6 @@ std::string annotation(const ParameterOf<Parameters>& parameter) {
     switch (parameter.type) {
         case Parameter::Type::Switch:
             return "bool";
-        case Parameter::Type::Selected:
-        case Parameter::Type::Strength:
-            return "ArrayLike | None";
         case Parameter::Type::Integer:
             return "int";
         case Parameter::Type::Real:
@@ -133,9 +132,7 @@ std::string annotation(const ParameterOf<Parameters>& parameter) {
 template <class Parameters>
 nb::object default_of(const ParameterOf<Parameters>& parameter) {
     const ParameterValue value = parameter.initial;
-    if (parameter.type == Parameter::Type::Selected ||
-        parameter.type == Parameter::Type::Strength || depends_on_method(parameter))
-        return nb::none();
+    if (depends_on_method(parameter)) return nb::none();
     if (parameter.type == Parameter::Type::Choice)
         return python_name(parameter.choices.at(static_cast<std::size_t>(std::get<int>(value))));
     return std::visit([](auto held) { return nb::cast(held); }, value);
@@ -144,9 +141,6 @@ nb::object default_of(const ParameterOf<Parameters>& parameter) {
 template <class Parameters>
 std::string help_of(const ParameterOf<Parameters>& parameter) {
     std::string text;
-    if (parameter.type == Parameter::Type::Selected)
-        text = "An array of shape (m,) of bools: only these faces move. ";
-    if (parameter.type == Parameter::Type::Strength) text = "An array of shape (n,). ";
     if (parameter.type == Parameter::Type::Length)
         text = "In units of the mesh, or as '1%' of its bounding box's diagonal. ";
     if (depends_on_method(parameter))
@@ -167,9 +161,6 @@ Parameters parameters_of(const nb::dict& given, const TriangleMesh& mesh) {
             case Parameter::Type::Switch:
                 set(bool_of(parameter, value));
                 break;
-            case Parameter::Type::Selected:
-            case Parameter::Type::Strength:
-                break;  // an argument of its own
             case Parameter::Type::Integer:
                 set(int_of(parameter, value));
                 break;
@@ -205,6 +196,20 @@ nb::list described_parameters() {
         values["choices"] = choices;
         values["label"] = parameter.label;
         values["help"] = help_of(parameter);
+        list.append(values);
+    }
+    for (const Input& input : input_table<Parameters>()) {
+        nb::dict values;
+        values["name"] = input.name;
+        values["type"] = "ArrayLike | None";
+        values["default"] = nb::none();
+        values["choices"] = nb::list();
+        values["label"] = input.label;
+        values["of_faces"] = input.of_faces != nullptr;
+        values["help"] =
+            (input.of_faces ? "An array of shape (m,) of bools, or indices: only these faces move. "
+                            : "An array of shape (n,). ") +
+            input.help;
         list.append(values);
     }
     return list;

@@ -21,10 +21,7 @@ std::string python_type(const Parameter& parameter) {
     text << std::showpoint << std::setprecision(2);
     switch (parameter.type) {
         case Parameter::Type::Switch:
-        case Parameter::Type::Strength:
             return std::get<bool>(value) ? "bool = True" : "bool = False";
-        case Parameter::Type::Selected:
-            return "bool, by default True if faces are selected";
         case Parameter::Type::Integer:
             return "int = " + std::to_string(std::get<int>(value));
         case Parameter::Type::Real:
@@ -48,10 +45,15 @@ template <class Parameters>
 std::string pymeshlab_help() {
     const std::string html = std::regex_replace(kNames<Parameters>.help, std::regex("<br>"), "\n");
     std::string text = std::regex_replace(html, std::regex("<[^>]*>"), "") + "\n\nParameters:\n";
+    const auto add = [&text](const Parameter& parameter, const std::string& type) {
+        text += "    " + parameter.name + ": " + type + "\n        " + parameter.label + ": " +
+                parameter.help + "\n";
+    };
     for (const auto& parameter : parameter_table<Parameters>()) {
-        if (parameter.label.empty()) continue;
-        text += "    " + parameter.name + ": " + python_type(parameter) + "\n        " +
-                parameter.label + ": " + parameter.help + "\n";
+        if (!parameter.label.empty()) add(parameter, python_type(parameter));
+    }
+    for (const Input& input : input_table<Parameters>()) {
+        add(input, input.of_faces ? "bool, by default True if faces are selected" : "bool = False");
     }
     return text +
            "\nReturns a dictionary of numbers, such as largest_displacement, and the list "

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <functional>
+#include <numeric>
 #include <sstream>
 
 #include "filter_tracked_mcf/core/errors.h"
@@ -22,12 +23,12 @@ constexpr std::size_t kNameColumns = 26, kTextColumns = 70;
 
 const std::string kLength = " X, in units of the mesh, or X% of its bounding box's diagonal. ";
 
-const std::string kProperty =
+const std::string kFaceProperty =
     "Only selected faces move. PROPERTY is the name of a number that the faces of a PLY file have, "
     "or else its vertices. A face is selected if its number is not 0, or if the numbers of all its "
     "vertices are not 0. 'flags' is where MeshLab saves a selection: only its bit 32 counts. ";
 
-const std::string kStrength =
+const std::string kVertexProperty =
     "PROPERTY is the name of a number that the vertices of a PLY file have; MeshLab's vertex "
     "quality is 'quality'. ";
 
@@ -130,8 +131,7 @@ Length length_of(const std::string& option, std::string text) {
 template <class Parameters>
 void add_parameter(CLI::App& app, CommandLineOf<Parameters>& line,
                    const ParameterOf<Parameters>& parameter) {
-    std::string option = "--" + parameter.name;
-    std::replace(option.begin(), option.end(), '_', '-');
+    const std::string option = option_of(parameter.name);
     const std::string help = help_of(parameter.help);
     const ParameterValue& value = parameter.initial;
     const std::string first = std::visit([](auto v) { return CLI::detail::to_string(v); }, value);
@@ -142,14 +142,6 @@ void add_parameter(CLI::App& app, CommandLineOf<Parameters>& line,
         case Parameter::Type::Switch:
             app.add_flag_function(
                 option, [set](auto count) { set(count > 0); }, help);
-            break;
-        case Parameter::Type::Selected:
-            app.add_option(option, line.selected, help_of(kProperty + parameter.help))
-                ->type_name("PROPERTY");
-            break;
-        case Parameter::Type::Strength:
-            app.add_option(option, line.strength, help_of(kStrength + parameter.help))
-                ->type_name("PROPERTY");
             break;
         case Parameter::Type::Integer:
             app.add_option_function<int>(option, set, help)->type_name("N")->default_str(first);
@@ -186,6 +178,12 @@ void add_parameter(CLI::App& app, CommandLineOf<Parameters>& line,
 template <class Parameters>
 void add_rows(CLI::App& app, CommandLineOf<Parameters>& line) {
     for (const auto& row : parameter_table<Parameters>()) add_parameter(app, line, row);
+    for (const Input& input : input_table<Parameters>()) {
+        const std::string& property = input.of_faces ? kFaceProperty : kVertexProperty;
+        app.add_option(option_of(input.name), line.properties[input.name],
+                       help_of(property + input.help))
+            ->type_name("PROPERTY");
+    }
 }
 
 void add_parameters(CLI::App& app, CommandLineOf<FlowParameters>& line) {
@@ -249,15 +247,12 @@ void check_paths(const CommandLine& line, bool has_quality) {
         throw InvalidParameter(path.u8string() +
                                ": the extension tells the format; give .ply, .obj, .off or .stl.");
     }
-    if (!line.selected.empty() && format_of(line.input)->parse != parse_ply) {
-        throw InvalidParameter(
-            "--selected needs a PLY file as INPUT: only PLY has properties to select by.");
+    for (const auto& [name, property] : line.properties) {
+        if (property.empty() || format_of(line.input)->has_numbers) continue;
+        throw InvalidParameter(option_of(name) +
+                               " needs a PLY file as INPUT: only PLY has properties.");
     }
-    if (!line.strength.empty() && format_of(line.input)->parse != parse_ply) {
-        throw InvalidParameter(
-            "--strength needs a PLY file as INPUT: only PLY has numbers at vertices.");
-    }
-    if (has_quality && format_of(line.output)->parse != parse_ply) {
+    if (has_quality && !format_of(line.output)->has_numbers) {
         throw InvalidParameter("--quality needs a PLY file as OUTPUT: only PLY can hold it.");
     }
     const StepFiles steps(line.output, line.every);
@@ -274,7 +269,49 @@ void check_paths(const CommandLine& line, bool has_quality) {
     }
 }
 
+/// Returns how many letters must be inserted, removed or replaced to turn one word into the other.
+std::size_t distance(const std::string& a, const std::string& b) {
+    std::vector<std::size_t> row(b.size() + 1);  // from the first letters of a to those of b
+    std::iota(row.begin(), row.end(), 0);
+    for (const char letter : a) {
+        std::size_t above_left = row[0]++;
+        for (std::size_t j = 0; j < b.size(); ++j) {
+            const std::size_t replaced = above_left + (letter == b[j] ? 0 : 1);
+            above_left = row[j + 1];
+            row[j + 1] = std::min({replaced, above_left + 1, row[j] + 1});
+        }
+    }
+    return row.back();
+}
+
+/// Returns a question for the option that is nearest to the first unknown one; empty if none is
+/// near.
+std::string suggestion(const CLI::App& app) {
+    for (const std::string& word : app.remaining()) {
+        if (word.rfind("--", 0) != 0) continue;
+        const std::string unknown = word.substr(0, word.find('='));
+        std::string nearest;
+        std::size_t least = unknown.size() / 3 + 1;
+        for (const CLI::Option* const option : app.get_options()) {
+            const std::string name = option->get_name();
+            const bool is_begun = name.rfind(unknown, 0) == 0;
+            const std::size_t changes = is_begun ? 0 : distance(unknown, name);
+            if (changes >= least) continue;
+            nearest = name;
+            least = changes;
+        }
+        return nearest.empty() ? "" : " Do you mean " + nearest + "?";
+    }
+    return {};
+}
+
 }  // namespace
+
+std::string option_of(const std::string& parameter) {
+    std::string option = "--" + parameter;
+    std::replace(option.begin(), option.end(), '_', '-');
+    return option;
+}
 
 template <class Parameters>
 CommandLineOf<Parameters> parse_command_line(std::vector<std::string> arguments) {
@@ -298,7 +335,8 @@ CommandLineOf<Parameters> parse_command_line(std::vector<std::string> arguments)
         line.answer = app.version() + "\n";
         return line;
     } catch (const CLI::ParseError& error) {
-        throw InvalidParameter(std::string(error.what()) + ". Run " + Texts::kCommand + " --help.");
+        throw InvalidParameter(std::string(error.what()) + "." + suggestion(app) + " Run " +
+                               Texts::kCommand + " --help.");
     }
     check_paths(line, line.parameters.quality != Quality::None);
     return line;

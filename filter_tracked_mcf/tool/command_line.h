@@ -16,8 +16,8 @@ struct CommandLine {
     std::filesystem::path input, output;
     std::filesystem::path report;           ///< empty for none
     std::map<std::string, Length> lengths;  ///< those that were given, by the parameter's name
-    std::string selected;  ///< property of INPUT that selects faces; empty for all faces
-    std::string strength;  ///< property of INPUT's vertices; empty for none
+    /// The properties of INPUT for inputs, by the input's name; empty for none.
+    std::map<std::string, std::string> properties;
     int every = 0;         ///< every how many steps the surface is written, too; 0 for never
     bool doubles = false;  ///< whether PLY files get doubles, whatever INPUT has
     bool quiet = false;
@@ -32,6 +32,9 @@ template <class Parameters>
 struct CommandLineOf : CommandLine {
     Parameters parameters;  ///< but for the lengths
 };
+
+/// Returns the option of a parameter, such as "--detail-size" for detail_size.
+std::string option_of(const std::string& parameter);
 
 /// Parses the arguments of the program, without its name and the filter's. `Parameters` is
 /// FlowParameters or NoiseParameters. Throws InvalidParameter for unknown options, values that are

@@ -30,13 +30,13 @@ enum ExitCode { Done = 0, BadMesh = 1, BadUsage = 2, Unwritable = 3 };
 
 /// Shows a progress bar on a terminal. An interrupt cancels the flow and wipes the bar.
 template <class Parameters>
-auto run_with_progress(TriangleMesh& mesh, const Selection& selection,
+auto run_with_progress(TriangleMesh& mesh, const Inputs& inputs,
                        const CommandLineOf<Parameters>& line, const StepObserver& on_step) {
     const InterruptHold hold;
     std::optional<ProgressBar> bar;
     if (!line.quiet && writes_to_terminal()) bar.emplace(std::cerr);
     return tracked_mcf::run(
-        mesh, selection, line.parameters,
+        mesh, inputs, line.parameters,
         [&bar](double fraction, std::string_view phase) {
             if (bar) bar->show(fraction, phase);
             return !interrupted();
@@ -77,9 +77,15 @@ void smooth(CommandLineOf<Parameters> line) {
     if (line.doubles) file.write_doubles();
     mesh.single_precision = file.writes_floats(line.output);
     set_lengths(line, &mesh);
-    Selection selection;
-    if (!line.selected.empty()) selection = file.selection_by(line.selected);
-    if (!line.strength.empty()) mesh.strength = file.strength_by(line.strength);
+    Inputs inputs;
+    for (const Input& input : input_table<Parameters>()) {
+        const std::string& property = line.properties[input.name];
+        if (property.empty()) continue;
+        if (input.of_faces)
+            inputs.*input.of_faces = file.selection_by(property);
+        else
+            inputs.*input.of_vertices = file.numbers_by(property);
+    }
     StepFiles step_files(line.output, line.every);
     StepObserver on_step;
     if (line.every > 0) {
@@ -89,7 +95,7 @@ void smooth(CommandLineOf<Parameters> line) {
             });
         };
     }
-    const auto report = run_with_progress(mesh, selection, line, on_step);
+    const auto report = run_with_progress(mesh, inputs, line, on_step);
     step_files.remove_after(steps_of(report));
 
     file.set_quality(report.quality);
@@ -145,7 +151,8 @@ int main(int argc, char** argv) {
         }
         return Done;
     } catch (const InvalidParameter& error) {
-        return fail(BadUsage, error.what());
+        return fail(BadUsage, error.name.empty() ? error.what()
+                                                 : option_of(error.name) + ' ' + error.problem);
     } catch (const UnwritableFile& error) {
         return fail(Unwritable, error.what());
     } catch (const UnreadableFile& error) {

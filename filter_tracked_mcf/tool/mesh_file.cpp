@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "filter_tracked_mcf/core/errors.h"
-#include "filter_tracked_mcf/tool/documents/ply_document.h"
+#include "filter_tracked_mcf/tool/documents/file_document.h"
 
 namespace tracked_mcf {
 
@@ -23,11 +23,12 @@ bool is_selecting(const std::string& name, double number) {
     return is_whole && (static_cast<std::int64_t>(number) & kSelectedFlag) != 0;
 }
 
-std::string numbers_of(const PlyElement& element) {
+using NumbersOf = FileDocument::NumbersOf;
+
+std::string names_of_numbers(const FileDocument& document, NumbersOf items) {
     std::string list;
-    for (const PlyProperty& property : element.properties) {
-        if (!property.is_list()) list += (list.empty() ? "" : ", ") + property.name;
-    }
+    for (const std::string& name : document.names_of_numbers(items))
+        list += (list.empty() ? "" : ", ") + name;
     return list.empty() ? "none" : list;
 }
 
@@ -40,14 +41,14 @@ TriangleMesh MeshFile::triangle_mesh() const {
 }
 
 Selection MeshFile::selection_by(const std::string& name) const {
-    const auto& ply = dynamic_cast<const PlyDocument&>(*document_);
-    const Polygons& polygons = ply.polygons();
-    const std::vector<double> of_faces = ply.faces().numbers(name);
-    const std::vector<double> of_vertices = ply.vertices().numbers(name);
+    const Polygons& polygons = document_->polygons();
+    const std::vector<double> of_faces = document_->numbers(NumbersOf::Faces, name);
+    const std::vector<double> of_vertices = document_->numbers(NumbersOf::Vertices, name);
     if (of_faces.empty() && of_vertices.empty()) {
-        throw InvalidParameter(path_.u8string() + " has no number '" + name +
-                               "' to select by; its faces have: " + numbers_of(ply.faces()) +
-                               "; its vertices: " + numbers_of(ply.vertices()) + ".");
+        throw InvalidParameter(
+            path_.u8string() + " has no number '" + name +
+            "' to select by; its faces have: " + names_of_numbers(*document_, NumbersOf::Faces) +
+            "; its vertices: " + names_of_numbers(*document_, NumbersOf::Vertices) + ".");
     }
     const auto is_selected = [&](std::size_t polygon) {
         if (!of_faces.empty()) return is_selecting(name, of_faces[polygon]);
@@ -68,12 +69,12 @@ Selection MeshFile::selection_by(const std::string& name) const {
     return selection;
 }
 
-std::vector<double> MeshFile::strength_by(const std::string& name) const {
-    const PlyElement& vertices = dynamic_cast<const PlyDocument&>(*document_).vertices();
-    std::vector<double> numbers = vertices.numbers(name);
+std::vector<double> MeshFile::numbers_by(const std::string& name) const {
+    std::vector<double> numbers = document_->numbers(NumbersOf::Vertices, name);
     if (numbers.empty()) {
-        throw InvalidParameter("The vertices of " + path_.u8string() + " have no number '" + name +
-                               "'; they have: " + numbers_of(vertices) + ".");
+        throw InvalidParameter(
+            "The vertices of " + path_.u8string() + " have no number '" + name +
+            "'; they have: " + names_of_numbers(*document_, NumbersOf::Vertices) + ".");
     }
     return numbers;
 }

@@ -27,18 +27,16 @@ public:
     /// Returns the vertices and the triangles of the faces, in the order of the file.
     TriangleMesh triangle_mesh() const;
 
-    /// Returns which of these triangles the property `name` of a PLY file selects: a number of the
+    /// Returns which of these triangles the property `name` selects: a number of the
     /// faces, or else of the vertices. A face is selected if its number is not zero, or if the
     /// numbers of all its vertices are not. In `flags`, where MeshLab keeps a selection, only the
     /// bit for selected counts.
     ///
-    /// Throws InvalidParameter if there is no such property, InvalidMesh if it selects nothing, and
-    /// std::bad_cast for other formats.
+    /// Throws InvalidParameter if there is no such property, and InvalidMesh if it selects nothing.
     Selection selection_by(const std::string& name) const;
 
-    /// Returns the number `name` of each vertex of a PLY file. Throws InvalidParameter if there is
-    /// none, and std::bad_cast for other formats.
-    std::vector<double> strength_by(const std::string& name) const;
+    /// Returns the number `name` of each vertex. Throws InvalidParameter if there is none.
+    std::vector<double> numbers_by(const std::string& name) const;
 
     /// Gives each vertex a number, which write() writes to a PLY file as the property `quality`.
     void set_quality(const std::vector<double>& quality);

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <variant>
 
+#include "filter_tracked_mcf/core/parameter_table.h"
 #include "filter_tracked_mcf/parameters/flow_warnings.h"
 #include "filter_tracked_mcf/parameters/noise_warnings.h"
 #include "filter_tracked_mcf/parameters/report_values.h"
@@ -44,14 +45,17 @@ Json as_json(const ReportValue& value) {
 template <class Parameters, class Report>
 std::string json_of(const CommandLineOf<Parameters>& line, const Report& report,
                     const std::vector<std::string>& warnings) {
-    ReportValue selected, strength;
-    if (!line.selected.empty()) selected.value = line.selected;
-    if (!line.strength.empty()) strength.value = line.strength;
+    ReportObject inputs;
+    for (const Input& input : input_table<Parameters>()) {
+        const auto property = line.properties.find(input.name);
+        const bool is_given = property != line.properties.end() && !property->second.empty();
+        inputs.emplace_back(input.name, is_given ? ReportValue{property->second} : ReportValue());
+    }
     Json json = {{"program", "tracked_mcf"},
                  {"version", TRACKED_MCF_VERSION},
                  {"input", line.input.u8string()},
                  {"output", line.output.u8string()}};
-    json.update(as_json(report_values(line.parameters, selected, strength, report, warnings)));
+    json.update(as_json(report_values(line.parameters, inputs, report, warnings)));
     // JSON must be UTF-8; file names need not be.
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

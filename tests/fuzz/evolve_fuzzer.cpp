@@ -114,7 +114,7 @@ zoo::Case case_of(Bytes& bytes) {
         Triangle triangle{};
         for (std::int32_t& vertex : triangle) vertex = index(bytes, vertex_count);
         made.mesh.triangles.push_back(triangle);
-        if (has_selection) made.selection.push_back(bytes.flag() ? 1 : 0);
+        if (has_selection) made.inputs.selection.push_back(bytes.flag() ? 1 : 0);
     }
     return made;
 }
@@ -123,9 +123,9 @@ zoo::Case case_of(Bytes& bytes) {
 void require_refusal(zoo::Case& invalid) {
     try {
         if (invalid.noise) {
-            remove_noise(invalid.mesh, invalid.selection, *invalid.noise);
+            remove_noise(invalid.mesh, invalid.inputs, *invalid.noise);
         } else {
-            evolve(invalid.mesh, invalid.selection, invalid.parameters);
+            evolve(invalid.mesh, invalid.inputs, invalid.parameters);
         }
     } catch (const Error&) {
         return;

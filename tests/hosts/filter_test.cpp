@@ -62,15 +62,15 @@ std::string message_of(const Error& error) {
 }
 
 TEST(Guard, AMessageAboutAParameterSaysItsLabel) {
-    EXPECT_EQ(message_of(InvalidParameter("depth is 13; give 0 to 12.")),
+    EXPECT_EQ(message_of(InvalidParameter("depth", "is 13; give 0 to 12.", 13)),
               "depth is 13; give 0 to 12. In the dialog it is \"Octree depth (expert)\".");
-    EXPECT_EQ(message_of(InvalidParameter("threads is -1; give more.")),
+    EXPECT_EQ(message_of(InvalidParameter("threads", "is -1; give more.", -1)),
               "threads is -1; give more.");
     EXPECT_EQ(message_of(InvalidMesh("depth is no word of this.")), "depth is no word of this.");
 }
 
 TEST(Guard, AZeroMayBeANumberThatMeshLabCouldNotRead) {
-    EXPECT_EQ(message_of(InvalidParameter("iterations is 0; give 1 to 9.")),
+    EXPECT_EQ(message_of(InvalidParameter("iterations", "is 0; give 1 to 9.", 0)),
               "iterations is 0; give 1 to 9. In the dialog it is \"Smoothing steps\". MeshLab "
               "reads a number with a decimal comma as 0: use a point.");
 }

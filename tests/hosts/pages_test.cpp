@@ -36,10 +36,7 @@ Rows matches(const std::string& text, const std::string& pattern) {
 std::string default_in_words(const Parameter& parameter) {
     const ParameterValue value = parameter.initial;
     if (&parameter == &parameter_table<FlowParameters>()[0]) return "2.5 mean edge lengths";
-    if (parameter.type == Parameter::Type::Selected) return "on if faces are selected";
-    const bool is_switch =
-        parameter.type == Parameter::Type::Switch || parameter.type == Parameter::Type::Strength;
-    if (is_switch) return std::get<bool>(value) ? "on" : "off";
+    if (const bool* const is_on = std::get_if<bool>(&value)) return *is_on ? "on" : "off";
     if (parameter.type == Parameter::Type::Choice) {
         const NamedChoice& choice = parameter.choices.at(std::size_t(std::get<int>(value)));
         return parameter.label.empty() ? choice.name : choice.label;
@@ -61,6 +58,10 @@ void expect_table(const std::string& file, const std::string& heading, const std
         // The program's options have dashes.
         if (!in_dialogs) std::replace(name.begin(), name.end(), '_', '-');
         expected.emplace_back(name, default_in_words(parameter));
+    }
+    for (const Input& input : input_table<Parameters>()) {
+        const char* const initial = input.of_faces ? "on if faces are selected" : "off";
+        if (in_dialogs) expected.emplace_back(input.name, initial);
     }
     const std::string text = page(file);
     const std::size_t begin = text.find(heading);
@@ -90,6 +91,7 @@ void expect_script() {
         };
         expected.emplace_back(parameter.name, std::visit(in_xml, parameter.initial));
     }
+    for (const Input& input : input_table<Parameters>()) expected.emplace_back(input.name, "false");
     const std::string text = page("filter_tracked_mcf/plugin/README.md");
     const std::size_t begin =
         text.find("<filter name=\"" + std::string(kNames<Parameters>.name) + "\">");

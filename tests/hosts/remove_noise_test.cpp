@@ -64,6 +64,10 @@ TEST_F(RemoveNoise, HasItsOwnNameHelpAndParameters) {
             EXPECT_EQ(rich.value().getFloat(), 0) << row.name;
         }
     }
+    for (const Input& input : input_table<NoiseParameters>()) {
+        ++shown;
+        EXPECT_TRUE(parameters.hasParameter(QString::fromStdString(input.name))) << input.name;
+    }
     EXPECT_EQ(parameters.size(), shown);
 }
 

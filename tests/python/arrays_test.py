@@ -68,7 +68,7 @@ WRONG = [
     ({"strength": [1]}, InvalidParameter, "one for each of the 1600 vertices"),
     ({"strength": numpy.full(1600, 2)}, InvalidMesh, "The strength of vertex 0 is 2"),
     ({"strength": numpy.zeros(1600)}, InvalidMesh, "Nothing can move"),
-    ({"strength": numpy.ones(1600, bool)}, InvalidParameter, "numbers from 0 to 1"),
+    ({"strength": numpy.ones(1600, bool)}, InvalidParameter, "an array of real numbers"),
     ({"progress": 1}, TypeError, "not callable"),
 ]
 FLOW_WRONG = [

@@ -54,7 +54,7 @@ TEST(CommandLine, DefaultsAreThoseOfTheFlow) {
     EXPECT_EQ(line.parameters.iterations, defaults.iterations);
     EXPECT_EQ(line.parameters.flow, defaults.flow);
     EXPECT_EQ(line.parameters.boundary, defaults.boundary);
-    EXPECT_EQ(line.selected, "");
+    EXPECT_EQ(line.properties.at("selected"), "");
     EXPECT_EQ(line.parameters.preserve, defaults.preserve);
     EXPECT_EQ(line.parameters.cubature, defaults.cubature);
     EXPECT_EQ(line.parameters.separate_sheets, defaults.separate_sheets);
@@ -112,7 +112,7 @@ TEST(CommandLine, EveryOptionIsTaken) {
     EXPECT_EQ(line.parameters.iterations, 3);
     EXPECT_EQ(line.parameters.flow, FlowKind::Conformalized);
     EXPECT_EQ(line.parameters.boundary, BoundaryCondition::Free);
-    EXPECT_EQ(line.selected, "my quality");
+    EXPECT_EQ(line.properties.at("selected"), "my quality");
     EXPECT_EQ(line.parameters.preserve, Preserve::Volume);
     EXPECT_FALSE(line.parameters.separate_sheets);
     EXPECT_EQ(line.parameters.solver, Solver::OneWCycle);

@@ -386,8 +386,12 @@ TEST_F(Program, WrongUseExitsWith2) {
     EXPECT_THAT(run("a.off b.ply --order 5").errors, HasSubstr("order is 5; give 1 to 4."));
     EXPECT_THAT(
         run("a.off b.ply --detail-size -1").errors,
-        HasSubstr("detail_size is -1; give 0 or more, in units of the mesh, where 0 takes 2.5 "
+        HasSubstr("--detail-size is -1; give 0 or more, in units of the mesh, where 0 takes 2.5 "
                   "mean edge lengths."));
+    EXPECT_THAT(run("a.off b.ply --detail_size 1").errors,
+                HasSubstr("Do you mean --detail-size? Run"));
+    EXPECT_THAT(run("a.off b.ply --iter=2").errors, HasSubstr("Do you mean --iterations? Run"));
+    EXPECT_THAT(run("a.off b.ply --unlike-any").errors, HasSubstr("--unlike-any. Run"));
 }
 
 TEST_F(Program, UnwritableResultsExitWith3BeforeTheWork) {

@@ -31,8 +31,7 @@ TEST(Report, HoldsEveryMemberUnderItsName) {
     line.parameters.iterations = 3;
     line.parameters.flow = FlowKind::Conformalized;
     line.parameters.boundary = BoundaryCondition::Free;
-    line.selected = "q";
-    line.strength = "s";
+    line.properties = {{"selected", "q"}, {"strength", "s"}};
     line.parameters.preserve = Preserve::Area;
     line.parameters.quality = Quality::Displacement;
     line.parameters.separate_sheets = false;

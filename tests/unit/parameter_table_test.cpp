@@ -20,14 +20,8 @@ ParameterValue other_value(const Parameter& parameter) {
     return 0.5;
 }
 
-bool is_of_host(const Parameter& parameter) {
-    return parameter.type == Parameter::Type::Selected ||
-           parameter.type == Parameter::Type::Strength;
-}
-
 TEST(ParameterTable, ARowSetsItsMemberAndNoOther) {
     for (const auto& set : parameter_table<FlowParameters>()) {
-        if (is_of_host(set)) continue;
         const ParameterValue value = other_value(set);
         FlowParameters parameters;
         set.set(parameters, value);
@@ -57,12 +51,9 @@ TEST(ParameterTable, AMethodComesBackAndANumberThatIsNoneIsRefused) {
     }
 }
 
-TEST(ParameterTable, WhatHostsTakeFromTheMeshIsNoMember) {
-    for (const auto& parameter : parameter_table<FlowParameters>()) {
-        if (!is_of_host(parameter)) continue;
-        FlowParameters parameters;
-        parameter.set(parameters, true);
-        EXPECT_EQ(parameter.get(parameters), ParameterValue(false));
+TEST(ParameterTable, AnInputHasOneMember) {
+    for (const Input& input : input_table<FlowParameters>()) {
+        EXPECT_NE(input.of_faces == nullptr, input.of_vertices == nullptr) << input.name;
     }
 }
 
@@ -70,6 +61,9 @@ TEST(ParameterTable, NamesDiffer) {
     std::set<std::string> names;
     for (const auto& parameter : parameter_table<FlowParameters>()) {
         EXPECT_TRUE(names.insert(parameter.name).second) << parameter.name;
+    }
+    for (const Input& input : input_table<FlowParameters>()) {
+        EXPECT_TRUE(names.insert(input.name).second) << input.name;
     }
 }
 

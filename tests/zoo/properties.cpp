@@ -39,7 +39,7 @@ struct Run {
 FlowReport remove_noise_from(TriangleMesh& mesh, const Case& run_case, int threads) {
     NoiseParameters parameters = *run_case.noise;
     parameters.threads = threads;
-    NoiseReport noise = remove_noise(mesh, run_case.selection, parameters);
+    NoiseReport noise = remove_noise(mesh, run_case.inputs, parameters);
     FlowReport report;
     report.detail_size = noise.detail_size;
     report.area_before = noise.area_before;
@@ -59,7 +59,7 @@ Run run(const Case& run_case, int threads = 1) {
     const double start = cpu_seconds();
     try {
         made.report = run_case.noise ? remove_noise_from(made.mesh, run_case, threads)
-                                     : evolve(made.mesh, run_case.selection, parameters);
+                                     : evolve(made.mesh, run_case.inputs, parameters);
     } catch (const Error& error) {
         made.refusal = error.what();
     } catch (const std::exception& error) {
@@ -133,9 +133,9 @@ double sum_of_sides(const TriangleMesh& mesh, const Selection& selection) {
 Case split_in_four(const Case& coarse) {
     Case fine = coarse;
     fine.mesh = shapes::split_in_four(coarse.mesh);
-    fine.selection.clear();
-    for (const auto is_selected : coarse.selection)
-        fine.selection.insert(fine.selection.end(), 4, is_selected);
+    fine.inputs.selection.clear();
+    for (const auto is_selected : coarse.inputs.selection)
+        fine.inputs.selection.insert(fine.inputs.selection.end(), 4, is_selected);
     return fine;
 }
 
@@ -186,7 +186,7 @@ public:
     Checker(const Case& checked, Random& random)
         : case_(checked),
           random_(random),
-          flows_(vertices_of(checked.mesh, checked.selection)),
+          flows_(vertices_of(checked.mesh, checked.inputs.selection)),
           box_(box_of(checked.mesh, flows_)),
           base_(run(checked)) {}
 
@@ -246,7 +246,7 @@ void Checker::check_errors() {
 void Checker::check_time() {
     if (case_.noise) return check_noise_time();
     const double fragments =
-        std::max(fragments_at(case_.mesh, case_.selection, case_.parameters.depth),
+        std::max(fragments_at(case_.mesh, case_.inputs.selection, case_.parameters.depth),
                  static_cast<double>(base_.report.fragments));
     const double size = static_cast<double>(case_.mesh.triangles.size()) + fragments;
     const FlowParameters& parameters = case_.parameters;
@@ -349,7 +349,7 @@ void Checker::check_area() {
     const FlowParameters& parameters = case_.parameters;
     if (parameters.order > 1 || parameters.preserve != Preserve::None) return;
     const double factor = parameters.boundary == BoundaryCondition::Locked ? 1 + 1e-3 : 1 + 1e-5;
-    const double sides = sum_of_sides(case_.mesh, case_.selection);
+    const double sides = sum_of_sides(case_.mesh, case_.inputs.selection);
     for (const StepReport& step : report.steps) {
         const double before = report.steps.front().area;
         if (step.area <= factor * before + 1e-6 * report.cell_size * sides) continue;
@@ -372,7 +372,7 @@ void Checker::check_area() {
 
 void Checker::check_unmoved() {
     for (std::size_t i = 0; i < flows_.size(); ++i) {
-        const bool is_held = !case_.mesh.strength.empty() && case_.mesh.strength[i] == 0;
+        const bool is_held = !case_.inputs.strength.empty() && case_.inputs.strength[i] == 0;
         const bool moves = flows_[i] && !is_held;
         if (moves || same_bits(base_.mesh.positions[i], case_.mesh.positions[i])) continue;
         fail(Property::Unmoved, "vertex " + std::to_string(i));
@@ -512,13 +512,14 @@ void Checker::check_order() {
     for (std::size_t i = 0; i < vertex_of.size(); ++i) {
         new_index[vertex_of[i]] = static_cast<std::int32_t>(i);
         other.mesh.positions[i] = case_.mesh.positions[vertex_of[i]];
-        if (!case_.mesh.strength.empty())
-            other.mesh.strength[i] = case_.mesh.strength[vertex_of[i]];
+        if (!case_.inputs.strength.empty())
+            other.inputs.strength[i] = case_.inputs.strength[vertex_of[i]];
     }
     for (std::size_t i = 0; i < triangle_of.size(); ++i) {
         const Triangle& t = case_.mesh.triangles[triangle_of[i]];
         other.mesh.triangles[i] = {new_index[t[0]], new_index[t[1]], new_index[t[2]]};
-        if (!case_.selection.empty()) other.selection[i] = case_.selection[triangle_of[i]];
+        if (!case_.inputs.selection.empty())
+            other.inputs.selection[i] = case_.inputs.selection[triangle_of[i]];
     }
     // Where a surface has one side, a seam counts as a crease, and which one depends on the order.
     // The normals of triangles on a line are rounding.

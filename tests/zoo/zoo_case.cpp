@@ -145,7 +145,7 @@ double fragments_at(const TriangleMesh& mesh, const Selection& selection, int de
 void limit_work(Case& limited, double most_fragments) {
     FlowParameters& parameters = limited.parameters;
     const auto fragments = [&](int depth) {
-        return fragments_at(limited.mesh, limited.selection, depth);
+        return fragments_at(limited.mesh, limited.inputs.selection, depth);
     };
     while (parameters.depth > 1 && fragments(parameters.depth) > most_fragments) --parameters.depth;
     // The automatic depth is hardly ever deeper than this for meshes of a few thousand vertices.
@@ -162,18 +162,18 @@ Case case_of(std::uint64_t seed, std::int64_t number) {
     const Kind& kind = kinds()[random.below(static_cast<int>(kinds().size()))];
     made.kind = kind.name;
     made.mesh = kind.make(random);
-    if (random.chance(0.1)) made.selection = random_selection(made.mesh, random);
+    if (random.chance(0.1)) made.inputs.selection = random_selection(made.mesh, random);
     made.parameters =
-        random_parameters(box_of(made.mesh, made.selection).sizes().maxCoeff(), random);
+        random_parameters(box_of(made.mesh, made.inputs.selection).sizes().maxCoeff(), random);
     limit_work(made, kMostFragments);
-    if (random.chance(0.1)) made.mesh.strength = random_strength(made.mesh, random);
+    if (random.chance(0.1)) made.inputs.strength = random_strength(made.mesh, random);
     return made;
 }
 
 Case noise_case_of(std::uint64_t seed, std::int64_t number) {
     Case made = case_of(seed, number);
     Random random(seed, ~static_cast<std::uint64_t>(number));
-    const double side = box_of(made.mesh, made.selection).sizes().maxCoeff();
+    const double side = box_of(made.mesh, made.inputs.selection).sizes().maxCoeff();
     const auto length = [&](double probability) {
         const double drawn = side * random.log_between(1e-6, 1e2);
         return random.chance(probability) && std::isfinite(drawn) ? drawn : 0.0;
@@ -194,9 +194,6 @@ namespace {
 template <class Parameters>
 void write_options(const Parameters& parameters, std::ostream& text) {
     for (const auto& parameter : parameter_table<Parameters>()) {
-        if (parameter.type == Parameter::Type::Selected ||
-            parameter.type == Parameter::Type::Strength)
-            continue;
         const ParameterValue value = parameter.get(parameters);
         // The default of the stabilisation depends on the method.
         if (value == parameter.initial && parameter.name != "stabilization") continue;
@@ -225,16 +222,16 @@ std::string options_of(const Case& described) {
     } else {
         write_options(described.parameters, text);
     }
-    if (!described.selection.empty()) text << " --selected selected";
-    if (!described.mesh.strength.empty()) text << " --strength strength";
+    if (!described.inputs.selection.empty()) text << " --selected selected";
+    if (!described.inputs.strength.empty()) text << " --strength strength";
     return text.str();
 }
 
 void write_ply(const Case& written, const std::string& path) {
     std::ofstream file(path);
     file.precision(std::numeric_limits<double>::max_digits10);
-    const bool has_selection = !written.selection.empty();
-    const bool has_strength = !written.mesh.strength.empty();
+    const bool has_selection = !written.inputs.selection.empty();
+    const bool has_strength = !written.inputs.strength.empty();
     file << "ply\nformat ascii 1.0\nelement vertex " << written.mesh.positions.size()
          << "\nproperty double x\nproperty double y\nproperty double z\n"
          << (has_strength ? "property double strength\n" : "") << "element face "
@@ -243,13 +240,13 @@ void write_ply(const Case& written, const std::string& path) {
     for (std::size_t i = 0; i < written.mesh.positions.size(); ++i) {
         const Eigen::Vector3d& p = written.mesh.positions[i];
         file << p[0] << ' ' << p[1] << ' ' << p[2];
-        if (has_strength) file << ' ' << written.mesh.strength[i];
+        if (has_strength) file << ' ' << written.inputs.strength[i];
         file << '\n';
     }
     for (std::size_t i = 0; i < written.mesh.triangles.size(); ++i) {
         const Triangle& t = written.mesh.triangles[i];
         file << "3 " << t[0] << ' ' << t[1] << ' ' << t[2];
-        if (has_selection) file << ' ' << static_cast<int>(written.selection[i]);
+        if (has_selection) file << ' ' << static_cast<int>(written.inputs.selection[i]);
         file << '\n';
     }
     file.close();

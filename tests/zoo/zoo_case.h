@@ -12,11 +12,11 @@
 
 namespace tracked_mcf::zoo {
 
-/// A mesh, which of its triangles move, and the parameters of the flow, or of the removal of noise.
+/// A mesh, its inputs, and the parameters of the flow, or of the removal of noise.
 struct Case {
     std::string kind;  ///< of bad_meshes.h
     TriangleMesh mesh;
-    Selection selection;
+    Inputs inputs;
     FlowParameters parameters;
     std::optional<NoiseParameters> noise;  ///< if set, remove_noise() is called instead of evolve()
 };

@@ -33,7 +33,7 @@ std::vector<double> local_edge_lengths(const Domain& domain) {
 }  // namespace
 
 std::vector<double> triangle_densities(const Domain& domain, bool follows_edges) {
-    if (!follows_edges && domain.mesh().strength.empty()) return {};
+    if (!follows_edges && !domain.has_strengths()) return {};
     std::vector<double> lengths;
     if (follows_edges) lengths = local_edge_lengths(domain);
     const double mean = mean_edge_length(domain.surface());

@@ -80,8 +80,10 @@ void Flow::fill_report(const Domain& domain) {
     const TrackedElements& elements = stepper_.elements();
     report_.vertices = elements.referenced_vertex_count;
     report_.triangles = static_cast<std::int64_t>(domain.surface().triangles.size());
-    report_.unselected_triangles =
-        static_cast<std::int64_t>(domain.mesh().triangles.size()) - report_.triangles;
+    report_.has_strengths = domain.has_strengths();
+    report_.zero_strength_triangles = domain.zero_strength_count();
+    report_.unselected_triangles = static_cast<std::int64_t>(domain.mesh().triangles.size()) -
+                                   report_.triangles - report_.zero_strength_triangles;
     report_.degenerate_triangles = elements.degenerate_triangle_count;
     report_.oriented_consistently = domain.topology().is_oriented_consistently();
     report_.boundary_edges = domain.boundary_edge_count();

@@ -23,41 +23,6 @@ bool any_set(const std::vector<std::uint8_t>& flags) {
     return std::any_of(flags.begin(), flags.end(), [](auto flag) { return flag != 0; });
 }
 
-}  // namespace
-
-void check_selection(const TriangleMesh& mesh, const Selection& selection) {
-    if (selection.empty()) return;
-    if (selection.size() != mesh.triangles.size()) {
-        throw InvalidParameter("The selection is of " + std::to_string(selection.size()) +
-                               " triangles, but the mesh has " +
-                               std::to_string(mesh.triangles.size()) + ".");
-    }
-    if (!any_set(selection)) {
-        throw InvalidMesh(
-            "No face is selected; select the faces to smooth, or smooth the whole mesh.");
-    }
-}
-
-Selection without_zero_strength(const TriangleMesh& mesh, const Selection& selection) {
-    if (mesh.strength.empty()) return selection;
-    const std::vector<std::int32_t> welded = weld_coincident_vertices(mesh);
-    const auto is_zero = [&](std::int32_t vertex) { return mesh.strength[welded[vertex]] == 0; };
-    Selection moving = selection;
-    moving.resize(mesh.triangles.size(), 1);
-    for (std::size_t i = 0; i < moving.size(); ++i) {
-        const Triangle& t = mesh.triangles[i];
-        if (std::all_of(t.begin(), t.end(), is_zero)) moving[i] = 0;
-    }
-    if (!any_set(moving)) {
-        throw InvalidMesh(
-            "Nothing can move: all vertices of the faces to smooth have strength 0. Give some a "
-            "larger one.");
-    }
-    return moving;
-}
-
-namespace {
-
 /// Returns the items of the selected triangles.
 template <class Items>
 Items selected_of(const Items& items, const Selection& selection) {
@@ -108,16 +73,16 @@ void Domain::constrain_edges(const IsConstrained& is_constrained) {
     });
 }
 
-Domain::Domain(const TriangleMesh& mesh, const Selection& selection, BoundaryCondition boundary)
-    : mesh_(mesh) {
-    check_selection(mesh, selection);
+Domain::Domain(const TriangleMesh& mesh, const Inputs& inputs, BoundaryCondition boundary)
+    : mesh_(mesh), strength_(inputs.strength), selection_(inputs.selection) {
     topology_ = topology_of(mesh);
+    if (has_strengths()) leave_zero_strength_out();
     std::vector<std::uint8_t> boundary_sides = topology_.boundary;
     constrained_edges_.assign(topology_.triangles.size(), 0);
-    if (!selection.empty()) {
-        boundary_sides = selected_of(boundary_sides, selection);
-        constrained_edges_ = selected_of(sides_of_unselected(topology_, selection), selection);
-        restrict_to(selection);
+    if (!selection_.empty()) {
+        boundary_sides = selected_of(boundary_sides, selection_);
+        constrained_edges_ = selected_of(sides_of_unselected(topology_, selection_), selection_);
+        restrict_to_selection();
     }
     boundary_edge_count_ = count_flags(boundary_sides);
     if (boundary != BoundaryCondition::Free) {
@@ -129,14 +94,30 @@ Domain::Domain(const TriangleMesh& mesh, const Selection& selection, BoundaryCon
     if (any_set(constrained_edges_)) slivers = find_slivers(surface());
     const bool any_slivers = any_set(slivers);
     if (any_slivers) constrain_across_slivers(slivers);
-    constrain_vertices(selection);
+    constrain_vertices();
     if (any_slivers) leave_slivers_out(slivers);
 }
 
-void Domain::restrict_to(const Selection& selection) {
-    selected_triangles_ = selected_of(mesh_.triangles, selection);
+void Domain::leave_zero_strength_out() {
+    const auto is_zero = [&](std::int32_t vertex) { return strength(vertex) == 0; };
+    selection_.resize(mesh_.triangles.size(), 1);
+    for (std::size_t i = 0; i < selection_.size(); ++i) {
+        const Triangle& t = mesh_.triangles[i];
+        if (selection_[i] == 0 || !std::all_of(t.begin(), t.end(), is_zero)) continue;
+        selection_[i] = 0;
+        ++zero_strength_count_;
+    }
+    if (!any_set(selection_)) {
+        throw InvalidMesh(
+            "Nothing can move: all vertices of the faces to smooth have strength 0. Give some a "
+            "larger one.");
+    }
+}
+
+void Domain::restrict_to_selection() {
+    selected_triangles_ = selected_of(mesh_.triangles, selection_);
     topology_.referenced = referenced_vertices(surface());
-    topology_.triangles = selected_of(topology_.triangles, selection);
+    topology_.triangles = selected_of(topology_.triangles, selection_);
     find_edges(topology_);
 }
 
@@ -160,7 +141,7 @@ void Domain::constrain_across_slivers(const std::vector<std::uint8_t>& slivers) 
     constrain_edges([&](std::int32_t edge) { return constrained[joined.find(edge)]; });
 }
 
-void Domain::constrain_vertices(const Selection& selection) {
+void Domain::constrain_vertices() {
     const std::vector<std::int32_t>& welded = topology_.welded;
     const auto count = static_cast<std::int64_t>(welded.size());
     Marks constrained(count);
@@ -172,8 +153,8 @@ void Domain::constrain_vertices(const Selection& selection) {
                               constrained.set(topology_.triangles[triangle][(side + 1) % 3]);
                           }
                       });
-    parallel_for_rows(static_cast<std::int64_t>(selection.size()), [&](std::int32_t triangle) {
-        if (selection[triangle] != 0) return;
+    parallel_for_rows(static_cast<std::int64_t>(selection_.size()), [&](std::int32_t triangle) {
+        if (selection_[triangle] != 0) return;
         for (const std::int32_t vertex : mesh_.triangles[triangle]) constrained.set(welded[vertex]);
     });
     constrained_vertices_.resize(welded.size());

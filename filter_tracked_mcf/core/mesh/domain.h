@@ -12,24 +12,18 @@
 
 namespace tracked_mcf {
 
-/// Throws InvalidParameter unless `selection` is empty or has a flag for every triangle,
-/// InvalidMesh if it selects no triangle.
-void check_selection(const TriangleMesh& mesh, const Selection& selection);
-
-/// Returns the selection without the triangles whose three vertices have strength 0. The mesh is
-/// valid, and so is the selection. Throws InvalidMesh if no triangle is left.
-Selection without_zero_strength(const TriangleMesh& mesh, const Selection& selection);
-
 /// The part of a mesh that flows, and which of its edges and vertices are constrained.
 ///
-/// The selected triangles flow as a surface of their own. The seam is the set of edges that they
-/// share with unselected triangles. Unselected triangles act on the surface only by constraining
+/// The selected triangles flow as a surface of their own, but for those whose three vertices have
+/// strength 0: these count as unselected. The seam is the set of edges that the surface shares with
+/// unselected triangles. Unselected triangles act on the surface only by constraining
 /// the seam and the vertices they share with it.
 class Domain {
 public:
-    /// Constrains the seam, and the boundary of the mesh unless it is Free. `mesh` must outlive the
-    /// domain. Throws as check_selection() does.
-    Domain(const TriangleMesh& mesh, const Selection& selection, BoundaryCondition boundary);
+    /// Constrains the seam, and the boundary of the mesh unless it is Free. The mesh and the inputs
+    /// must have passed validate(); the mesh must outlive the domain. Throws InvalidMesh if all
+    /// selected triangles have strength 0.
+    Domain(const TriangleMesh& mesh, const Inputs& inputs, BoundaryCondition boundary);
     /// All of a mesh flows.
     Domain(const TriangleMesh& mesh, BoundaryCondition boundary) : Domain(mesh, {}, boundary) {}
 
@@ -51,9 +45,14 @@ public:
     /// may separate from the surface.
     const std::vector<std::uint8_t>& constrained_vertices() const { return constrained_vertices_; }
 
-    /// Returns the strength of a vertex, see TriangleMesh::strength.
+    /// Returns which triangles of the mesh are the surface.
+    const Selection& selection() const { return selection_; }
+    /// Returns the number of selected triangles that do not flow because of their strength.
+    std::int64_t zero_strength_count() const { return zero_strength_count_; }
+    bool has_strengths() const { return !strength_.empty(); }
+    /// Returns the strength of a vertex, see Inputs::strength.
     double strength(std::int32_t vertex) const {
-        return mesh_.strength.empty() ? 1 : mesh_.strength[topology_.welded[vertex]];
+        return has_strengths() ? strength_[topology_.welded[vertex]] : 1;
     }
 
     /// Returns the number of sides of the surface's triangles on the boundary of the mesh.
@@ -64,15 +63,19 @@ public:
 
 private:
     // Steps of the constructor, in order.
-    void restrict_to(const Selection& selection);
+    void leave_zero_strength_out();
+    void restrict_to_selection();
     void constrain_across_slivers(const std::vector<std::uint8_t>& slivers);
-    void constrain_vertices(const Selection& selection);
+    void constrain_vertices();
     void leave_slivers_out(const std::vector<std::uint8_t>& slivers);
 
     template <class IsConstrained>
     void constrain_edges(const IsConstrained& is_constrained);
 
     const TriangleMesh& mesh_;
+    const std::vector<double> strength_;
+    Selection selection_;
+    std::int64_t zero_strength_count_ = 0;
     std::optional<std::vector<Triangle>> selected_triangles_;
     MeshTopology topology_;
     std::vector<std::uint8_t> constrained_edges_;

@@ -156,11 +156,7 @@ void measure_change(const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>
 }
 
 /// Returns the surface of the mesh's triangles, and reports on it.
-SurfaceOfMesh read_surface(const TriangleMesh& mesh, const Selection& selection,
-                           const NoiseParameters& parameters, NoiseReport& report) {
-    const Domain domain(mesh, selection,
-                        parameters.boundary == NoiseBoundary::Free ? BoundaryCondition::Free
-                                                                   : BoundaryCondition::Locked);
+SurfaceOfMesh read_surface(const Domain& domain, NoiseReport& report) {
     bounding_box(domain.surface());  // throws if the size is none to compute with
     report.triangles = static_cast<std::int64_t>(domain.surface().triangles.size());
     for (const Triangle& t : domain.surface().triangles) {
@@ -181,7 +177,7 @@ SurfaceOfMesh read_surface(const TriangleMesh& mesh, const Selection& selection,
 
 }  // namespace
 
-NoiseReport remove_noise(TriangleMesh& mesh, const Selection& selection,
+NoiseReport remove_noise(TriangleMesh& mesh, const Inputs& inputs,
                          const NoiseParameters& parameters, const Progress& progress) {
     std::optional<ProgressMeter> meter;
     if (progress) meter.emplace(progress);
@@ -189,13 +185,17 @@ NoiseReport remove_noise(TriangleMesh& mesh, const Selection& selection,
     const ThreadTeam team(parameters.threads);
     const Stopwatch watch;
     enter_phase(0, "Checking the mesh");
-    validate(mesh);
-    check_selection(mesh, selection);
+    validate(mesh, inputs);
     check_memory(mesh);
-    const Selection moving = without_zero_strength(mesh, selection);
     NoiseReport report;
     enter_phase(0.01, "Finding the edges");
-    SurfaceOfMesh moved = read_surface(mesh, moving, parameters, report);
+    std::optional<Domain> domain(std::in_place, mesh, inputs,
+                                 parameters.boundary == NoiseBoundary::Free
+                                     ? BoundaryCondition::Free
+                                     : BoundaryCondition::Locked);
+    const Selection moving = domain->selection();
+    SurfaceOfMesh moved = read_surface(*domain, report);
+    domain.reset();
     const Positions before = moved.surface.positions;
     if (report.constrained_vertices < report.vertices) {
         treat(moved.surface, moved.edge, parameters, report);

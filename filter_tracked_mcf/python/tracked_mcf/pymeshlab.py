@@ -85,6 +85,8 @@ def _method(function, further_results):
     name = described["method"]
     known = {parameter["name"]: parameter for parameter in described["parameters"] if parameter["label"]}
 
+    inputs = {key: parameter["of_faces"] for key, parameter in known.items() if "of_faces" in parameter}
+
     def apply(self, parameters):
         layer = self.current_mesh()
         options = {}
@@ -92,14 +94,15 @@ def _method(function, further_results):
             if key not in known:
                 raise InvalidParameter(f"Parameter {key} not found. The parameters are {', '.join(known)}.")
             options[key] = _option(known[key], value, layer)
-        vertices, faces, selection = layer.vertex_matrix(), layer.face_matrix(), layer.face_selection_array()
-        selected = selection if options.pop("selected", selection.any()) else None
-        strength = None
-        if options.pop("strength", False):
-            if not layer.has_vertex_scalar():
+        selection = layer.face_selection_array()
+        for key, of_faces in inputs.items():
+            if not options.get(key, of_faces and selection.any()):
+                options[key] = None
+            elif not of_faces and not layer.has_vertex_scalar():
                 raise InvalidParameter(_core.no_quality)
-            strength = layer.vertex_scalar_array()
-        moved, report = function(vertices, faces, selected=selected, strength=strength, **options)
+            else:
+                options[key] = selection if of_faces else layer.vertex_scalar_array()
+        moved, report = function(layer.vertex_matrix(), layer.face_matrix(), **options)
         try:
             if "quality" in report:  # it travels as a position: x is its size, y its sign, that of -0 too
                 quality = report["quality"]

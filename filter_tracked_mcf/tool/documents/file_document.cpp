@@ -16,10 +16,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::array<Format, 4> kFormats = {{{".ply", parse_ply, convert_to_ply, true},
-                                             {".obj", parse_obj, convert_to_obj, true},
-                                             {".off", parse_off, convert_to_off, true},
-                                             {".stl", parse_stl, convert_to_stl, false}}};
+constexpr std::array<Format, 4> kFormats = {{{".ply", parse_ply, convert_to_ply, true, true},
+                                             {".obj", parse_obj, convert_to_obj, true, false},
+                                             {".off", parse_off, convert_to_off, true, false},
+                                             {".stl", parse_stl, convert_to_stl, false, false}}};
 
 [[noreturn]] void fail_to_read(const fs::path& path, const std::string& why) {
     throw UnreadableFile("cannot read " + path.u8string() + ": " + why +

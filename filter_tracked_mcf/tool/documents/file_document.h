@@ -47,6 +47,15 @@ public:
     /// Returns one colour per vertex, or none if the file has no colours of vertices.
     virtual std::vector<Color> vertex_colors() const { return {}; }
 
+    /// Of what a file may have numbers under names; only PLY files have any.
+    enum class NumbersOf { Vertices, Faces };
+    /// Returns the number `name` of each; empty if there is none.
+    virtual std::vector<double> numbers(NumbersOf /*items*/, const std::string& /*name*/) const {
+        return {};
+    }
+    /// Returns the names of the numbers.
+    virtual std::vector<std::string> names_of_numbers(NumbersOf /*items*/) const { return {}; }
+
     /// Gives each vertex a number, which only PLY keeps: the property `quality`.
     void set_quality(std::vector<double> quality) { quality_ = std::move(quality); }
     /// Returns what set_quality() was given.
@@ -90,6 +99,7 @@ struct Format {
     void (*convert)(std::ostream& out, const FileDocument& source, const Points& positions);
 
     bool keeps_colors;  ///< whether `convert` writes colours of vertices
+    bool has_numbers;   ///< whether files may have numbers under names
 };
 
 /// Returns the format of a path by its extension, in upper or lower case; null if it is unknown.

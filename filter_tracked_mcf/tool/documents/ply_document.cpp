@@ -213,6 +213,18 @@ std::vector<Color> PlyDocument::vertex_colors() const {
     return colors;
 }
 
+std::vector<double> PlyDocument::numbers(NumbersOf items, const std::string& name) const {
+    return element(items).numbers(name);
+}
+
+std::vector<std::string> PlyDocument::names_of_numbers(NumbersOf items) const {
+    std::vector<std::string> names;
+    for (const PlyProperty& property : element(items).properties) {
+        if (!property.is_list()) names.push_back(property.name);
+    }
+    return names;
+}
+
 std::vector<std::string> PlyDocument::extras() const {
     std::vector<std::string> extras;
     const auto is_position_or_color = [](const PlyProperty& property) {

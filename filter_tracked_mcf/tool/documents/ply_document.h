@@ -16,6 +16,9 @@ public:
     std::vector<Color> vertex_colors() const override;
     std::vector<std::string> extras() const override;
 
+    std::vector<double> numbers(NumbersOf items, const std::string& name) const override;
+    std::vector<std::string> names_of_numbers(NumbersOf items) const override;
+
     /// Writes a binary file in this machine's byte order, which must be little-endian.
     void write(std::ostream& out, const Points& positions) const override;
 
@@ -23,6 +26,10 @@ public:
     const PlyElement& faces() const { return *table_.find("face"); }
 
 private:
+    const PlyElement& element(NumbersOf items) const {
+        return items == NumbersOf::Faces ? faces() : vertices();
+    }
+
     PlyTable table_;
 };
 

@@ -90,7 +90,7 @@ TEST(Domain, SelectingEverythingEqualsNoSelection) {
 
 TEST(Domain, AnEdgeOfTwoSelectedTrianglesIsConstrainedIfAnUnselectedOneHasIt) {
     const TriangleMesh mesh = fin();
-    const Domain domain(mesh, {1, 1, 0}, kFree);
+    const Domain domain(mesh, {{1, 1, 0}}, kFree);
     EXPECT_EQ(domain.constrained_edges(), (std::vector<std::uint8_t>{1, 1}));
     EXPECT_EQ(domain.constrained_vertices(), (std::vector<std::uint8_t>{1, 1, 0, 0, 1}));
 }
@@ -99,7 +99,7 @@ TEST(Domain, AVertexThatTouchesAnUnselectedTriangleIsConstrained) {
     // Two triangles with one vertex in common.
     const TriangleMesh bow_tie{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}},
                                {{0, 1, 2}, {0, 3, 4}}};
-    const Domain domain(bow_tie, {1, 0}, kFree);
+    const Domain domain(bow_tie, {{1, 0}}, kFree);
     EXPECT_EQ(count_constrained_edges(domain), 0);
     EXPECT_EQ(domain.constrained_vertices(), (std::vector<std::uint8_t>{1, 0, 0, 1, 1}));
 }
@@ -136,8 +136,8 @@ TEST(Domain, SliversOnTheBoundaryDoNotFreeIt) {
 
 TEST(Domain, SelectionsOfNothingOrOfTheWrongSizeAreErrors) {
     const TriangleMesh square = shapes::square(2);
-    EXPECT_THROW(Domain(square, Selection(8, 0), kLocked), InvalidMesh);
-    EXPECT_THROW(Domain(square, Selection(7, 1), kLocked), InvalidParameter);
+    EXPECT_THROW(validate(square, Selection(8, 0)), InvalidMesh);
+    EXPECT_THROW(validate(square, Selection(7, 1)), InvalidParameter);
     TriangleMesh mesh = square;
     EXPECT_THROW(evolve(mesh, Selection(8, 0), {}), InvalidMesh);
     EXPECT_TRUE(same_bits(mesh, square));
