@@ -87,7 +87,7 @@ void make_steps(Flow& flow, const Task& task, const char* note) {
 }
 
 /// Makes all steps. If the last one has made the surface vanish, which the flow itself would notice
-/// only in the next step, takes it back.
+/// only in the next step, undoes it.
 Moved flow_through(Flow& flow, const Task& task, double area_before, const char* note = "") {
     make_steps(flow, task, note);
     Moved moved = moved_by(flow, task.mesh, task.selection);

@@ -78,7 +78,7 @@ struct FlowParameters {
 
     /// Whether the detail size is proportional to the local edge length, from a tenth of
     /// detail_size to ten times as much, and detail_size where that has its mean. A step size
-    /// follows in the same way. Noise of scans does so too.
+    /// follows in the same way. Noise of scans grows with the spacing of their points.
     bool local_detail_size = false;
 
     /// Step size δ for the mesh scaled so that the longest side of its bounding box is 1; finite

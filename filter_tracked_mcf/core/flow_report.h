@@ -28,9 +28,9 @@ struct StepReport {
 enum class Stop {
     None,          ///< it made all steps
     Vanished,      ///< the next step would have left no area, and was undone
-    Pinched,       ///< preserving would have blown up what has pinched; the step was undone
+    Pinched,       ///< preserving would have inflated what has pinched; the step was undone
     NotPreserved,  ///< no pressure restores the volume after a step this large; it was undone
-    StepFailed,    ///< the next step failed, in substeps, too (Flow::step), and was undone
+    StepFailed,    ///< the next step failed, even in substeps (Flow::step), and was undone
     NothingMoves,  ///< all vertices or all unknowns are constrained
 };
 

@@ -8,7 +8,7 @@ namespace tracked_mcf {
 
 /// A callback that receives the fraction of the work that is done and the current phase, in words
 /// for the user ("Step 3 of 10"). It returns false to cancel: evolve() then throws Cancelled. An
-/// exception of the callback leaves evolve() unchanged. In both cases the mesh keeps its positions.
+/// exception of the callback propagates to the caller. In both cases the mesh keeps its positions.
 ///
 /// - Times: evolve() invokes the callback whenever a phase begins, and about 20 times a second in
 ///   between. Only parallel loops poll, so serial work delays a call by up to 0.2 s for each

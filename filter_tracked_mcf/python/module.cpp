@@ -48,7 +48,8 @@ bool has_kind(nb::handle array, const char* kinds) {
     return std::strchr(kinds, kind[0]) != nullptr;
 }
 
-/// Returns `given` as an array with three columns of numbers of these kinds.
+/// Converts `given` to an array of shape (n, 3) whose dtype.kind is one of `kinds`. Throws
+/// InvalidMesh, which says what is `wanted`.
 nb::object three_columns(const char* name, nb::handle given, const char* kinds,
                          const char* wanted) {
     nb::object array = numpy().attr("asarray")(given);
@@ -101,7 +102,7 @@ struct Column {
     const char* wanted;  ///< in words
 };
 
-/// Copies the numbers of an input of `count` faces or vertices; none if None is given.
+/// Copies the numbers of an input of `count` faces or vertices. Returns an empty vector for None.
 template <class Number>
 std::vector<Number> numbers_of(const nb::kwargs& arguments, const Input& input,
                                const Column& column, std::size_t count) {

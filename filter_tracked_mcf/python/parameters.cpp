@@ -170,7 +170,7 @@ Parameters parameters_of(const nb::dict& given, const TriangleMesh& mesh) {
             case Parameter::Type::Length: {
                 const Length length = length_of(parameter, value);
                 set(length.value);
-                validate(parameters);  // before a negative percentage becomes another number
+                validate(parameters);  // now, while the message can show what the user typed
                 set(in_mesh_units(length, mesh));
                 break;
             }

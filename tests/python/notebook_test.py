@@ -66,15 +66,17 @@ class Notebook(unittest.TestCase):
         self.assertGreater(before, 1.05 * scan)
         self.assertAlmostEqual(after, scan, delta=0.01 * scan)
 
-    def test_draws_two_surfaces_and_a_curve(self):
+    def test_draws_three_surfaces_and_a_curve(self):
         [picture] = [output.data["image/png"] for output in self.outputs if "image/png" in output.get("data", {})]
         pixels = matplotlib.image.imread(io.BytesIO(base64.b64decode(picture)))
         drawn = (pixels[:, :, :3] < 0.99).any(axis=2)
-        third = drawn.shape[1] // 3
-        before, after, curve = (drawn[:, i * third:(i + 1) * third].mean() for i in range(3))
-        self.assertGreater(before, 0.1)
-        self.assertGreater(after, 0.1)
+        quarter = drawn.shape[1] // 4
+        before, after, curve, curvature = (drawn[:, i * quarter:(i + 1) * quarter].mean() for i in range(4))
+        self.assertGreater(min(before, after, curvature), 0.1)
         self.assertGreater(curve, 0.01)
+        colors = pixels[:, 3 * quarter:, :3]
+        for channel in 0, 2:  # convex parts are red, concave ones blue
+            self.assertGreater((colors[:, :, channel] > 1.3 * colors[:, :, 2 - channel]).mean(), 0.01)
 
 
 if __name__ == "__main__":

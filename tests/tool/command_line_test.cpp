@@ -157,7 +157,7 @@ TEST(CommandLine, ALengthIsInUnitsOfTheMeshOrInPerCent) {
 TEST(CommandLine, WhatIsNoLengthIsRefusedWithTwoExamples) {
     for (const char* text : {"%", "x", "1.5mm", "1.5 %%", "5%%", "0,5%", "% 5", "1.5 2"}) {
         EXPECT_THAT(complaint({"a.ply", "b.ply", "--detail-size", text}),
-                    HasSubstr("--detail-size: give a length such as 1.5, or 0.5% of the bounding "
+                    HasSubstr("--detail-size: give a length such as 1.5, or 2% of the bounding "
                               "box's diagonal. Run tracked_mcf --help."))
             << text;
     }

@@ -15,7 +15,7 @@
 
 namespace tracked_mcf {
 
-/// The tolerance, at most, to which a step or a flow that has failed is made again.
+/// Upper bound of the tolerance when a failed step or flow is retried.
 inline constexpr double kCarefulTolerance = 1e-6;
 
 /// A mean-curvature flow: set up once from the initial surface, then advanced step by step.

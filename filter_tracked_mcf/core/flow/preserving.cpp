@@ -19,7 +19,7 @@ namespace {
 /// fraction of a sphere is 0.09.
 constexpr double kFlat = 1e-9;
 
-/// The flow ends if components of more than this share of the area would blow up.
+/// The flow ends if components of more than this share of the area would be inflated.
 constexpr double kMostBlownUp = 0.5;
 
 /// The volume that a component has swept, relative to its area times its size. Newton's method

@@ -33,7 +33,7 @@ public:
     /// from `from` with this care. Returns Stop::Vanished if the step has left almost nothing,
     /// Stop::Pinched if it has left only thin threads, and Stop::NotPreserved if it has changed the
     /// volume so much that no pressure restores it. A component that has vanished, cannot move, or
-    /// would blow up because only thin threads are left of it, stays as it is.
+    /// would be inflated because only thin threads are left of it, stays as it is.
     StepResult restore(const FlowState& from, FlowState to, const Care& care,
                        StepReport& report) const;
 

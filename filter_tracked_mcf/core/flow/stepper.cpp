@@ -25,7 +25,7 @@ constexpr double kAssemblyShare = 0.45;
 /// and with it the location of a closed surface.
 constexpr double kLargestStepSizeInCells = 1e5;
 
-/// Beyond this error, relative to its solution, a solve has reached nothing.
+/// A solve whose error is more than this part of its solution has failed.
 constexpr double kNothingReached = 0.5;
 
 /// Returns the greatest step size, in squared sides of a cell. A step size that follows the local

@@ -53,7 +53,7 @@ void number_classes_of_corners(Level& level, const First& first) {
         first, [&](std::int64_t index) -> auto& { return level.unknowns[index / 8][index % 8]; });
 }
 
-/// Numbers one unknown for every corner of occupied cells.
+/// Gives each distinct corner of the occupied cells one unknown.
 void number_unknowns(Level& level) {
     check_size(level);
     RawVector<KeyValue> corners(8 * level.cells.size());  // values are corner indices
@@ -98,7 +98,7 @@ void unite_shared_corners(const Link& link, const Level& level, ConcurrentSets& 
     }
 }
 
-/// Numbers one unknown for every class of corner indices that links unite.
+/// Gives each set of corners that links unite one unknown.
 void number_unknowns(Level& level, const RawVector<Link>& links) {
     check_size(level);
     ConcurrentSets corners(8 * level.element_count());

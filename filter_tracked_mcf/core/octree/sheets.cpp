@@ -30,7 +30,7 @@ FinestElements group_fragments(const RawVector<FragmentEntry>& fragments, const 
 /// fragment is not one of the cell's is empty, so the table need not be cleared for the next cell.
 class LastFragments {
 public:
-    /// Starts with the cell of the fragments [begin, end). Each may have six keys.
+    /// Prepares the table for the cell of the fragments [begin, end). Each has at most six keys.
     void start(std::int32_t begin, std::int32_t end) {
         begin_ = begin;
         end_ = end;

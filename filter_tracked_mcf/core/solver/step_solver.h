@@ -36,9 +36,9 @@ public:
     /// Returns whether the system that was taken has any free unknown.
     virtual bool has_free_unknowns() const = 0;
 
-    /// Solves the system that was taken for a right-hand side, given by its elements, and adds the
-    /// solver's numbers to the report. `tolerance` is as in FlowParameters; cycles ignore it, and
-    /// estimate no error. On entry, `solution` is that of the last step.
+    /// Solves the system of the last take() for a right-hand side, given by its elements, and adds
+    /// the solver's numbers to the report. `tolerance` is as in FlowParameters; the solver by
+    /// W-cycles ignores it, and estimates no error. On entry, `solution` is that of the last step.
     virtual void solve(const std::vector<ElementVector>& right_sides, double tolerance,
                        Solution& solution, StepReport& report) = 0;
 };

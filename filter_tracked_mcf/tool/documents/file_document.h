@@ -108,7 +108,7 @@ const Format* format_of(const std::filesystem::path& path);
 /// Reads a file in the format of its extension. Throws UnreadableFile.
 std::unique_ptr<FileDocument> open_document(const std::filesystem::path& path);
 
-/// The members of the four formats.
+/// The functions that format_of() lists in its formats.
 std::unique_ptr<FileDocument> parse_ply(std::string&& content);
 std::unique_ptr<FileDocument> parse_obj(std::string&& content);
 std::unique_ptr<FileDocument> parse_off(std::string&& content);

@@ -39,7 +39,7 @@ struct PlyElement {
     /// Returns the property of that name, or null.
     const PlyProperty* find(std::string_view property_name) const;
 
-    /// Returns the bytes of a row; 0 if there are lists.
+    /// Returns the size of a row in bytes; 0 if lists make it vary.
     std::size_t row_size() const;
 
     /// Returns one number per row: the property of that name. Empty if there is none or if it is a

@@ -5,7 +5,8 @@
 
 namespace tracked_mcf {
 
-/// A mesh file in text, which write() writes again with other words for the points that differ.
+/// A mesh file in text. write() copies the text and replaces only the coordinates that have
+/// changed.
 class TextDocument : public FileDocument {
 public:
     std::vector<Color> vertex_colors() const override;
