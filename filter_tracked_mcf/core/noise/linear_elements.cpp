@@ -2,7 +2,9 @@
 #include "filter_tracked_mcf/core/noise/linear_elements.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
 
 namespace tracked_mcf {
 
@@ -14,34 +16,56 @@ constexpr double kToleranceOfNormals = 2e-2;
 constexpr double kToleranceOfPositions = 1e-3;
 constexpr int kMostIterations = 500;
 
-/// Returns half the cotangents at the corners, and a third of the area, of a triangle whose sides
-/// opposite to the corners have these squares (Heron).
-std::array<float, 4> weights_of(const std::array<float, 3>& squares) {
-    const float sum = squares[0] + squares[1] + squares[2];
-    const float products =
-        squares[0] * squares[1] + squares[1] * squares[2] + squares[2] * squares[0];
-    // The area is at least that of the triangle with sides 1, so the root is of a positive number.
-    const float four_areas = std::sqrt(4 * products - sum * sum);
-    std::array<float, 4> weights;
-    for (int k = 0; k < 3; ++k) weights[k] = (sum - 2 * squares[k]) / (2 * four_areas);
-    weights[3] = four_areas / 12;
-    return weights;
+/// The share of the squared lengths of sides along the surface in the metric of the stiffness.
+constexpr float kOwnShare = 0.3F;
+
+/// The least square of four times a triangle's area, relative to that of the sum of its sides'
+/// squares: above rounding, which very long sides have.
+constexpr float kThinnest = 1e-6F;
+
+/// The squares of a triangle's sides opposite to its corners, in some metric.
+using SquaredSides = Eigen::Array3f;
+
+/// Returns four times the area (Heron).
+float four_areas_of(const SquaredSides& squares) {
+    const float square = squares.sum() * squares.sum();
+    return std::sqrt(std::max(square - 2 * squares.square().sum(), kThinnest * square));
+}
+
+/// Returns the squared lengths of a triangle's sides at right angles to a normal.
+SquaredSides sides_along_surface(const Positions& positions, const Triangle& t,
+                                 const Eigen::Vector4f& normal) {
+    const Eigen::Vector3f unit = normal.head<3>().normalized();
+    SquaredSides squares;
+    for (int k = 0; k < 3; ++k) {
+        const Eigen::Vector3f side =
+            (positions[t[(k + 1) % 3]] - positions[t[(k + 2) % 3]]).cast<float>();
+        squares[k] = (side - side.dot(unit) * unit).squaredNorm();
+    }
+    return squares;
 }
 
 }  // namespace
 
 LinearElements::LinearElements(const NoisySurface& surface) : surface_(surface) {}
 
-void LinearElements::assemble(const Vectors& normals, double normal_length) {
+void LinearElements::assemble(const Vectors& normals, double normal_length,
+                              const Positions* positions) {
     const Stars& stars = surface_.stars;
     const auto scale = static_cast<float>(normal_length * normal_length);
-    weights_.resize(stars.triangles.size());
-    parallel_for_rows(static_cast<std::int64_t>(weights_.size()), [&](std::int32_t i) {
+    RawVector<std::array<float, 4>> triangles(stars.triangles.size());  // cot / 2 at corners, mass
+    parallel_for_rows(static_cast<std::int64_t>(triangles.size()), [&](std::int32_t i) {
         const Triangle& t = stars.triangles[i];
         const Eigen::Vector4f &a = normals[t[0]], &b = normals[t[1]], &c = normals[t[2]];
-        weights_[i] =
-            weights_of({1 + scale * (b - c).squaredNorm(), 1 + scale * (c - a).squaredNorm(),
-                        1 + scale * (a - b).squaredNorm()});
+        SquaredSides squares =
+            1 + scale * SquaredSides((b - c).squaredNorm(), (c - a).squaredNorm(),
+                                     (a - b).squaredNorm());
+        triangles[i][3] = four_areas_of(squares) / 12;
+        if (positions != nullptr) {
+            squares += kOwnShare * (sides_along_surface(*positions, t, a + b + c) - 1);
+        }
+        const float sum = squares.sum(), eight_areas = 2 * four_areas_of(squares);
+        for (int k = 0; k < 3; ++k) triangles[i][k] = (sum - 2 * squares[k]) / eight_areas;
     });
     values_.resize(stars.neighbours.size());
     masses_.resize(static_cast<std::size_t>(stars.count()));
@@ -53,7 +77,7 @@ void LinearElements::assemble(const Vectors& normals, double normal_length) {
         float mass = 0;
         for (std::uint32_t i = stars.corner_begin[vertex]; i < stars.corner_begin[vertex + 1];
              ++i) {
-            const std::array<float, 4>& weights = weights_[stars.corners[i] / 3];
+            const std::array<float, 4>& weights = triangles[stars.corners[i] / 3];
             const std::uint32_t corner = stars.corners[i] % 3;
             values_[stars.places[i][0]] += weights[(corner + 2) % 3];
             values_[stars.places[i][1]] += weights[(corner + 1) % 3];

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <array>
 #include <cstdint>
 
 #include "filter_tracked_mcf/core/noise/noisy_surface.h"
@@ -13,14 +12,17 @@ namespace tracked_mcf {
 /// The metric is that of (X, s N), where N are normals and every side of X counts as one edge: the
 /// square of a side is 1 + s² |ΔN|². A crease, across which N turns, is wide. The lengths of the
 /// noisy surface itself are of no use: noise makes them longer, so the noisiest parts would be
-/// smoothed least.
+/// smoothed least. Only the stiffness for positions takes a part of the squared lengths along the
+/// surface, so that a vertex follows its near neighbours more than its far ones.
 class LinearElements {
 public:
     /// `surface` must outlive the elements.
     explicit LinearElements(const NoisySurface& surface);
 
-    /// Takes the metric of normals N and the length s, in edges.
-    void assemble(const Vectors& normals, double normal_length);
+    /// Takes the metric of normals N and the length s, in edges, and of `positions` if there are
+    /// any.
+    void assemble(const Vectors& normals, double normal_length,
+                  const Positions* positions = nullptr);
 
     /// Solves (M + δ L) x = M b, from the given x, to the accuracy that normals need. Returns the
     /// number of iterations.
@@ -38,10 +40,9 @@ private:
     double residual_square() const;
 
     const NoisySurface& surface_;
-    RawVector<std::array<float, 4>> weights_;  ///< per triangle: cot / 2 at each corner, mass
-    RawVector<float> values_;                  ///< per entry of Stars::neighbours: -L
-    RawVector<float> masses_, diagonal_;       ///< of M and of L
-    RawVector<float> inverse_;                 ///< the preconditioner: of a diagonal, or 0
+    RawVector<float> values_;             ///< per entry of Stars::neighbours: -L
+    RawVector<float> masses_, diagonal_;  ///< of M and of L
+    RawVector<float> inverse_;            ///< the preconditioner: of a diagonal, or 0
     Vectors residual_, direction_, product_, inner_;
 };
 

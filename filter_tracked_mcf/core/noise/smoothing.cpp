@@ -15,7 +15,7 @@ constexpr double kCancelled = 1e-20;
 
 const Vectors& Smoothing::smooth_normals(const Positions& positions, const StepSettings& settings) {
     const Stars& stars = surface_.stars;
-    averages_.resize(positions.size());
+    vectors_.resize(positions.size());
     parallel_for_rows(stars.count(), [&](std::int32_t vertex) {
         Eigen::Vector3d sum = Eigen::Vector3d::Zero();
         double squares = 0;
@@ -27,12 +27,12 @@ const Vectors& Smoothing::smooth_normals(const Positions& positions, const StepS
         });
         // What is left where two sides of a sheet cancel is rounding.
         if (!(sum.squaredNorm() > kCancelled * squares)) sum.setZero();
-        averages_[vertex] << sum.normalized().cast<float>(), 0;
+        vectors_[vertex] << sum.normalized().cast<float>(), 0;
     });
-    normals_ = averages_;
+    normals_ = vectors_;
     for (const double normal_length : {0.0, settings.normal_length}) {
         elements_.assemble(normals_, normal_length);
-        iterations_ += elements_.smooth(settings.normal_step_size, averages_, normals_);
+        iterations_ += elements_.smooth(settings.normal_step_size, vectors_, normals_);
         parallel_for_rows(stars.count(),
                           [&](std::int32_t vertex) { normals_[vertex].normalize(); });
     }
@@ -41,10 +41,10 @@ const Vectors& Smoothing::smooth_normals(const Positions& positions, const StepS
 
 bool Smoothing::step(const StepSettings& settings, const Eigen::AlignedBox3d& box,
                      Positions& positions) {
-    elements_.assemble(smooth_normals(positions, settings), settings.normal_length);
-    iterations_ += elements_.displace(settings.step_size, positions, displacements_);
+    elements_.assemble(smooth_normals(positions, settings), settings.normal_length, &positions);
+    iterations_ += elements_.displace(settings.step_size, positions, vectors_);
     const auto moved = [&](std::int32_t vertex) -> Eigen::Vector3d {
-        return positions[vertex] + displacements_[vertex].head<3>().cast<double>();
+        return positions[vertex] + vectors_[vertex].head<3>().cast<double>();
     };
     const auto leaves = [&](std::int64_t i) {
         return !box.contains(moved(static_cast<std::int32_t>(i)));

@@ -38,7 +38,8 @@ public:
 private:
     const NoisySurface& surface_;
     LinearElements elements_;
-    Vectors averages_, normals_, displacements_;
+    Vectors normals_;
+    Vectors vectors_;  ///< mean normals, and then displacements
     int iterations_ = 0;
 };
 

@@ -115,6 +115,26 @@ TEST(LinearElements, AreSymmetric) {
     EXPECT_NEAR(ab, ba, 2e-3 * bb);
 }
 
+TEST(LinearElements, SmoothMoreAlongShortSides) {
+    NoisySurface surface = square();
+    for (Eigen::Vector3d& position : surface.positions) position[1] *= 3;
+    const auto moved = [&](int axis, bool with_positions) {
+        Positions positions = surface.positions;
+        for (Eigen::Vector3d& position : positions) {
+            position[2] = 0.1 * std::cos(position[axis] / (axis == 0 ? 1 : 3));
+        }
+        LinearElements elements(surface);
+        elements.assemble(upright(surface), 5, with_positions ? &positions : nullptr);
+        Vectors d;
+        elements.displace(0.3, positions, d);
+        double squares = 0;
+        for (const Eigen::Vector4f& vector : d) squares += double{vector[2] * vector[2]};
+        return std::sqrt(squares);
+    };
+    EXPECT_GT(moved(0, true), 2 * moved(1, true));
+    EXPECT_NEAR(moved(0, false), moved(1, false), 1e-3 * moved(0, false));
+}
+
 TEST(LinearElements, KeepConstantNormals) {
     const NoisySurface surface = square();
     LinearElements elements(surface);

@@ -241,18 +241,21 @@ TEST(RemoveNoise, KeepsTheBoundWhenItsHostRoundsToFloats) {
 }
 
 TEST(RemoveNoise, HalvesWavesOfTheDetailSize) {
-    // The metric takes the triangles of a square's quads as equilateral ones: waves along the sides
-    // are shorter in it by the square root of 4/3, and edges are longer than the quads' sides.
+    // A sheared square consists of equilateral triangles: all sides have the same length.
     constexpr int side = 120;
     TriangleMesh mesh = shapes::square(side);
+    const std::size_t middle = mesh.positions.size() / 2;
     const double length = 30.0 / side;
     for (Eigen::Vector3d& p : mesh.positions) {
-        p[2] = 1e-4 * std::cos(2 * std::acos(-1.0) / length * (p[0] - 0.5));
+        p = {p[0] - p[1] / 2, std::sqrt(0.75) * p[1], 0};
     }
-    const double edges = length * side * std::sqrt(0.75);
+    const double crest = mesh.positions[middle][0];
+    for (Eigen::Vector3d& p : mesh.positions) {
+        p[2] = 1e-4 * std::cos(2 * std::acos(-1.0) / length * (p[0] - crest));
+    }
+    ASSERT_NEAR(mean_edge_length(mesh), 1.0 / side, 1e-4 / side);
     NoiseParameters parameters;
-    parameters.detail_size = edges * mean_edge_length(mesh);
-    const std::size_t middle = mesh.positions.size() / 2;
+    parameters.detail_size = length;
     ASSERT_NEAR(mesh.positions[middle][2], 1e-4, 1e-10);
     EXPECT_NEAR(denoised(mesh, parameters).positions[middle][2], 0.5e-4, 0.02e-4);
     EXPECT_NEAR(report_of(mesh, parameters).detail_size, parameters.detail_size,
