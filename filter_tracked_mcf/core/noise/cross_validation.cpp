@@ -17,14 +17,15 @@ namespace {
 // armadillo_50k with noise of 0.05 to 0.7 edges.
 
 /// Lengths s of the metric, relative to that at which the least crease is as wide as an edge.
-constexpr std::array<double, 4> kNormalLengths = {0.65, 1.3, 2.6, 3.9};
-constexpr std::array<double, 5> kStepSizes = {0.15, 0.3, 0.6, 1.2, 2.4};
+constexpr std::array<double, 5> kNormalLengths = {0, 0.65, 1.3, 2.6, 3.9};
+/// They are longer in proportion if the user gives a detail size that is larger than this.
+constexpr double kDetailOfNormalLengths = 9;
+constexpr std::array<double, 7> kStepSizes = {0.04, 0.075, 0.15, 0.3, 0.6, 1.2, 2.4};
 constexpr int kMostSteps = 4;
 /// Steps if the user gives the detail size.
 constexpr int kStepsToDetailSize = 2;
-constexpr std::array<int, 2> kSharpenings = {5, 15};
-/// The width of sharpening, relative to the least crease.
-constexpr double kSharpeningWidth = 0.46;
+/// Their widths are relative to the least crease.
+constexpr std::array<Sharpening, 3> kSharpenings = {{{0.23, 3}, {0.46, 5}, {0.46, 15}}};
 
 /// Normals are smoothed the more the larger the noise is, beginning with this one.
 constexpr double kNormalStepSize = 2;
@@ -33,9 +34,8 @@ constexpr double kSmallNoise = 0.2;
 /// The trial that measures the noise takes this length of the metric and this step size.
 constexpr double kTrialNormalLength = 2.6, kTrialStepSize = 0.15;
 
-/// Multiplies the divergence in the cross-validation, which otherwise sometimes takes noise for
-/// detail (Wood, "Generalized Additive Models", 2017).
-constexpr double kCaution = 1.05;
+/// The weight γ of robust cross-validation; without it, noise is sometimes taken for detail.
+constexpr double kRobustness = 0.8;
 /// Treatments that do next to nothing are not told apart.
 constexpr double kLeastRest = 0.02;
 /// With less noise than this, in edges, nothing is to be removed: steps would only move vertices
@@ -60,6 +60,11 @@ struct Effect {
     double sign_square = 0;  ///< mean square of what is taken from heights of random sign
 };
 
+/// Returns the noise that a treatment shows: it takes from noise what it takes from random signs.
+double noise_of(const Effect& effect) {
+    return effect.sign_square > 0 ? std::sqrt(effect.square / effect.sign_square) : 0;
+}
+
 /// Positions after a treatment of the sample, and of the sample with perturbed heights.
 struct Twins {
     Positions plain, perturbed;
@@ -83,7 +88,10 @@ public:
         : sample_(sample),
           wishes_(wishes),
           smoothing_(sample.surface),
-          unit_length_(wishes.crease > 0 ? 1 / wishes.crease : 0),
+          unit_length_(wishes.crease > 0
+                           ? std::max(1.0, wishes.detail_size / kDetailOfNormalLengths) /
+                                 wishes.crease
+                           : 0),
           noise_(wishes.noise) {
         count_ = std::count(sample.counts.begin(), sample.counts.end(), 1);
         perturb(kTrialPerturbation);
@@ -106,13 +114,9 @@ public:
         }
         if (wishes_.crease > 0 && best_.treatment.steps > 0) {
             const Attempt smooth = best_;
-            for (const int iterations : kSharpenings) try_sharpening(smooth, iterations);
+            for (const Sharpening& sharpening : kSharpenings) try_sharpening(smooth, sharpening);
         }
-        // Steps take from noise what they take from random signs.
-        const Effect& effect = best_.effect;
-        if (effect.sign_square > 0) {
-            best_.treatment.noise = std::sqrt(effect.square / effect.sign_square);
-        }
+        best_.treatment.noise = noise_of(best_.effect);
         return best_.treatment;
     }
 
@@ -137,8 +141,7 @@ private:
         if (wishes_.noise > 0) return;
         Twins twins = start_;
         step(settings_for(kTrialNormalLength, kTrialStepSize), twins);
-        const Effect effect = effect_of(twins);
-        noise_ = effect.sign_square > 0 ? std::sqrt(effect.square / effect.sign_square) : 0;
+        noise_ = noise_of(effect_of(twins));
     }
 
     Eigen::Vector3d normal(std::int32_t vertex) const {
@@ -182,8 +185,10 @@ private:
         if (wishes_.noise > 0) {
             return effect.square + 2 * noise_ * noise_ * effect.divergence;
         }
-        const double rest = std::max(1 - kCaution * effect.divergence, kLeastRest);
-        return effect.square / (rest * rest);
+        const double rest = std::max(1 - effect.divergence, kLeastRest);
+        // The squares of signs are 1.
+        const double kept_square = effect.sign_square + 2 * effect.divergence - 1;
+        return effect.square / (rest * rest) * (kRobustness + (1 - kRobustness) * kept_square);
     }
 
     /// Keeps an attempt if it is better than the best one. Returns its score.
@@ -194,25 +199,22 @@ private:
         return score;
     }
 
-    /// Tries steps with these settings, one more after the other until they do not get better.
+    /// Tries steps with these settings, one more after the other until they do not get better; as
+    /// many as reach the detail size if the user gives it.
     void try_steps(const Place& place) {
-        const double length = kNormalLengths[static_cast<std::size_t>(place[0])];
+        const bool sized = wishes_.detail_size > 0;
+        const int most = sized ? kStepsToDetailSize : kMostSteps;
+        const double wave = wishes_.detail_size / kTwoPi;
         Twins twins = start_;
         Treatment treatment;
-        if (wishes_.detail_size > 0) {
-            const double wave = wishes_.detail_size / kTwoPi;
-            treatment.settings =
-                settings_for(length, wave * wave * std::sqrt(halved_waves(kStepsToDetailSize)));
-            treatment.steps = kStepsToDetailSize;
-            for (int i = 0; i < kStepsToDetailSize; ++i) step(treatment.settings, twins);
-            judge(treatment, twins);
-            return;
-        }
-        treatment.settings = settings_for(length, kStepSizes[static_cast<std::size_t>(place[1])]);
-        double last = std::numeric_limits<double>::infinity();
-        while (treatment.steps < kMostSteps) {
+        treatment.settings =
+            settings_for(kNormalLengths[static_cast<std::size_t>(place[0])],
+                         sized ? wave * wave * std::sqrt(halved_waves(kStepsToDetailSize))
+                               : kStepSizes[static_cast<std::size_t>(place[1])]);
+        for (double last = std::numeric_limits<double>::infinity(); treatment.steps < most;) {
             step(treatment.settings, twins);
             ++treatment.steps;
+            if (sized && treatment.steps < most) continue;
             const double score = judge(treatment, twins);
             if (!(score < last)) return;
             last = score;
@@ -237,7 +239,8 @@ private:
         improves(place);
         for (bool moved = true; moved;) {
             moved = false;
-            for (const Place& step : {Place{0, -1}, Place{0, 1}, Place{-1, 0}, Place{1, 0}}) {
+            for (const Place& step : {Place{0, -1}, Place{0, 1}, Place{-1, 0}, Place{1, 0},
+                                      Place{-1, -1}, Place{1, 1}}) {
                 const Place next = {place[0] + step[0], place[1] + step[1]};
                 if (!improves(next)) continue;
                 place = next;
@@ -246,13 +249,13 @@ private:
         }
     }
 
-    void try_sharpening(const Attempt& smooth, int iterations) {
+    void try_sharpening(const Attempt& smooth, Sharpening sharpening) {
+        sharpening.width *= wishes_.crease;
         Treatment treatment = smooth.treatment;
-        treatment.sharpening_width = kSharpeningWidth * wishes_.crease;
-        treatment.sharpenings = iterations;
+        treatment.sharpening = sharpening;
         Twins twins = smooth.twins;
-        sharpen(sample_.surface, treatment.sharpening_width, iterations, twins.plain);
-        sharpen(sample_.surface, treatment.sharpening_width, iterations, twins.perturbed);
+        sharpen(sample_.surface, sharpening, twins.plain);
+        sharpen(sample_.surface, sharpening, twins.perturbed);
         judge(treatment, twins);
     }
 

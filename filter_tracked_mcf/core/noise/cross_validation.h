@@ -2,6 +2,7 @@
 #pragma once
 
 #include "filter_tracked_mcf/core/noise/noisy_surface.h"
+#include "filter_tracked_mcf/core/noise/sharpening.h"
 #include "filter_tracked_mcf/core/noise/smoothing.h"
 
 namespace tracked_mcf {
@@ -17,9 +18,8 @@ struct NoiseWishes {
 struct Treatment {
     StepSettings settings;  ///< of every step
     int steps = 0;
-    double sharpening_width = 0;  ///< see sharpen()
-    int sharpenings = 0;          ///< iterations of sharpen(); 0: none
-    double noise = 0;             ///< the standard deviation that the sample shows
+    Sharpening sharpening;
+    double noise = 0;  ///< the standard deviation that the sample shows
 };
 
 /// Returns the length of the waves whose amplitude the steps of a treatment halve.
@@ -27,11 +27,12 @@ double detail_size_of(const Treatment& treatment);
 
 /// Returns the treatment that suits a sample best.
 ///
-/// A treatment F, a function of n noisy heights x, is the better the smaller its generalised
-/// cross-validation is, |F(x) - x|² / n / (1 - div F / n)² (Golub, Heath and Wahba, 1979), which
-/// needs no knowledge of the noise. If the noise σ is known, this is Stein's estimate of the risk,
-/// |F(x) - x|² / n + 2 σ² div F / n (1981). Both need the divergence of F, which F(x + ε z) tells
-/// for random signs z (Ramani, Blu and Unser, "Monte-Carlo SURE", 2008).
+/// A treatment F, a function of n noisy heights x, is the better the smaller its robust generalised
+/// cross-validation is, |F(x) - x|² / n / (1 - div F / n)² (γ + (1 - γ) |F'|² / n) with the
+/// Frobenius norm of the derivative F' (Lukas, "Robust generalized cross-validation", 2006). It
+/// needs no knowledge of the noise. If the noise σ is known, Stein's estimate of the risk takes its
+/// place, |F(x) - x|² / n + 2 σ² div F / n (1981). Differences F(x + ε z) - F(x) for random signs z
+/// tell the divergence and the norm (Ramani, Blu and Unser, "Monte-Carlo SURE", 2008).
 Treatment best_treatment(const Sample& sample, const NoiseWishes& wishes);
 
 }  // namespace tracked_mcf

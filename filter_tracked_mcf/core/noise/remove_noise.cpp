@@ -80,14 +80,14 @@ void treat(NoisySurface& surface, double edge, const NoiseParameters& parameters
     if (crease > 0 && treatment.steps > 0) {
         report.crease_share = crease_share(surface, smoothing.normals(), crease);
     }
-    if (treatment.sharpenings > 0) {
+    if (treatment.sharpening.iterations > 0) {
         enter_phase(0.9, "Sharpening the creases");
-        sharpen(surface, treatment.sharpening_width, treatment.sharpenings, surface.positions);
+        sharpen(surface, treatment.sharpening, surface.positions);
     }
     report.noise = parameters.noise > 0 ? parameters.noise : edge * treatment.noise;
     report.detail_size = edge * detail_size_of(treatment);
     report.steps = treatment.steps;
-    report.sharpenings = treatment.sharpenings;
+    report.sharpenings = treatment.sharpening.iterations;
     report.iterations = smoothing.iterations();
 }
 

@@ -74,10 +74,10 @@ void fit(const NoisySurface& surface, const Vectors& normals, Positions& positio
 
 }  // namespace
 
-void sharpen(const NoisySurface& surface, double width, int iterations, Positions& positions) {
+void sharpen(const NoisySurface& surface, const Sharpening& sharpening, Positions& positions) {
     Vectors normals = normals_of(surface.stars, positions), averages;
-    const auto inverse_square = static_cast<float>(1 / (width * width));
-    for (int i = 0; i < iterations; ++i) {
+    const auto inverse_square = static_cast<float>(1 / (sharpening.width * sharpening.width));
+    for (int i = 0; i < sharpening.iterations; ++i) {
         average_alike(surface.stars, inverse_square, normals, averages);
         normals.swap(averages);
     }

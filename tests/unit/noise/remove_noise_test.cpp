@@ -81,6 +81,15 @@ TEST(RemoveNoise, KeepsTheCreasesOfACube) {
     EXPECT_EQ(report_of(before, none).crease_share, 0);
 }
 
+TEST(RemoveNoise, KeepsTheCreasesOfACubeWhoseLongWavesItRemoves) {
+    const TriangleMesh before = with_noise(cube(), 0.2);
+    for (const double edges : {12, 20, 30}) {
+        NoiseParameters parameters;
+        parameters.detail_size = edges * mean_edge_length(before);
+        EXPECT_LT(error(denoised(before, parameters), cube()), 0.25 * error(before, cube()));
+    }
+}
+
 TEST(RemoveNoise, HardlyMovesACleanMesh) {
     for (const TriangleMesh& clean :
          {shapes::geodesic_sphere(20), shapes::box(10, {1, 2, 3}), shapes::square(20)}) {
