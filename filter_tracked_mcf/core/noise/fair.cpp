@@ -36,15 +36,15 @@ constexpr double kDone = 1e-4;
 /// Iterations with less continuity, which give a metric to begin with.
 constexpr int kFirstIterations = 2;
 /// Surroundings are rough if their curvature is so many times that of the patch.
-constexpr double kRough = 4;
+constexpr double kRough = 3;
 
 /// Conjugate gradients stop at this residual, relative to the first one. The next iteration in the
 /// metric of the result removes what is left.
-constexpr double kTolerance = 1e-3;
+constexpr double kTolerance = 1e-2;
 constexpr int kMostSteps = 2000;
 
 /// Bytes for each vertex and each triangle of the mesh, and for each vertex that moves.
-constexpr double kBytesPerVertex = 60, kBytesPerTriangle = 90, kBytesPerMoving = 2200;
+constexpr double kBytesPerVertex = 60, kBytesPerTriangle = 90, kBytesPerMoving = 1200;
 
 /// The integral of the squared mean curvature over an area.
 struct Bending {
@@ -288,8 +288,9 @@ FairReport fair(TriangleMesh& mesh, const Selection& selection, const FairParame
     for (const Patch& patch : patches) report.vertices += patch.moving;
     if (patches.empty()) {
         throw InvalidMesh(
-            "The selected faces have no inner vertices, so nothing can move. Refine them first: "
-            "filters such as Close Holes fill a hole with long triangles.");
+            "The selected faces have no inner vertices, so nothing can move. Close Holes leaves "
+            "long "
+            "triangles: refine the selected faces first, such as by Isotropic Explicit Remeshing.");
     }
 
     std::vector<Eigen::Vector3d> after = mesh.positions;
