@@ -7,6 +7,7 @@
 #include <sstream>
 #include <variant>
 
+#include "filter_tracked_mcf/parameters/fair_warnings.h"
 #include "filter_tracked_mcf/parameters/flow_warnings.h"
 #include "filter_tracked_mcf/parameters/noise_warnings.h"
 #include "filter_tracked_mcf/parameters/report_values.h"
@@ -111,6 +112,11 @@ std::string report_json(const CommandLineOf<NoiseParameters>& line, const NoiseR
     return json_of(line, report, warnings);
 }
 
+std::string report_json(const CommandLineOf<FairParameters>& line, const FairReport& report,
+                        const std::vector<std::string>& warnings) {
+    return json_of(line, report, warnings);
+}
+
 std::string summary(const CommandLineOf<FlowParameters>& line, const FlowReport& report) {
     std::ostringstream text;
     text << counts(line, report) << "\ndepth " << report.depth << ": " << report.cells << " cells, "
@@ -139,6 +145,17 @@ std::string summary(const CommandLineOf<NoiseParameters>& line, const NoiseRepor
     return text.str();
 }
 
+std::string summary(const CommandLineOf<FairParameters>& line, const FairReport& report) {
+    std::ostringstream text;
+    text << line.input.u8string() << ": " << report.vertices << " vertices move, in "
+         << report.patches << (report.patches == 1 ? " patch" : " patches") << "\n"
+         << changes(report) << "\n"
+         << report.iterations << (report.iterations == 1 ? " iteration in " : " iterations in ")
+         << std::fixed << std::setprecision(1) << report.seconds << " s: " << line.output.u8string()
+         << "\n";
+    return text.str();
+}
+
 std::vector<std::string> warnings(const CommandLineOf<FlowParameters>& line,
                                   const FlowReport& report) {
     const char* const advice = stabilization_of(line.parameters) < kDefaultStabilization
@@ -149,6 +166,11 @@ std::vector<std::string> warnings(const CommandLineOf<FlowParameters>& line,
 
 std::vector<std::string> warnings(const CommandLineOf<NoiseParameters>& line,
                                   const NoiseReport& report) {
+    return warnings_of(line.parameters, report, "");
+}
+
+std::vector<std::string> warnings(const CommandLineOf<FairParameters>& line,
+                                  const FairReport& report) {
     return warnings_of(line.parameters, report, "");
 }
 

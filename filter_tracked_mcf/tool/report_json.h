@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "filter_tracked_mcf/core/fair.h"
 #include "filter_tracked_mcf/core/flow_report.h"
 #include "filter_tracked_mcf/core/remove_noise.h"
 #include "filter_tracked_mcf/tool/command_line.h"
@@ -15,10 +16,13 @@ std::string report_json(const CommandLineOf<FlowParameters>& line, const FlowRep
                         const std::vector<std::string>& warnings);
 std::string report_json(const CommandLineOf<NoiseParameters>& line, const NoiseReport& report,
                         const std::vector<std::string>& warnings);
+std::string report_json(const CommandLineOf<FairParameters>& line, const FairReport& report,
+                        const std::vector<std::string>& warnings);
 
 /// Returns the main numbers of the report in a few lines for a person.
 std::string summary(const CommandLineOf<FlowParameters>& line, const FlowReport& report);
 std::string summary(const CommandLineOf<NoiseParameters>& line, const NoiseReport& report);
+std::string summary(const CommandLineOf<FairParameters>& line, const FairReport& report);
 
 /// Returns warnings, one line each, that are printed even without a summary.
 std::vector<std::string> warnings(const CommandLineOf<FlowParameters>& line,
@@ -26,5 +30,8 @@ std::vector<std::string> warnings(const CommandLineOf<FlowParameters>& line,
 
 std::vector<std::string> warnings(const CommandLineOf<NoiseParameters>& line,
                                   const NoiseReport& report);
+
+std::vector<std::string> warnings(const CommandLineOf<FairParameters>& line,
+                                  const FairReport& report);
 
 }  // namespace tracked_mcf
