@@ -32,7 +32,8 @@ double initial_length(const ParameterOf<FlowParameters>& /*detail_size*/, const 
     return default_detail_size_of(layer.cm);
 }
 
-double initial_length(const ParameterOf<NoiseParameters>& length, const MeshModel& /*layer*/) {
+template <class Parameters>
+double initial_length(const ParameterOf<Parameters>& length, const MeshModel& /*layer*/) {
     return std::get<double>(length.initial);
 }
 
@@ -146,11 +147,14 @@ FilterOutcome apply_to_current_layer(MeshDocument& document, const RichParameter
         Parameters parameters;
         LayerInput from_layer;
         for (const auto& parameter : parameter_table<Parameters>()) {
-            if (parameter.label.empty()) continue;
+            const bool selects = parameter.type == Parameter::Type::Selected;
+            if (parameter.label.empty()) {
+                if (selects) from_layer.selected_only = true;  // without a choice
+                continue;
+            }
             const ParameterValue value = read(list, parameter);
             parameter.set(parameters, value);
-            if (parameter.type == Parameter::Type::Selected)
-                from_layer.selected_only = std::get<bool>(value);
+            if (selects) from_layer.selected_only = std::get<bool>(value);
             if (parameter.type == Parameter::Type::Strength)
                 from_layer.strength_by_quality = std::get<bool>(value);
         }
@@ -176,8 +180,8 @@ MeshLabFilter filter_of() {
 }  // namespace
 
 const std::vector<MeshLabFilter>& meshlab_filters() {
-    static const std::vector<MeshLabFilter> filters = {filter_of<FlowParameters>(),
-                                                       filter_of<NoiseParameters>()};
+    static const std::vector<MeshLabFilter> filters = {
+        filter_of<FlowParameters>(), filter_of<NoiseParameters>(), filter_of<FairParameters>()};
     return filters;
 }
 

@@ -11,6 +11,7 @@
 
 #include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/parameter_table.h"
+#include "filter_tracked_mcf/parameters/fair_warnings.h"
 #include "filter_tracked_mcf/parameters/flow_warnings.h"
 #include "filter_tracked_mcf/parameters/noise_warnings.h"
 
@@ -33,6 +34,7 @@ std::string with_label(const std::string& message) {
     const std::string name = message.substr(0, message.find(' '));
     std::string label = label_of<FlowParameters>(name);
     if (label.empty()) label = label_of<NoiseParameters>(name);
+    if (label.empty()) label = label_of<FairParameters>(name);
     if (label.empty()) return message;
     const bool is_zero = message.rfind(name + " is 0;", 0) == 0;
     return message + " In the dialog it is \"" + label + "\"." +
@@ -147,6 +149,15 @@ std::string summary(const NoiseParameters& parameters, const NoiseReport& report
     return text.str();
 }
 
+std::string summary(const FairParameters& parameters, const FairReport& report) {
+    std::ostringstream text;
+    text.precision(3);
+    text << "Faired " << report.vertices << " vertices of " << report.patches
+         << (report.patches == 1 ? " patch" : " patches") << " in " << report.seconds << " s. "
+         << changes(report) << after_summary(warnings_of(parameters, report, kAdvice));
+    return text.str();
+}
+
 Outputs outputs_of(const FlowParameters& parameters, const FlowReport& report) {
     const double error =
         report.steps.empty() ? 0 : error_estimate(parameters.solver, report.steps.back());
@@ -176,6 +187,19 @@ Outputs outputs_of(const NoiseParameters& /*parameters*/, const NoiseReport& rep
             {"area_before", report.area_before},
             {"area_after", report.area_after},
             {"volume_change", volume_change(report)}};
+}
+
+Outputs outputs_of(const FairParameters& /*parameters*/, const FairReport& report) {
+    return {{"patches", static_cast<int>(report.patches)},
+            {"flatter_patches", static_cast<int>(report.flatter_patches)},
+            {"rough_patches", static_cast<int>(report.rough_patches)},
+            {"seam_curvature", report.seam_curvature},
+            {"patch_curvature", report.patch_curvature},
+            {"height", report.height},
+            {"largest_displacement", report.largest_displacement},
+            {"rms_displacement", report.rms_displacement},
+            {"area_before", report.area_before},
+            {"area_after", report.area_after}};
 }
 
 }  // namespace run_filter_detail

@@ -72,6 +72,7 @@ TEST(Pages, TablesHaveTheNamesAndDefaultsOfAllParameters) {
     const char* const in_dialogs = "\n\\| `([a-z_]+)` \\| ([^|]*) \\|";
     expect_table<FlowParameters>("README.md", "\n## Parameters", in_dialogs, true);
     expect_table<NoiseParameters>("README.md", "\n## Remove Noise", in_dialogs, true);
+    expect_table<FairParameters>("README.md", "\n## Fair Selected Faces", in_dialogs, true);
     expect_table<FlowParameters>("filter_tracked_mcf/tool/README.md", "\nFurther options",
                                  "\n\\| `--([a-z-]+) [^`]*` \\| ([^| ]+) \\|", false);
 }
@@ -100,6 +101,7 @@ void expect_script() {
 TEST(Pages, TheFilterScriptsSetAllParametersToTheirDefaults) {
     expect_script<FlowParameters>();
     expect_script<NoiseParameters>();
+    expect_script<FairParameters>();
 }
 
 }  // namespace
