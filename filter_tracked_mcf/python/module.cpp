@@ -14,6 +14,7 @@
 
 #include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/evolve.h"
+#include "filter_tracked_mcf/parameters/fair_warnings.h"
 #include "filter_tracked_mcf/parameters/filter_names.h"
 #include "filter_tracked_mcf/parameters/flow_warnings.h"
 #include "filter_tracked_mcf/parameters/noise_warnings.h"
@@ -197,7 +198,7 @@ template <class Parameters>
 nb::tuple filtered(nb::handle vertices, nb::handle faces, const nb::object& on_step,
                    const nb::object& progress, const nb::kwargs& given) {
     TriangleMesh mesh = mesh_of(vertices, faces);
-    mesh.strength = strength_of(given["strength"], mesh);
+    if (given.contains("strength")) mesh.strength = strength_of(given["strength"], mesh);
     const Selection selection = selection_of(given["selected"], mesh);
     const auto parameters = parameters_of<Parameters>(given, mesh);
     auto report = [&] {
@@ -267,6 +268,7 @@ NB_MODULE(_core, module) {
     module.attr("no_quality") = kNoQuality;
     module.attr("filters") = nb::dict();
     nb::register_exception_translator(translate);
+    add_filter<FairParameters>(module, "fair");
     add_filter<NoiseParameters>(module, "remove_noise");
     add_filter<FlowParameters>(module, "smooth");
     module.def("default_detail_size", default_detail_size_of, "vertices"_a.none(), "faces"_a.none(),
