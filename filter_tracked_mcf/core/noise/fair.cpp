@@ -281,7 +281,7 @@ FairReport fair(TriangleMesh& mesh, const Selection& selection, const FairParame
                       "Fairing", "Select less, or simplify the mesh.");
     const double scale = longest_side(mesh);
     MeshTopology topology = topology_of(mesh);
-    const std::vector<Patch> patches = patches_of(topology, inner_vertices(topology, selection));
+    const std::vector<Patch> patches = patches_of(topology, selection);
     const std::vector<std::int32_t> welded = std::move(topology.welded);
     topology = {};
     report.patches = static_cast<std::int64_t>(patches.size());
