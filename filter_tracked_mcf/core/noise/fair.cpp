@@ -40,7 +40,7 @@ constexpr double kRough = 3;
 
 /// Conjugate gradients stop at this residual, relative to the first one. The next iteration in the
 /// metric of the result removes what is left.
-constexpr double kTolerance = 1e-2;
+constexpr double kTolerance = 1e-3;
 constexpr int kMostSteps = 2000;
 
 /// Bytes for each vertex and each triangle of the mesh, and for each vertex that moves.
