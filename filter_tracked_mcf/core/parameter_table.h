@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "filter_tracked_mcf/core/fair_parameters.h"
 #include "filter_tracked_mcf/core/flow_parameters.h"
 #include "filter_tracked_mcf/core/noise_parameters.h"
 #include "filter_tracked_mcf/core/triangle_mesh.h"
@@ -58,7 +59,7 @@ struct ParameterOf : Parameter {
 };
 
 /// Returns the parameters of a filter in the order of its dialog, then those of the program alone.
-/// `Parameters` is FlowParameters or NoiseParameters.
+/// `Parameters` is FlowParameters, NoiseParameters or FairParameters.
 ///
 /// To add a parameter, add a member and a row to the table. Dialog, scripts, PyMeshLab, the Python
 /// package, the program's options, help and report, and the check of the range follow the row.
@@ -69,6 +70,8 @@ template <>
 const std::vector<ParameterOf<FlowParameters>>& parameter_table();
 template <>
 const std::vector<ParameterOf<NoiseParameters>>& parameter_table();
+template <>
+const std::vector<ParameterOf<FairParameters>>& parameter_table();
 
 /// One of the Inputs, and how hosts offer it: dialogs and scripts as a switch, which takes it from
 /// the layer's selection or vertex quality; the program as the name of a property; Python as an
@@ -88,6 +91,8 @@ template <>
 const std::vector<Input>& input_table<FlowParameters>();
 template <>
 const std::vector<Input>& input_table<NoiseParameters>();
+template <>
+const std::vector<Input>& input_table<FairParameters>();
 
 /// Throws InvalidParameter unless `value` is in the range of the parameter `name`.
 void check_range(const std::string& name, double value, const Range& range);

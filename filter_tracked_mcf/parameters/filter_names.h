@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "filter_tracked_mcf/core/fair_parameters.h"
 #include "filter_tracked_mcf/core/noise_parameters.h"
 
 namespace tracked_mcf {
@@ -32,6 +33,14 @@ inline constexpr FilterNames kNames<NoiseParameters> = {
     "Removes <b>noise</b> from scans and parts, and keeps creases and larger detail. It measures "
     "the noise, so the defaults suit most meshes; a mesh without noise stays as it is. Only "
     "positions and, if asked for, vertex qualities change."};
+
+template <>
+inline constexpr FilterNames kNames<FairParameters> = {
+    "Fair Selected Faces", "apply_coord_fair_selected_faces",
+    "Makes the <b>selected faces continue the surface</b> around them, such as those that fill a "
+    "hole. Only their inner vertices move. After <i>Close Holes</i>, the new faces are selected; "
+    "refine them, because long triangles without inner vertices cannot bend. Where the "
+    "surroundings are rough, <i>Remove Noise</i> first."};
 
 /// Says what is wrong where a layer has no quality for the parameter `strength`.
 inline constexpr const char* kNoQuality =

@@ -144,4 +144,25 @@ ReportObject report_values(const NoiseParameters& parameters, const ReportObject
             {"peak_memory_bytes", {report.peak_memory_bytes}}};
 }
 
+ReportObject report_values(const FairParameters& parameters, const ReportObject& inputs,
+                           const FairReport& report, const std::vector<std::string>& warnings) {
+    return {{"parameters", {parameter_values(parameters, inputs)}},
+            {"vertices", {report.vertices}},
+            {"triangles", {report.triangles}},
+            {"patches", {report.patches}},
+            {"flatter_patches", {report.flatter_patches}},
+            {"rough_patches", {report.rough_patches}},
+            {"seam_curvature", {report.seam_curvature}},
+            {"patch_curvature", {report.patch_curvature}},
+            {"height", {report.height}},
+            {"iterations", integer(report.iterations)},
+            {"area_before", {report.area_before}},
+            {"area_after", {report.area_after}},
+            {"largest_displacement", {report.largest_displacement}},
+            {"rms_displacement", {report.rms_displacement}},
+            {"seconds", {report.seconds}},
+            {"warnings", {texts(warnings)}},
+            {"peak_memory_bytes", {report.peak_memory_bytes}}};
+}
+
 }  // namespace tracked_mcf

@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "filter_tracked_mcf/core/fair.h"
 #include "filter_tracked_mcf/core/flow_parameters.h"
 #include "filter_tracked_mcf/core/flow_report.h"
 #include "filter_tracked_mcf/core/remove_noise.h"
@@ -34,5 +35,9 @@ ReportObject report_values(const FlowParameters& parameters, const ReportObject&
 /// Returns the same of a removal of noise.
 ReportObject report_values(const NoiseParameters& parameters, const ReportObject& inputs,
                            const NoiseReport& report, const std::vector<std::string>& warnings);
+
+/// Returns the same of faired patches.
+ReportObject report_values(const FairParameters& parameters, const ReportObject& inputs,
+                           const FairReport& report, const std::vector<std::string>& warnings);
 
 }  // namespace tracked_mcf

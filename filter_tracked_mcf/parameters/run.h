@@ -2,6 +2,7 @@
 #pragma once
 
 #include "filter_tracked_mcf/core/evolve.h"
+#include "filter_tracked_mcf/core/fair.h"
 #include "filter_tracked_mcf/core/remove_noise.h"
 
 namespace tracked_mcf {
@@ -25,6 +26,16 @@ inline NoiseReport run(TriangleMesh& mesh, const Inputs& inputs, const NoisePara
 
 inline int steps_of(const NoiseReport& report) {
     return report.steps;
+}
+
+/// Applies the filter of these parameters, which has no steps to observe. See fair().
+inline FairReport run(TriangleMesh& mesh, const Inputs& inputs, const FairParameters& parameters,
+                      const Progress& progress, const StepObserver& /*on_step*/ = {}) {
+    return fair(mesh, inputs.selection, parameters, progress);
+}
+
+inline int steps_of(const FairReport& report) {
+    return report.iterations;
 }
 
 }  // namespace tracked_mcf

@@ -43,13 +43,18 @@ std::string relative_change(double before, double change) {
     return (per_cent > 0 ? "+" : "") + digits(per_cent, 3) + " %";
 }
 
-/// Says how far vertices moved, and how area and volume changed.
+/// Says how far vertices moved, and how the area changed.
 template <class Report>
 std::string movement(const Report& report) {
-    std::string text = "\nVertices moved by up to " + digits(report.largest_displacement, 3) +
-                       ", RMS " + digits(report.rms_displacement, 3) + ".\nArea: " +
-                       relative_change(report.area_before, report.area_after - report.area_before) +
-                       ". ";
+    return "\nVertices moved by up to " + digits(report.largest_displacement, 3) + ", RMS " +
+           digits(report.rms_displacement, 3) + ".\nArea: " +
+           relative_change(report.area_before, report.area_after - report.area_before) + ".";
+}
+
+/// The same, and how the volume changed.
+template <class Report>
+std::string movement_and_volume(const Report& report) {
+    const std::string text = movement(report) + " ";
     if (!report.oriented_consistently)
         return text + "Volume: unknown, because the faces are not oriented consistently.";
     if (report.volume_before == 0)  // an open surface
@@ -88,7 +93,7 @@ std::string summary(const FlowParameters& parameters, const FlowReport& report) 
                                                : "\nDetail";
         text += " smaller than " + digits(report.detail_size, 3) + " was removed.";
     }
-    if (!report.steps.empty()) text += movement(report);
+    if (!report.steps.empty()) text += movement_and_volume(report);
     if (report.unselected_triangles > 0) {
         const std::int64_t selected = report.triangles + report.zero_strength_triangles;
         text += "\nOnly the " + std::to_string(selected) + " selected of " +
@@ -114,13 +119,22 @@ std::string summary(const NoiseParameters& /*parameters*/, const NoiseReport& re
             text += std::string(report.crease_share > 0 ? "\nElsewhere, detail" : "\nDetail") +
                     " smaller than " + digits(report.detail_size, 3) + " was removed.";
         }
-        text += movement(report);
+        text += movement_and_volume(report);
     }
     if (report.bounded_vertices > 0) {
         text += "\n" + vertices(report.bounded_vertices) +
                 " moved as far as the largest movement allows.";
     }
     return text + bystanders(report);
+}
+
+std::string summary(const FairParameters& /*parameters*/, const FairReport& report) {
+    return "Faired " + vertices(report.vertices) + " of " +
+           counted(report.patches, "patch", "patches") + " in " + digits(report.seconds, 2) +
+           " s.\nMean radius of curvature: " + digits(1 / report.patch_curvature, 3) +
+           " in the patches, " + digits(1 / report.seam_curvature, 3) +
+           " around them.\nThe patches rise by up to " + digits(100 * report.height, 3) +
+           " % of the size of their hole above its membrane." + movement(report);
 }
 
 std::string solver_details(const FlowParameters& parameters, const FlowReport& report) {
@@ -150,6 +164,10 @@ std::string solver_details(const NoiseParameters& /*parameters*/, const NoiseRep
     return steps(report.steps) + " with " + std::to_string(report.iterations) +
            " iterations of conjugate gradients, and " + std::to_string(report.sharpenings) +
            " of the bilateral filter.\n";
+}
+
+std::string solver_details(const FairParameters& /*parameters*/, const FairReport& report) {
+    return counted(report.iterations, "iteration", "iterations") + " of the metric.\n";
 }
 
 }  // namespace tracked_mcf

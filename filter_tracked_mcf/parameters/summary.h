@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "filter_tracked_mcf/core/fair.h"
 #include "filter_tracked_mcf/core/flow_parameters.h"
 #include "filter_tracked_mcf/core/flow_report.h"
 #include "filter_tracked_mcf/core/remove_noise.h"
@@ -13,9 +14,11 @@ namespace tracked_mcf {
 /// vertices moved, the change of area and volume, and which faces or vertices did not take part.
 std::string summary(const FlowParameters& parameters, const FlowReport& report);
 std::string summary(const NoiseParameters& parameters, const NoiseReport& report);
+std::string summary(const FairParameters& parameters, const FairReport& report);
 
 /// Returns lines with the numbers of the grid and of the solver. Empty if a filter has neither.
 std::string solver_details(const FlowParameters& parameters, const FlowReport& report);
 std::string solver_details(const NoiseParameters& parameters, const NoiseReport& report);
+std::string solver_details(const FairParameters& parameters, const FairReport& report);
 
 }  // namespace tracked_mcf

@@ -32,7 +32,8 @@ double initial_length(const ParameterOf<FlowParameters>& /*detail_size*/, const 
     return default_detail_size_of(layer.cm);
 }
 
-double initial_length(const ParameterOf<NoiseParameters>& length, const MeshModel& /*layer*/) {
+template <class Parameters>
+double initial_length(const ParameterOf<Parameters>& length, const MeshModel& /*layer*/) {
     return std::get<double>(length.initial);
 }
 
@@ -128,6 +129,7 @@ RichParameterList rich_parameters(const MeshModel* layer) {
         if (!parameter.label.empty()) add(list, parameter, layer);
     }
     for (const Input& input : input_table<Parameters>()) {
+        if (input.label.empty()) continue;
         const bool is_on = input.of_faces && layer != nullptr && has_selected_faces(layer->cm);
         list.addParam(RichBool(text(input.name), is_on, text(input.label), rich(input.help)));
     }
@@ -148,7 +150,8 @@ FilterOutcome apply_to_current_layer(MeshDocument& document, const RichParameter
         }
         Inputs inputs;
         for (const Input& input : input_table<Parameters>()) {
-            if (!std::get<bool>(read(list, input))) continue;
+            // An input without a label is always taken.
+            if (!input.label.empty() && !std::get<bool>(read(list, input))) continue;
             if (input.of_faces) {
                 inputs.*input.of_faces = selected_faces(layer->cm);
             } else if (layer->hasDataMask(MeshModel::MM_VERTQUALITY)) {
@@ -176,8 +179,8 @@ MeshLabFilter filter_of() {
 }  // namespace
 
 const std::vector<MeshLabFilter>& meshlab_filters() {
-    static const std::vector<MeshLabFilter> filters = {filter_of<FlowParameters>(),
-                                                       filter_of<NoiseParameters>()};
+    static const std::vector<MeshLabFilter> filters = {
+        filter_of<FlowParameters>(), filter_of<NoiseParameters>(), filter_of<FairParameters>()};
     return filters;
 }
 

@@ -9,6 +9,7 @@
 
 #include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/parameter_table.h"
+#include "filter_tracked_mcf/parameters/fair_warnings.h"
 #include "filter_tracked_mcf/parameters/flow_warnings.h"
 #include "filter_tracked_mcf/parameters/noise_warnings.h"
 #include "filter_tracked_mcf/parameters/summary.h"
@@ -34,6 +35,7 @@ std::string label_of(const std::string& name) {
 std::string message_of(const InvalidParameter& error) {
     std::string label = label_of<FlowParameters>(error.name);
     if (label.empty()) label = label_of<NoiseParameters>(error.name);
+    if (label.empty()) label = label_of<FairParameters>(error.name);
     if (label.empty()) return error.what();
     return std::string(error.what()) + " In the dialog it is \"" + label + "\"." +
            (error.number == 0 ? " MeshLab reads a number with a decimal comma as 0: use a point."
@@ -116,6 +118,7 @@ std::string message_of(const Parameters& parameters, const Report& report) {
 
 template std::string message_of(const FlowParameters&, const FlowReport&);
 template std::string message_of(const NoiseParameters&, const NoiseReport&);
+template std::string message_of(const FairParameters&, const FairReport&);
 
 Outputs outputs_of(const FlowParameters& parameters, const FlowReport& report) {
     const double error =
@@ -146,6 +149,19 @@ Outputs outputs_of(const NoiseParameters& /*parameters*/, const NoiseReport& rep
             {"area_before", report.area_before},
             {"area_after", report.area_after},
             {"volume_change", volume_change(report)}};
+}
+
+Outputs outputs_of(const FairParameters& /*parameters*/, const FairReport& report) {
+    return {{"patches", static_cast<int>(report.patches)},
+            {"flatter_patches", static_cast<int>(report.flatter_patches)},
+            {"rough_patches", static_cast<int>(report.rough_patches)},
+            {"seam_curvature", report.seam_curvature},
+            {"patch_curvature", report.patch_curvature},
+            {"height", report.height},
+            {"largest_displacement", report.largest_displacement},
+            {"rms_displacement", report.rms_displacement},
+            {"area_before", report.area_before},
+            {"area_after", report.area_after}};
 }
 
 }  // namespace run_filter_detail

@@ -57,6 +57,11 @@ Outputs outputs_of(const FlowParameters& parameters, const FlowReport& report);
 /// unless the faces are oriented consistently).
 Outputs outputs_of(const NoiseParameters& parameters, const NoiseReport& report);
 
+/// Returns, in units of the mesh: `patches`, `flatter_patches`, `rough_patches`, `seam_curvature`,
+/// `patch_curvature`, `height`, `largest_displacement`, `rms_displacement`, `area_before`,
+/// `area_after`. See FairReport.
+Outputs outputs_of(const FairParameters& parameters, const FairReport& report);
+
 /// Returns default_detail_size(), or 0 if the mesh is not valid.
 double default_detail_size_or_zero(const TriangleMesh& mesh, const Selection& selection);
 

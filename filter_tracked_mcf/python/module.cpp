@@ -15,6 +15,7 @@
 #include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/evolve.h"
 #include "filter_tracked_mcf/core/parameter_table.h"
+#include "filter_tracked_mcf/parameters/fair_warnings.h"
 #include "filter_tracked_mcf/parameters/filter_names.h"
 #include "filter_tracked_mcf/parameters/flow_warnings.h"
 #include "filter_tracked_mcf/parameters/noise_warnings.h"
@@ -277,6 +278,7 @@ NB_MODULE(_core, module) {
     module.attr("no_quality") = kNoQuality;
     module.attr("filters") = nb::dict();
     nb::register_exception_translator(translate);
+    add_filter<FairParameters>(module, "fair");
     add_filter<NoiseParameters>(module, "remove_noise");
     add_filter<FlowParameters>(module, "smooth");
     module.def("default_detail_size", default_detail_size_of, "vertices"_a.none(), "faces"_a.none(),

@@ -106,7 +106,8 @@ bool depends_on_method(const ParameterOf<FlowParameters>& parameter) {
     return parameter.type == Parameter::Type::Real && parameter.get(paper) != parameter.initial;
 }
 
-bool depends_on_method(const ParameterOf<NoiseParameters>& /*parameter*/) {
+template <class Parameters>
+bool depends_on_method(const ParameterOf<Parameters>& /*parameter*/) {
     return false;
 }
 
@@ -217,7 +218,9 @@ nb::list described_parameters() {
 
 template FlowParameters parameters_of(const nb::dict&, const TriangleMesh&);
 template NoiseParameters parameters_of(const nb::dict&, const TriangleMesh&);
+template FairParameters parameters_of(const nb::dict&, const TriangleMesh&);
 template nb::list described_parameters<FlowParameters>();
 template nb::list described_parameters<NoiseParameters>();
+template nb::list described_parameters<FairParameters>();
 
 }  // namespace tracked_mcf

@@ -62,5 +62,6 @@ std::string pymeshlab_help() {
 
 template std::string pymeshlab_help<FlowParameters>();
 template std::string pymeshlab_help<NoiseParameters>();
+template std::string pymeshlab_help<FairParameters>();
 
 }  // namespace tracked_mcf

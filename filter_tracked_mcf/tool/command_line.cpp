@@ -77,6 +77,22 @@ struct ProgramTexts<NoiseParameters> {
         "      also removes the layers of a print, and keeps only sharper creases\n";
 };
 
+template <>
+struct ProgramTexts<FairParameters> {
+    static constexpr const char* kCommand = "tracked_mcf fair";
+    static constexpr const char* kDescription =
+        "Makes the selected faces of a triangle mesh continue the surface around them, such as "
+        "those that fill a hole. Only vertices of which all faces are selected move, and none on "
+        "the rim of an open mesh. Where the surroundings are rough for the size of the hole, "
+        "remove noise first.";
+    static constexpr const char* kExamples =
+        "Examples:\n"
+        "  tracked_mcf fair closed.ply fair.ply --selected flags\n"
+        "      after Close Holes in MeshLab, refining the new faces, and saving with their flags\n"
+        "  tracked_mcf fair closed.ply fair.ply --selected flags --continuity curvature\n"
+        "      in a smooth surface\n";
+};
+
 const char* const kFooter =
     "\n"
     "Files: PLY, OBJ, OFF and STL, by extension; PLY and STL are written as binary. If OUTPUT has\n"
@@ -203,8 +219,14 @@ void add_parameters(CLI::App& app, CommandLineOf<FlowParameters>& line) {
         ->check(CLI::PositiveNumber.description(""));
 }
 
-void add_parameters(CLI::App& app, CommandLineOf<NoiseParameters>& line) {
+template <class Parameters>
+void add_parameters(CLI::App& app, CommandLineOf<Parameters>& line) {
     add_rows(app, line);
+}
+
+void add_parameters(CLI::App& app, CommandLineOf<FairParameters>& line) {
+    add_rows(app, line);
+    app.get_option("--selected")->required();
 }
 
 /// Adds an option for a path, which is given in UTF-8.
@@ -344,5 +366,6 @@ CommandLineOf<Parameters> parse_command_line(std::vector<std::string> arguments)
 
 template CommandLineOf<FlowParameters> parse_command_line(std::vector<std::string> arguments);
 template CommandLineOf<NoiseParameters> parse_command_line(std::vector<std::string> arguments);
+template CommandLineOf<FairParameters> parse_command_line(std::vector<std::string> arguments);
 
 }  // namespace tracked_mcf

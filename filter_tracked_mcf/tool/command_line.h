@@ -37,8 +37,9 @@ struct CommandLineOf : CommandLine {
 std::string option_of(const std::string& parameter);
 
 /// Parses the arguments of the program, without its name and the filter's. `Parameters` is
-/// FlowParameters or NoiseParameters. Throws InvalidParameter for unknown options, values that are
-/// no values of their option, and unknown formats. validate() checks the ranges of parameters.
+/// FlowParameters, NoiseParameters or FairParameters. Throws InvalidParameter for unknown options,
+/// values that are no values of their option, and unknown formats. validate() checks the ranges of
+/// parameters.
 template <class Parameters>
 CommandLineOf<Parameters> parse_command_line(std::vector<std::string> arguments);
 

@@ -143,6 +143,9 @@ int main(int argc, char** argv) {
         if (!arguments.empty() && arguments[0] == "remove-noise") {
             arguments.erase(arguments.begin());
             answer_or_smooth<NoiseParameters>(std::move(arguments));
+        } else if (!arguments.empty() && arguments[0] == "fair") {
+            arguments.erase(arguments.begin());
+            answer_or_smooth<FairParameters>(std::move(arguments));
         } else {
             answer_or_smooth<FlowParameters>(std::move(arguments));
         }

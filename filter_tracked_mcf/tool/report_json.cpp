@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "filter_tracked_mcf/core/parameter_table.h"
+#include "filter_tracked_mcf/parameters/fair_warnings.h"
 #include "filter_tracked_mcf/parameters/flow_warnings.h"
 #include "filter_tracked_mcf/parameters/noise_warnings.h"
 #include "filter_tracked_mcf/parameters/report_values.h"
@@ -72,6 +73,11 @@ std::string report_json(const CommandLineOf<NoiseParameters>& line, const NoiseR
     return json_of(line, report, warnings);
 }
 
+std::string report_json(const CommandLineOf<FairParameters>& line, const FairReport& report,
+                        const std::vector<std::string>& warnings) {
+    return json_of(line, report, warnings);
+}
+
 std::vector<std::string> warnings(const CommandLineOf<FlowParameters>& line,
                                   const FlowReport& report) {
     const char* const advice = stabilization_of(line.parameters) < kDefaultStabilization
@@ -82,6 +88,11 @@ std::vector<std::string> warnings(const CommandLineOf<FlowParameters>& line,
 
 std::vector<std::string> warnings(const CommandLineOf<NoiseParameters>& line,
                                   const NoiseReport& report) {
+    return warnings_of(line.parameters, report, "");
+}
+
+std::vector<std::string> warnings(const CommandLineOf<FairParameters>& line,
+                                  const FairReport& report) {
     return warnings_of(line.parameters, report, "");
 }
 

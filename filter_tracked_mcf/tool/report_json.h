@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "filter_tracked_mcf/core/fair.h"
 #include "filter_tracked_mcf/core/flow_report.h"
 #include "filter_tracked_mcf/core/remove_noise.h"
 #include "filter_tracked_mcf/tool/command_line.h"
@@ -15,6 +16,8 @@ std::string report_json(const CommandLineOf<FlowParameters>& line, const FlowRep
                         const std::vector<std::string>& warnings);
 std::string report_json(const CommandLineOf<NoiseParameters>& line, const NoiseReport& report,
                         const std::vector<std::string>& warnings);
+std::string report_json(const CommandLineOf<FairParameters>& line, const FairReport& report,
+                        const std::vector<std::string>& warnings);
 
 /// Returns warnings, one line each, that are printed even without a summary.
 std::vector<std::string> warnings(const CommandLineOf<FlowParameters>& line,
@@ -22,5 +25,8 @@ std::vector<std::string> warnings(const CommandLineOf<FlowParameters>& line,
 
 std::vector<std::string> warnings(const CommandLineOf<NoiseParameters>& line,
                                   const NoiseReport& report);
+
+std::vector<std::string> warnings(const CommandLineOf<FairParameters>& line,
+                                  const FairReport& report);
 
 }  // namespace tracked_mcf

@@ -100,7 +100,7 @@ def in_charts(vertices, faces, count=14):
 
 def with_patch(vertices, faces):
     """Flattens a disc on the belly of the bear, as a closed hole is, and returns strengths that fade
-    around it."""
+    around it, and whether vertices are in it or near it."""
     middle = vertices[numpy.argmax(vertices[:, 2] - 3 * abs(vertices[:, :2] - [0, 0]).sum(axis=1))]
     distance = numpy.linalg.norm(vertices - middle, axis=1)
     radius = 0.12 * numpy.ptp(vertices, axis=0).max()
@@ -110,7 +110,7 @@ def with_patch(vertices, faces):
     inside = distance < radius
     patched = vertices.copy()
     patched[inside] -= ((vertices[inside] - centre) @ normal)[:, None] * normal
-    return patched, numpy.clip(2 - distance / radius, 0, 1)
+    return patched, numpy.clip(2 - distance / radius, 0, 1), (distance < 1.15 * radius).astype("u1")
 
 
 def make_inputs(meshes, work):
@@ -127,8 +127,8 @@ def make_inputs(meshes, work):
     write_ply(work / "frame.ply", *frame())
     bear, bear_faces = read_off(meshes / "bear.off")
     write_ply(work / "bear.ply", bear, bear_faces)
-    patched, around = with_patch(bear, bear_faces)
-    write_ply(work / "patched_bear.ply", patched, bear_faces, around=around)
+    patched, around, hole = with_patch(bear, bear_faces)
+    write_ply(work / "patched_bear.ply", patched, bear_faces, around=around, hole=hole)
     lion, lion_faces, (red, green, blue) = in_charts(lion, lion_faces)
     write_ply(work / "charts.ply", lion, lion_faces, red=red, green=green, blue=blue)
 
@@ -171,6 +171,11 @@ def check_results(meshes, work):
     before, after = positions(work / "charts.ply"), positions(work / "smooth_charts.ply")
     assert len(numpy.unique(before, axis=0)) < 0.95 * len(before), "there are seams"
     assert len(numpy.unique(numpy.hstack([before, after]), axis=0)) == len(numpy.unique(before, axis=0))
+    bear, flat, fair = (positions(work / f"{name}.ply") for name in ("bear", "patched_bear", "fair_bear"))
+    inside = read_ply(work / "patched_bear.ply")["hole"] != 0
+    assert (fair[~inside] == bear[~inside]).all()
+    before, after = (numpy.linalg.norm(shape - bear, axis=1).max() for shape in (flat, fair))
+    assert after < 0.5 * before, (before, after)
     film, rim = positions(work / "film.ply"), positions(work / "frame.ply")
     on_rim = numpy.hypot(rim[:, 0], rim[:, 1]) > 1 - 1e-9
     assert (film[on_rim] == rim[on_rim]).all()
@@ -215,9 +220,11 @@ def draw_all(meshes, work):
     draw(PICTURES / "seams.png", work / "charts.ply", work / "smooth_charts.ply", options=["--colours"])
     draw(PICTURES / "patch.png", work / "patched_bear.ply", work / "blended.ply",
          options=["--zoom", "2", "--center", "0", "-0.2", "--view", "0.5", "0", "-1"])
+    draw(PICTURES / "hole.png", work / "patched_bear.ply", work / "fair_bear.ply",
+         options=["--zoom", "2", "--center", "0", "-0.2", "--view", "0.5", "0", "-1"])
     colour_by_quality(meshes, work)
     draw(PICTURES / "curvature.png", work / "bear.ply", work / "coloured.ply", options=["--colours"])
-    for picture in ("creases", "noise", "selection", "strength", "seams", "patch", "film", "curvature"):
+    for picture in ("creases", "noise", "selection", "strength", "seams", "patch", "hole", "film", "curvature"):
         as_palette(PICTURES / f"{picture}.png")
     frames = []
     for i, mesh in enumerate([work / "bear.ply", *sorted(work.glob("sphere_*.ply"))]):

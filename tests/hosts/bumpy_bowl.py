@@ -1,6 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Writes an open surface with noise for the host tests: bumpy_bowl.py OUTPUT.off"""
+"""Writes an open surface with noise for the host tests: bumpy_bowl.py OUTPUT.off [SELECTED.ply]
+
+In SELECTED.ply, the faces in the middle are selected.
+"""
 
 import random
 import sys
@@ -24,7 +27,22 @@ def faces():
             yield first, opposite, first + SIDE
 
 
-def main(output):
+def write_selected(path):
+    header = (f"ply\nformat ascii 1.0\nelement vertex {SIDE**2}\nproperty float x\nproperty float y\n"
+              f"property float z\nelement face {2 * (SIDE - 1)**2}\nproperty list uchar int vertex_indices\n"
+              "property int flags\nend_header")
+    with open(path, "w") as file:
+        print(header, file=file)
+        for vertex in vertices():
+            print(*vertex, file=file)
+        for face in faces():
+            inside = all(SIDE // 3 < place < 2 * SIDE // 3 for place in divmod(face[0], SIDE))
+            print(3, *face, 32 if inside else 0, file=file)
+
+
+def main(output, selected=None):
+    if selected:
+        write_selected(selected)
     with open(output, "w") as file:
         print(f"OFF\n{SIDE**2} {2 * (SIDE - 1)**2} 0", file=file)
         for vertex in vertices():

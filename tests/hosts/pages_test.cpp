@@ -61,7 +61,7 @@ void expect_table(const std::string& file, const std::string& heading, const std
     }
     for (const Input& input : input_table<Parameters>()) {
         const char* const initial = input.of_faces ? "on if faces are selected" : "off";
-        if (in_dialogs) expected.emplace_back(input.name, initial);
+        if (in_dialogs && !input.label.empty()) expected.emplace_back(input.name, initial);
     }
     const std::string text = page(file);
     const std::size_t begin = text.find(heading);
@@ -74,6 +74,7 @@ TEST(Pages, TablesHaveTheNamesAndDefaultsOfAllParameters) {
     const char* const file = "filter_tracked_mcf/parameters/README.md";
     expect_table<FlowParameters>(file, "\n## Mean Curvature Flow", in_dialogs, true);
     expect_table<NoiseParameters>(file, "\n## Remove Noise", in_dialogs, true);
+    expect_table<FairParameters>(file, "\n## Fair Selected Faces", in_dialogs, true);
     expect_table<FlowParameters>("filter_tracked_mcf/tool/README.md", "\nFurther options",
                                  "\n\\| `--([a-z-]+) [^`]*` \\| ([^| ]+) \\|", false);
 }
@@ -91,7 +92,9 @@ void expect_script() {
         };
         expected.emplace_back(parameter.name, std::visit(in_xml, parameter.initial));
     }
-    for (const Input& input : input_table<Parameters>()) expected.emplace_back(input.name, "false");
+    for (const Input& input : input_table<Parameters>()) {
+        if (!input.label.empty()) expected.emplace_back(input.name, "false");
+    }
     const std::string text = page("filter_tracked_mcf/plugin/README.md");
     const std::size_t begin =
         text.find("<filter name=\"" + std::string(kNames<Parameters>.name) + "\">");
@@ -103,6 +106,7 @@ void expect_script() {
 TEST(Pages, TheFilterScriptsSetAllParametersToTheirDefaults) {
     expect_script<FlowParameters>();
     expect_script<NoiseParameters>();
+    expect_script<FairParameters>();
 }
 
 }  // namespace

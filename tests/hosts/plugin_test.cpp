@@ -20,7 +20,7 @@ namespace {
 
 TEST_F(Plugin, DeclaresItselfAsAPreviewableSmoother) {
     const host::Declaration declaration = filter().declaration();
-    EXPECT_EQ(filter().filters_in_plugin(), 2);
+    EXPECT_EQ(filter().filters_in_plugin(), 3);
     EXPECT_EQ(declaration.name, kNames<FlowParameters>.name);
     EXPECT_TRUE(contains(declaration.help, kNames<FlowParameters>.help));
     EXPECT_TRUE(declaration.smooths);

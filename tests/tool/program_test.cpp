@@ -320,6 +320,43 @@ TEST_F(Program, NamesOfOtherFilesStayInEveryFolder) {
     EXPECT_THAT(read_file(folder_ / "out/b.obj"), StartsWith("mtllib m.mtl\nv "));
 }
 
+TEST_F(Program, FairMovesTheInnerVerticesOfTheSelection) {
+    // A square on a paraboloid whose middle, 5 by 5 vertices, is pressed flat; 49 are selected.
+    std::ostringstream ply;
+    ply << "ply\nformat ascii 1.0\nelement vertex 225\nproperty float x\nproperty float y\n"
+           "property float z\nproperty uchar hole\nelement face 196\n"
+           "property list uchar int vertex_indices\nend_header\n";
+    for (int y = -7; y <= 7; ++y) {
+        for (int x = -7; x <= 7; ++x) {
+            const int ring = std::max(std::abs(x), std::abs(y));
+            const double height = ring <= 2 ? 0.18 : 0.01 * (x * x + y * y);
+            ply << x << ' ' << y << ' ' << height << ' ' << (ring <= 3 ? 1 : 0) << '\n';
+        }
+    }
+    for (int i = 0; i < 14 * 15; ++i) {
+        if (i % 15 == 14) continue;
+        ply << "4 " << i << ' ' << i + 1 << ' ' << i + 16 << ' ' << i + 15 << '\n';
+    }
+    write_file(folder_ / "hole.ply", ply.str());
+    const ProgramRun done = run("fair hole.ply b.ply --selected hole --report b.json");
+    ASSERT_EQ(done.exit_code, 0) << done.output << done.errors;
+    EXPECT_THAT(done.output, StartsWith("Faired 25 vertices of 1 patch in "));
+    EXPECT_THAT(read_file(folder_ / "b.json"), HasSubstr("\"continuity\": \"tangent\""));
+    const auto heights = [&](const char* name) {
+        std::vector<double> z;
+        for (const auto& p : MeshFile(folder_ / name).triangle_mesh().positions) z.push_back(p[2]);
+        return z;
+    };
+    const std::vector<double> before = heights("hole.ply"), after = heights("b.ply");
+    int moved = 0;
+    for (std::size_t i = 0; i < before.size(); ++i) moved += before[i] != after[i] ? 1 : 0;
+    EXPECT_EQ(moved, 25);
+    EXPECT_LT(after[112], 0.03) << "the middle";
+
+    EXPECT_EQ(run("fair hole.ply b.ply").exit_code, 2) << "nothing is selected";
+    EXPECT_THAT(run("fair --help").output, HasSubstr("tracked_mcf fair"));
+}
+
 TEST_F(Program, HelpAndVersionSucceed) {
     EXPECT_EQ(run("--help").exit_code, 0);
     EXPECT_EQ(run("--version").output, "tracked_mcf " TRACKED_MCF_VERSION "\n");

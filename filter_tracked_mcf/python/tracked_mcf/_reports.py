@@ -77,3 +77,26 @@ class FlowReport(Report, _Quality):
     converged: bool  # whether all steps reached the tolerance
     stop: str  # why the flow ended early, or "none"
     estimated_memory_bytes: int
+
+
+class FairReport(_Quality):
+    """What fair() reports."""
+
+    version: str
+    parameters: Dict[str, Any]
+    vertices: int  # that could move, coincident ones once
+    triangles: int  # that were selected
+    patches: int
+    flatter_patches: int  # that have less continuity than was asked for
+    rough_patches: int  # whose surroundings bend much more than they do
+    seam_curvature: float  # RMS of the mean curvature around the seams
+    patch_curvature: float  # the same in the patches
+    height: float  # largest distance from the membrane, relative to the size of the hole
+    iterations: int  # of the patch that took most
+    area_before: float
+    area_after: float
+    largest_displacement: float
+    rms_displacement: float
+    seconds: float
+    warnings: List[str]
+    peak_memory_bytes: int  # of the whole process

@@ -5,6 +5,7 @@
     meshes = pymeshlab.MeshSet()
     meshes.load_new_mesh("scan.ply")
     meshes.apply_coord_remove_noise()
+    meshes.apply_coord_fair_selected_faces(continuity="Curvature (C2)")
     meshes.apply_coord_mean_curvature_flow(detail_size=pymeshlab.PercentageValue(1))
 
 help(pymeshlab.MeshSet.apply_coord_remove_noise) explains the parameters. A coordinate that is -0 becomes 0.
@@ -13,9 +14,9 @@ help(pymeshlab.MeshSet.apply_coord_remove_noise) explains the parameters. A coor
 import numpy
 import pymeshlab
 
-from . import Error, InvalidParameter, _core, remove_noise, smooth
+from . import Error, InvalidParameter, _core, fair, remove_noise, smooth
 
-__all__ = ["apply_coord_mean_curvature_flow", "apply_coord_remove_noise"]
+__all__ = ["apply_coord_fair_selected_faces", "apply_coord_mean_curvature_flow", "apply_coord_remove_noise"]
 
 
 def _option(parameter, value, layer):
@@ -55,15 +56,24 @@ def _write(meshes, positions):
 
 
 def _results(report):
-    """Returns the values of the report that both filters have, under the plugin's keys."""
+    """Returns the values of the report that all filters have, under the plugin's keys."""
+    return {key: report[key] for key in ("largest_displacement", "rms_displacement", "area_before", "area_after",
+                                         "warnings")}
+
+
+def _smoothing_results(report):
     volume_change = report["volume_change"]
-    return {**{key: report[key] for key in ("detail_size", "largest_displacement", "rms_displacement",
-                                            "area_before", "area_after", "warnings")},
+    return {"detail_size": report["detail_size"],
             "volume_change": float("nan") if volume_change is None else volume_change}
 
 
+def _fair_results(report):
+    return {key: report[key] for key in ("patches", "flatter_patches", "rough_patches", "seam_curvature",
+                                         "patch_curvature", "height")}
+
+
 def _noise_results(report):
-    return {key: report[key] for key in ("noise", "crease_share", "steps")}
+    return {**_smoothing_results(report), **{key: report[key] for key in ("noise", "crease_share", "steps")}}
 
 
 def _flow_results(report):
@@ -72,7 +82,8 @@ def _flow_results(report):
             return step["error_estimate"]
         return step["residual_after"] / step["residual_before"] if step["residual_before"] else 0.0
 
-    return {**{key: report[key] for key in ("step_size", "depth", "cell_size", "unknowns")},
+    return {**_smoothing_results(report),
+            **{key: report[key] for key in ("step_size", "depth", "cell_size", "unknowns")},
             "steps": len(report["steps"]),
             "stopped_early": int(report["stop"] != "none"),
             "converged": int(report["converged"]),
@@ -85,7 +96,8 @@ def _method(function, further_results):
     name = described["method"]
     known = {parameter["name"]: parameter for parameter in described["parameters"] if parameter["label"]}
 
-    inputs = {key: parameter["of_faces"] for key, parameter in known.items() if "of_faces" in parameter}
+    inputs = {parameter["name"]: parameter["of_faces"] for parameter in described["parameters"]
+              if "of_faces" in parameter}
 
     def apply(self, parameters):
         layer = self.current_mesh()
@@ -96,7 +108,7 @@ def _method(function, further_results):
             options[key] = _option(known[key], value, layer)
         selection = layer.face_selection_array()
         for key, of_faces in inputs.items():
-            if not options.get(key, of_faces and selection.any()):
+            if not options.get(key, key not in known or (of_faces and selection.any())):
                 options[key] = None
             elif not of_faces and not layer.has_vertex_scalar():
                 raise InvalidParameter(_core.no_quality)
@@ -123,5 +135,6 @@ def _method(function, further_results):
     return method
 
 
+apply_coord_fair_selected_faces = _method(fair, _fair_results)
 apply_coord_remove_noise = _method(remove_noise, _noise_results)
 apply_coord_mean_curvature_flow = _method(smooth, _flow_results)

@@ -34,6 +34,13 @@ compare() { # SCRIPT LOG [SUBCOMMAND]
 }
 compare script_1.mlx "Smoothed"
 compare script_2.mlx "Removed noise" remove-noise
+# The script that fills holes, and what it has before the last filter. The mesh's edges are 0.2 long.
+sed -i 's/name="TargetLen" value="0.01"/name="TargetLen" value="0.2"/' script_3.mlx
+sed '/Fair Selected Faces/,/<\/filter>/d' script_3.mlx > fill.mlx
+"$prefix/bin/meshlabserver" -i open.ply -s fill.mlx -o closed.ply -m ff
+"$prefix/bin/meshlabserver" -i open.ply -s script_3.mlx -o host.ply | grep "Faired"
+"$tool" fair closed.ply tool.ply --selected flags
+"$here/../compare_positions.py" host.ply tool.ply closed.ply 0.5
 
 commands=$(sed -n '/^```sh$/,/^```$/p' "${pages[@]}" | grep '^tracked_mcf ')
 while read -r _ arguments; do

@@ -29,6 +29,7 @@ sys.path.append(str(HERE.parent))
 import runs  # noqa: E402
 
 SMOOTH, REMOVE_NOISE = "apply_coord_mean_curvature_flow", "apply_coord_remove_noise"
+FAIR = "apply_coord_fair_selected_faces"
 COARSE = {"depth": 6, "iterations": 5}
 
 # Invalid arguments of a filter, and words of the message.
@@ -46,6 +47,8 @@ WRONG = [
     (SMOOTH, {"detph": 6}, "detph not found"),
     (REMOVE_NOISE, {"crease_angle": 180}, "crease_angle is 180"),
     (REMOVE_NOISE, {"largest_movement": pymeshlab.PureValue(-1)}, "largest_movement is -1"),
+    (FAIR, {}, "No face is selected"),
+    (FAIR, {"iterations": 0}, "iterations is 0"),
 ]
 
 
@@ -166,7 +169,7 @@ def check_layer(mesh):
         return {**values, "own": layer.vertex_custom_point_attribute_matrix("own").tobytes(),
                 "label": layer.label(), "layers": (len(meshes), meshes.current_mesh_id())}
 
-    for name in (SMOOTH, REMOVE_NOISE):
+    for name in (SMOOTH, REMOVE_NOISE, FAIR):
         before, positions, layer = state(), vertices(meshes), meshes.current_mesh()
         apply(meshes, name)
         changed = {part for part, value in state().items() if value != before[part]}

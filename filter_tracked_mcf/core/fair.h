@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "filter_tracked_mcf/core/errors.h"
+#include "filter_tracked_mcf/core/fair_parameters.h"
+#include "filter_tracked_mcf/core/progress.h"
+#include "filter_tracked_mcf/core/triangle_mesh.h"
+
+namespace tracked_mcf {
+
+/// What fair() has measured and done.
+struct FairReport {
+    std::int64_t vertices = 0;   ///< that may move, coincident ones once
+    std::int64_t triangles = 0;  ///< that are selected
+    std::int64_t patches = 0;
+    /// Of these, patches that have less continuity than was asked for, because more would have
+    /// taken them far away from the membrane.
+    std::int64_t flatter_patches = 0;
+    std::int64_t rough_patches = 0;  ///< whose surroundings bend much more than they do
+
+    /// RMS of the mean curvature around the seams and in the faired patches, in 1 / mesh units. If
+    /// the first is much larger, the surroundings are too rough for the size of the hole to tell
+    /// its tangent.
+    double seam_curvature = 0, patch_curvature = 0;
+    /// Largest distance from the membrane, relative to the size of the hole: the diameter of a
+    /// sphere around its seam.
+    double height = 0;
+    int iterations = 0;  ///< of the patch that took most
+
+    double rms_displacement = 0;  ///< of the vertices above, mesh units
+    double largest_displacement = 0;
+    double area_before = 0, area_after = 0;  ///< of the selected triangles, mesh units²
+    /// Per vertex of the mesh, see NoiseReport::quality.
+    std::vector<double> quality;
+    double seconds = 0;
+    std::int64_t peak_memory_bytes = 0;  ///< of the process
+};
+
+/// Makes the selected faces of `mesh` continue the surface around them, such as those that fill a
+/// hole.
+///
+/// The inner vertices of the selection move: those of which all faces are selected, and which are
+/// not on the rim of an open mesh. All other vertices keep their bits, so a selection at a rim
+/// keeps the rim. The result does not depend on the orientation of the faces.
+///
+/// With mass M and stiffness L of linear elements, the positions x solve L x = 0 (Position),
+/// L M⁻¹ L x = 0 (Tangent) or L M⁻¹ L M⁻¹ L x = 0 (Curvature) at the inner vertices, where M and L
+/// are those of the result.
+///
+/// Positions are written at the very end, after the last call of `progress` has returned true.
+/// Throws InvalidMesh if nothing is selected, no vertex is an inner one, or nothing holds a patch;
+/// also InvalidParameter, NotEnoughMemory or Cancelled (errors.h). Then the mesh is unchanged.
+FairReport fair(TriangleMesh& mesh, const Selection& selection, const FairParameters& parameters,
+                const Progress& progress = {});
+
+}  // namespace tracked_mcf

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "filter_tracked_mcf/core/fair_parameters.h"
+
+#include "filter_tracked_mcf/core/parameter_rows.h"
+
+namespace tracked_mcf {
+
+template <>
+const std::vector<ParameterOf<FairParameters>>& parameter_table() {
+    using namespace parameter_rows;
+    using P = FairParameters;
+    static const std::vector<ParameterOf<P>> table = {
+        named(
+            choice<&P::continuity>({{"Position (C0)", "position"},
+                                    {"Tangent (C1)", "tangent"},
+                                    {"Curvature (C2)", "curvature"}}),
+            "continuity", "Continuity",
+            "What the patch shares with the surface around it. Position suits rough surroundings, "
+            "curvature smooth ones."),
+        named(integer<&P::iterations>(1, 20), "iterations", "Iterations",
+              "1 to 20: how often tangent and curvature are solved for, each time on the shape "
+              "before."),
+        named(choice<&P::quality>({{"Kept", "none"}, {"Displacement", "displacement"}}), "quality",
+              "Vertex quality", "For colours: how far the vertex moved along its normal."),
+        named(integer<&P::threads>(0, kMaximumThreads, ", where 0 takes one for each processor"),
+              "threads", "", kThreadsHelp),
+    };
+    return table;
+}
+
+template <>
+const std::vector<Input>& input_table<FairParameters>() {
+    static const std::vector<Input> table = [] {
+        Input row = parameter_rows::selected(
+            "The faces around them stay, and so does the rim of an open mesh.");
+        row.label.clear();  // dialogs have no choice to offer
+        return std::vector<Input>{row};
+    }();
+    return table;
+}
+
+void validate(const FairParameters& parameters) {
+    check_ranges(parameters);
+}
+
+}  // namespace tracked_mcf

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "filter_tracked_mcf/core/mesh/mesh_topology.h"
+#include "filter_tracked_mcf/core/triangle_mesh.h"
+
+namespace tracked_mcf {
+
+/// Vertices that move together, and three rings of the surface around them, which stays.
+struct Patch {
+    std::vector<std::int32_t> vertices;  ///< of the mesh: those that move, then ring by ring
+    std::int32_t moving = 0;             ///< number of vertices that move
+    std::int32_t held = 0;               ///< end of the first ring, which holds them
+    std::int32_t inner = 0;  ///< end of the second ring: vertices before it have whole stars
+    std::vector<std::uint8_t> has_normal;  ///< per vertex: whether the surface has two sides there
+    std::vector<Triangle> triangles;       ///< indices into `vertices`
+};
+
+/// Returns the patches of the inner vertices of a selection, see fair(). Of coincident vertices, a
+/// patch has the first. Patches have no vertex in common. Throws InvalidMesh if nothing holds a
+/// part of the vertices that move.
+std::vector<Patch> patches_of(const MeshTopology& topology, const Selection& selection);
+
+}  // namespace tracked_mcf

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "filter_tracked_mcf/core/fair.h"
+
+namespace tracked_mcf {
+
+/// Returns warnings for a user about patches whose surroundings are rough, and about those that
+/// have less continuity than was asked for. `advice` is for solvers that stop short.
+std::vector<std::string> warnings_of(const FairParameters& parameters, const FairReport& report,
+                                     const std::string& advice);
+
+}  // namespace tracked_mcf

@@ -1,0 +1,355 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "filter_tracked_mcf/core/fair.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "filter_tracked_mcf/core/mesh/measures.h"
+#include "tests/support/shapes.h"
+#include "tests/unit/flows.h"
+
+namespace tracked_mcf {
+namespace {
+
+using Inside = std::function<bool(const Eigen::Vector3d&)>;
+using Distance = std::function<double(const Eigen::Vector3d&)>;
+
+const double kPi = std::acos(-1.0);
+
+/// Selects the triangles with a vertex inside.
+Selection star_of(const TriangleMesh& mesh, const Inside& inside) {
+    Selection selection;
+    for (const Triangle& t : mesh.triangles) {
+        const auto is_inside = [&](std::int32_t vertex) { return inside(mesh.positions[vertex]); };
+        selection.push_back(std::any_of(t.begin(), t.end(), is_inside) ? 1 : 0);
+    }
+    return selection;
+}
+
+Inside cap(double degrees) {
+    const double height = std::cos(degrees * kPi / 180);
+    return [height](const Eigen::Vector3d& p) { return p[2] > height; };
+}
+
+FairParameters with(Continuity continuity) {
+    FairParameters parameters;
+    parameters.continuity = continuity;
+    return parameters;
+}
+
+/// A mesh, part of which is replaced by its membrane, as if a hole had been filled.
+struct Filled {
+    Filled(const TriangleMesh& original, const Inside& inside)
+        : mesh(original), selection(star_of(original, inside)) {
+        fair(mesh, selection, with(Continuity::Position));
+    }
+
+    TriangleMesh mesh;
+    Selection selection;
+};
+
+/// Returns the largest distance from a shape after fairing.
+double error(Filled filled, Continuity continuity, const Distance& distance) {
+    fair(filled.mesh, filled.selection, with(continuity));
+    double largest = 0;
+    for (const Eigen::Vector3d& p : filled.mesh.positions) {
+        largest = std::max(largest, std::abs(distance(p)));
+    }
+    return largest;
+}
+
+double from_sphere(const Eigen::Vector3d& p) {
+    return p.norm() - 1;
+}
+
+double from_cylinder(const Eigen::Vector3d& p) {
+    return std::hypot(p[0], p[1]) - 1;
+}
+
+double from_torus(const Eigen::Vector3d& p) {
+    return std::hypot(std::hypot(p[0], p[1]) - 1, p[2]) - 0.4;
+}
+
+std::string refusal(TriangleMesh mesh, const Selection& selection) {
+    const TriangleMesh before = mesh;
+    try {
+        fair(mesh, selection, {});
+    } catch (const InvalidMesh& invalid) {
+        EXPECT_TRUE(same_bits(mesh, before));
+        return invalid.what();
+    }
+    return "none";
+}
+
+void expect_contains(const std::string& text, const std::string& part) {
+    EXPECT_NE(text.find(part), std::string::npos) << text;
+}
+
+TEST(Fair, ContinuesASphere) {
+    const TriangleMesh sphere = shapes::geodesic_sphere(30);
+    struct Bound {
+        double degrees, tangent, curvature;
+    };
+    for (const Bound& bound : {Bound{30, 0.01, 0.001}, {60, 0.1, 0.01}, {90, 0.5, 0.1}}) {
+        const Filled filled(sphere, cap(bound.degrees));
+        EXPECT_LT(error(filled, Continuity::Tangent, from_sphere), bound.tangent);
+        EXPECT_LT(error(filled, Continuity::Curvature, from_sphere), bound.curvature);
+    }
+}
+
+TEST(Fair, ContinuesACylinderAndATorus) {
+    const Filled side(shapes::tube(48, 32, 4),
+                      [](const Eigen::Vector3d& p) { return p[0] > 0.2 && std::abs(p[2]) < 0.7; });
+    EXPECT_LT(error(side, Continuity::Tangent, from_cylinder), 0.025);
+    EXPECT_LT(error(side, Continuity::Curvature, from_cylinder), 0.002);
+    const Filled ring(shapes::tube(48, 32, 4),
+                      [](const Eigen::Vector3d& p) { return std::abs(p[2]) < 0.7; });
+    EXPECT_LT(error(ring, Continuity::Tangent, from_cylinder), 0.025);
+    const Filled torus(shapes::torus(160, 80, 1, 0.4),
+                       [](const Eigen::Vector3d& p) { return p[0] > 0.9 && std::abs(p[1]) < 0.4; });
+    EXPECT_LT(error(torus, Continuity::Tangent, from_torus), 0.05);
+    EXPECT_LT(error(torus, Continuity::Curvature, from_torus), 0.01);
+}
+
+TEST(Fair, KeepsAPlaneFlat) {
+    TriangleMesh square = shapes::square(20);
+    const Selection selection = star_of(square, [](const Eigen::Vector3d& p) {
+        return (p - Eigen::Vector3d(0.5, 0.5, 0)).norm() < 0.3;
+    });
+    for (const Continuity continuity :
+         {Continuity::Position, Continuity::Tangent, Continuity::Curvature}) {
+        const FairReport report = fair(square, selection, with(continuity));
+        for (const Eigen::Vector3d& position : square.positions) EXPECT_EQ(position[2], 0);
+        EXPECT_EQ(report.rough_patches, 0);
+    }
+}
+
+TEST(Fair, KeepsTheBitsOfAllButTheInnerVerticesOfTheSelection) {
+    const Filled filled(shapes::bumpy_sphere(20), cap(40));
+    TriangleMesh mesh = filled.mesh;
+    std::set<std::int32_t> outside;
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        if (filled.selection[i] == 0)
+            outside.insert(mesh.triangles[i].begin(), mesh.triangles[i].end());
+    }
+    const FairReport report = fair(mesh, filled.selection, {});
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        const bool kept = same_bits(mesh.positions[i], filled.mesh.positions[i]);
+        EXPECT_EQ(kept, outside.count(static_cast<std::int32_t>(i)) > 0) << i;
+    }
+    EXPECT_EQ(report.vertices, static_cast<std::int64_t>(mesh.positions.size() - outside.size()));
+    EXPECT_EQ(report.patches, 1);
+}
+
+TEST(Fair, HasTheSameBitsForAnyNumberOfThreads) {
+    const Filled filled(shapes::bumpy_sphere(20), cap(40));
+    FairParameters parameters;
+    parameters.threads = 1;
+    TriangleMesh first = filled.mesh;
+    fair(first, filled.selection, parameters);
+    for (const int threads : {2, 3, 8}) {
+        parameters.threads = threads;
+        TriangleMesh mesh = filled.mesh;
+        fair(mesh, filled.selection, parameters);
+        EXPECT_TRUE(same_bits(mesh, first)) << threads;
+    }
+}
+
+TEST(Fair, TurnsAndScalesWithTheMesh) {
+    const Filled filled(shapes::bumpy_sphere(20), cap(40));
+    TriangleMesh mesh = filled.mesh;
+    const FairReport report = fair(mesh, filled.selection, {});
+    const Eigen::Affine3d turn(Eigen::AngleAxisd(1, Eigen::Vector3d(1, 2, 3).normalized()));
+    for (const double scale : {1.0, 1e-50, 1e50}) {
+        const Eigen::Affine3d moved = turn * Eigen::Scaling(scale);
+        TriangleMesh other = shapes::transformed(filled.mesh, moved);
+        const FairReport of_other = fair(other, filled.selection, {});
+        EXPECT_LT(distance(other, shapes::transformed(mesh, moved)), 1e-9 * scale);
+        EXPECT_NEAR(of_other.seam_curvature * scale, report.seam_curvature, 1e-6);
+        EXPECT_NEAR(of_other.height, report.height, 1e-6);
+    }
+}
+
+TEST(Fair, DoesNotDependOnOrientationOrWelding) {
+    const Filled filled(shapes::bumpy_sphere(12), cap(40));
+    TriangleMesh mesh = filled.mesh;
+    fair(mesh, filled.selection, {});
+    TriangleMesh other = filled.mesh;
+    for (std::size_t i = 0; i < other.triangles.size(); i += 3) {
+        std::swap(other.triangles[i][0], other.triangles[i][1]);
+    }
+    fair(other, filled.selection, {});
+    EXPECT_LT(distance(mesh, other), 1e-9);
+    TriangleMesh soup = shapes::soup(filled.mesh);
+    fair(soup, filled.selection, {});
+    EXPECT_LT(distance(soup, shapes::soup(mesh)), 1e-4);
+}
+
+TEST(Fair, TellsRoughSurroundingsFromSmoothOnes) {
+    const TriangleMesh sphere = shapes::geodesic_sphere(20);
+    Filled smooth(sphere, cap(30));
+    const FairReport of_smooth = fair(smooth.mesh, smooth.selection, {});
+    EXPECT_EQ(of_smooth.rough_patches, 0);
+    EXPECT_NEAR(of_smooth.seam_curvature, 1, 0.05);
+    EXPECT_NEAR(of_smooth.patch_curvature, 1, 0.1);
+    TriangleMesh rough = sphere;
+    for (std::size_t i = 0; i < rough.positions.size(); ++i) {
+        rough.positions[i] *= 1 + 0.01 * std::sin(1e4 * static_cast<double>(i));
+    }
+    Filled noisy(rough, cap(30));
+    EXPECT_EQ(fair(noisy.mesh, noisy.selection, {}).rough_patches, 1);
+}
+
+TEST(Fair, KeepsTheRimOfAnOpenMesh) {
+    // The upper half of a cylinder's side, up to its rim.
+    const TriangleMesh tube = shapes::tube(48, 32, 4);
+    const Inside upper = [](const Eigen::Vector3d& p) { return p[2] > 1; };
+    const Selection selection = star_of(tube, upper);
+    TriangleMesh mesh = tube;
+    fair(mesh, selection, {});
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        const bool moves = upper(tube.positions[i]) && tube.positions[i][2] < 1.999;
+        EXPECT_EQ(same_bits(mesh.positions[i], tube.positions[i]), !moves) << i;
+        EXPECT_LT(std::abs(from_cylinder(mesh.positions[i])), 0.05);
+    }
+}
+
+TEST(Fair, TakesSeveralPatchesThatMayTouch) {
+    const TriangleMesh sphere = shapes::geodesic_sphere(30);
+    const Inside poles = [](const Eigen::Vector3d& p) { return std::abs(p[2]) > 0.9; };
+    Filled far(sphere, poles);
+    EXPECT_EQ(fair(far.mesh, far.selection, {}).patches, 2);
+    EXPECT_LT(error(far, Continuity::Tangent, from_sphere), 0.01);
+    // Two patches with less than a ring of faces between them.
+    const Inside pair = [](const Eigen::Vector3d& p) {
+        return p[2] > 0.9 && std::abs(p[0]) > 0.03;
+    };
+    Filled touching(sphere, pair);
+    EXPECT_EQ(fair(touching.mesh, touching.selection, {}).patches, 1);
+    EXPECT_LT(error(touching, Continuity::Tangent, from_sphere), 0.01);
+}
+
+TEST(Fair, TakesBadTriangles) {
+    TriangleMesh mesh = shapes::geodesic_sphere(16);
+    const Selection selection = star_of(mesh, cap(30));
+    for (Eigen::Vector3d& position : mesh.positions) {
+        if (cap(30)(position)) position = {1e-7 * position[0], std::pow(position[1], 3), 0.5};
+    }
+    fair(mesh, selection, {});
+    for (const Eigen::Vector3d& p : mesh.positions) EXPECT_LT(std::abs(from_sphere(p)), 0.2);
+}
+
+TEST(Fair, TakesSeamsWhereMoreThanTwoFacesMeet) {
+    // A wall stands on the seam.
+    Filled filled(shapes::geodesic_sphere(20), cap(30));
+    const auto count = static_cast<std::int32_t>(filled.mesh.positions.size());
+    for (const Eigen::Vector3d& p : std::vector<Eigen::Vector3d>(filled.mesh.positions)) {
+        filled.mesh.positions.emplace_back(1.5 * p);
+    }
+    const std::size_t triangles = filled.selection.size();
+    for (std::size_t i = 0; i < triangles; ++i) {
+        const Triangle t = filled.mesh.triangles[i];
+        if (filled.selection[i] != 0 || filled.mesh.positions[t[0]][2] < 0.6) continue;
+        filled.mesh.triangles.push_back({t[0], t[1], t[0] + count});
+        filled.selection.push_back(0);
+    }
+    TriangleMesh mesh = filled.mesh;
+    fair(mesh, filled.selection, {});
+    for (std::int32_t i = 0; i < count; ++i) {
+        EXPECT_LT(mesh.positions[i].norm(), 1.1);
+        EXPECT_GT(mesh.positions[i].norm(), 0.8);
+    }
+}
+
+TEST(Fair, StaysNearTheMembraneInRoughSurroundings) {
+    TriangleMesh rough = shapes::geodesic_sphere(30);
+    for (std::size_t i = 0; i < rough.positions.size(); ++i) {
+        rough.positions[i] *= 1 + 0.2 * std::sin(1e4 * static_cast<double>(i));
+    }
+    for (const double degrees : {20, 60, 120}) {
+        for (const Continuity continuity : {Continuity::Tangent, Continuity::Curvature}) {
+            Filled filled(rough, cap(degrees));
+            const FairReport report = fair(filled.mesh, filled.selection, with(continuity));
+            EXPECT_LE(report.height, 1);
+            for (const Eigen::Vector3d& p : filled.mesh.positions) EXPECT_LT(p.norm(), 4);
+        }
+    }
+}
+
+TEST(Fair, RefusesWhatItCannotContinue) {
+    const TriangleMesh sphere = shapes::geodesic_sphere(8);
+    const std::size_t count = sphere.triangles.size();
+    expect_contains(refusal(sphere, Selection(count, 0)), "No face is selected");
+    expect_contains(refusal(sphere, Selection(count, 1)), "nothing around");
+    expect_contains(refusal(sphere, {}), "nothing around");
+    Selection one(count, 0);
+    one[0] = 1;
+    expect_contains(refusal(sphere, one), "no inner vertices");
+    Selection first(2 * count, 0);
+    std::fill(first.begin(), first.begin() + static_cast<std::ptrdiff_t>(count), std::uint8_t{1});
+    const Eigen::Affine3d aside(Eigen::Translation3d(3, 0, 0));
+    const TriangleMesh two = shapes::merged(sphere, shapes::transformed(sphere, aside));
+    expect_contains(refusal(two, first), "Nothing holds");
+    // The other sphere touches it in one vertex.
+    TriangleMesh touching = two;
+    touching.positions[sphere.positions.size()] = touching.positions[0];
+    expect_contains(refusal(touching, first), "Nothing holds");
+
+    TriangleMesh mesh = sphere;
+    EXPECT_THROW(fair(mesh, Selection(3, 1), {}), InvalidParameter);
+    FairParameters parameters;
+    parameters.iterations = 0;
+    EXPECT_THROW(fair(mesh, one, parameters), InvalidParameter);
+    mesh.positions[0][0] = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_THROW(fair(mesh, one, {}), InvalidMesh);
+}
+
+TEST(Fair, LeavesTheMeshIfItIsCancelledAtAnyCall) {
+    const Filled filled(shapes::geodesic_sphere(10), cap(40));
+    const auto run = [&](int last_call) {
+        TriangleMesh mesh = filled.mesh;
+        int calls = 0;
+        double done = 0;
+        const auto progress = [&](double fraction, std::string_view /*phase*/) {
+            EXPECT_GE(fraction, done);
+            done = fraction;
+            return ++calls < last_call;
+        };
+        try {
+            fair(mesh, filled.selection, {}, progress);
+            EXPECT_EQ(done, 1);
+            return calls;
+        } catch (const Cancelled&) {
+            EXPECT_EQ(calls, last_call);
+        }
+        EXPECT_TRUE(same_bits(mesh, filled.mesh));
+        return 0;
+    };
+    const int calls = run(std::numeric_limits<int>::max());
+    EXPECT_GE(calls, 3);
+    for (int call = 1; call <= calls; ++call) run(call);
+}
+
+TEST(Fair, ReportsTheMovement) {
+    Filled filled(shapes::geodesic_sphere(10), cap(40));
+    const TriangleMesh before = filled.mesh;
+    FairParameters parameters;
+    parameters.quality = Quality::Displacement;
+    const FairReport report = fair(filled.mesh, filled.selection, parameters);
+    EXPECT_DOUBLE_EQ(report.largest_displacement, distance(filled.mesh, before));
+    EXPECT_DOUBLE_EQ(report.area_after, surface_area(filled.mesh, filled.selection));
+    EXPECT_GT(report.area_after, report.area_before);
+    EXPECT_EQ(report.quality.size(), before.positions.size());
+    EXPECT_GT(*std::max_element(report.quality.begin(), report.quality.end()), 0);
+    EXPECT_EQ(report.flatter_patches, 0);
+}
+
+}  // namespace
+}  // namespace tracked_mcf
