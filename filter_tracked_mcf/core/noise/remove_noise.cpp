@@ -62,7 +62,7 @@ double crease_share(const NoisySurface& surface, const Vectors& normals, double 
 void treat(NoisySurface& surface, double edge, const NoiseParameters& parameters,
            NoiseReport& report) {
     const double crease = crease_of(parameters.crease_angle);
-    enter_phase(0.1, "Measuring the noise");
+    enter_phase(0.3, "Measuring the noise");
     const Treatment treatment =
         best_treatment(sample_of(surface, kSample),
                        {crease, parameters.noise / edge, parameters.detail_size / edge});
@@ -70,7 +70,7 @@ void treat(NoisySurface& surface, double edge, const NoiseParameters& parameters
     const Eigen::AlignedBox3d box = confinement(surface.positions);
     StepSettings settings = treatment.settings;
     for (int step = 0; step < treatment.steps; ++step) {
-        enter_phase(0.3 + 0.6 * step / treatment.steps,
+        enter_phase(0.45 + 0.45 * step / treatment.steps,
                     "Step " + std::to_string(step + 1) + " of " + std::to_string(treatment.steps));
         for (int shorter = 0; !smoothing.step(settings, box, surface.positions); ++shorter) {
             if (shorter == kMostShorter) break;
