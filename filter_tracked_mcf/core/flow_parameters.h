@@ -144,6 +144,16 @@ struct FlowParameters {
     int threads = 0;
 };
 
+/// How the surface is sampled, and which functions it gets; see FlowParameters.
+struct Discretisation {
+    Cubature cubature = Cubature::ThreePoints;
+    bool whole_fragments = true;  ///< whether small fragments have three points as a whole
+    bool separate_sheets = true;
+};
+
+/// Returns the discretisation that the parameters ask for.
+Discretisation discretisation_of(const FlowParameters& parameters);
+
 /// Returns the step size δ at which `iterations` steps of this order halve the amplitude of waves
 /// of length `detail_size` on a plane; in the squared unit of the detail size. A step multiplies
 /// the amplitude of waves of length λ by 1 - hᵐ, where h = δk² / (1 + δk²) and k = 2π/λ.
