@@ -5,10 +5,10 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "filter_tracked_mcf/core/flow/flow.h"
 #include "filter_tracked_mcf/core/memory/process_memory.h"
-#include "filter_tracked_mcf/core/mesh/domain.h"
 #include "filter_tracked_mcf/core/mesh/measures.h"
 #include "filter_tracked_mcf/core/parallel/parallel.h"
 #include "filter_tracked_mcf/core/parallel/progress_meter.h"
@@ -28,24 +28,13 @@ double progress_before(int step, int iterations) {
     return (kSetupInSteps + step) / (kSetupInSteps + iterations + kFinishInSteps);
 }
 
-/// The area has grown if it did so by more than this fraction.
-constexpr double kGrowth = 1e-3;
-
 /// Sets the flow up; returns it in place, since it cannot be moved. Sets the triangles that flow.
-Flow set_up(const TriangleMesh& mesh, const Inputs& inputs, FlowParameters parameters,
+Flow set_up(const TriangleMesh& mesh, const Inputs& inputs, const FlowParameters& parameters,
             Selection& moving) {
     const ProgressSpan span(0, progress_before(0, parameters.iterations));
-    enter_setup_phase(kFindEdges);
-    const Domain domain(mesh, inputs, parameters.boundary);
-    moving = domain.selection();
-    enter_setup_phase(kMeasureSurface);
-    check_preservable(domain, parameters);
-    if (domain.constrains_all_vertices()) {
-        // Nothing can move. The cheapest set-up is enough to say so.
-        parameters.depth = 1;
-        parameters.separate_sheets = false;
-    }
-    return Flow(domain, parameters);
+    Plan plan = plan_of(mesh, inputs, parameters);
+    moving = plan.domain.selection();
+    return Flow(std::move(plan));
 }
 
 /// Positions to which a flow has moved the mesh, and the area of the triangles that flow.
@@ -61,41 +50,18 @@ Moved moved_by(const Flow& flow, const TriangleMesh& mesh, const Selection& sele
     return moved;
 }
 
-/// A mesh and what is to be done with it.
-struct Task {
-    const TriangleMesh& mesh;
-    const Selection& selection;
-    const FlowParameters& parameters;
-    const StepObserver& on_step;
-};
-
-/// Makes all steps, or fewer if nothing is left to do. `note` follows the name of each step for the
-/// user.
-void make_steps(Flow& flow, const Task& task, const char* note) {
-    const int iterations = task.parameters.iterations;
+/// Makes all steps, or fewer if nothing is left to do.
+void make_steps(Flow& flow, const TriangleMesh& mesh, int iterations, const StepObserver& on_step) {
     for (int step = 0; step < iterations; ++step) {
         const ProgressSpan span(progress_before(step, iterations),
                                 progress_before(step + 1, iterations));
-        enter_phase(
-            0, "Step " + std::to_string(step + 1) + " of " + std::to_string(iterations) + note);
+        enter_phase(0, "Step " + std::to_string(step + 1) + " of " + std::to_string(iterations));
         if (!flow.step()) return;
-        if (!task.on_step) continue;
-        std::vector<Eigen::Vector3d> positions = task.mesh.positions;
+        if (!on_step) continue;
+        std::vector<Eigen::Vector3d> positions = mesh.positions;
         flow.move_vertices(positions);
-        task.on_step(step + 1, positions);
+        on_step(step + 1, positions);
     }
-}
-
-/// Makes all steps. If the last one has made the surface vanish, which the flow itself would notice
-/// only in the next step, undoes it.
-Moved flow_through(Flow& flow, const Task& task, double area_before, const char* note = "") {
-    make_steps(flow, task, note);
-    Moved moved = moved_by(flow, task.mesh, task.selection);
-    if (flow.report().stop == Stop::None && moved.area <= kVanishedArea * area_before) {
-        flow.end_before_last_step(Stop::Vanished);
-        moved = moved_by(flow, task.mesh, task.selection);
-    }
-    return moved;
 }
 
 /// Sets the report's measures of the change from `before` to `after`.
@@ -141,25 +107,6 @@ std::vector<double> measure_quality(Quality quality, Flow& flow, const TriangleM
     return along_normals(vectors, {after, before.triangles}, selection);
 }
 
-/// Returns whether a mean-curvature flow has made the area grow, which the exact one does not. The
-/// tolerance is relative to the displacement of the whole surface, so the grid may displace parts
-/// that are much thinner than its cells by more than their width.
-bool area_has_grown(const FlowParameters& parameters, double before, double after) {
-    const bool may_grow = parameters.flow != FlowKind::MeanCurvature || parameters.order > 1 ||
-                          parameters.preserve != Preserve::None;
-    return !may_grow && after > (1 + kGrowth) * before;
-}
-
-/// Adds the time and the iterations of the steps of a flow that was made again.
-void add_effort(const std::vector<StepReport>& discarded, std::vector<StepReport>& steps) {
-    for (std::size_t i = 0; i < discarded.size() && !steps.empty(); ++i) {
-        StepReport& step = steps[std::min(i, steps.size() - 1)];
-        step.assemble_seconds += discarded[i].assemble_seconds;
-        step.solve_seconds += discarded[i].solve_seconds;
-        step.solver_iterations += discarded[i].solver_iterations;
-    }
-}
-
 }  // namespace
 
 double default_detail_size(const TriangleMesh& mesh, const Selection& selection) {
@@ -181,20 +128,17 @@ FlowReport evolve(TriangleMesh& mesh, const Inputs& inputs, const FlowParameters
     const double setup_seconds = setup.seconds();
 
     const double area_before = surface_area(mesh, moving);
-    const Task task{mesh, moving, parameters, on_step};
-    Moved after = flow_through(flow, task, area_before);
-    std::vector<StepReport> discarded;
-    if (parameters.tolerance > kCarefulTolerance &&
-        area_has_grown(parameters, area_before, after.area)) {
-        discarded = flow.report().steps;
-        flow.restart_with_care();
-        after = flow_through(flow, task, area_before, ", again with more care");
+    make_steps(flow, mesh, parameters.iterations, on_step);
+    Moved after = moved_by(flow, mesh, moving);
+    if (flow.report().stop == Stop::None && after.area <= kVanishedArea * area_before) {
+        // The flow itself would notice only in the next step.
+        flow.end_before_last_step(Stop::Vanished);
+        after = moved_by(flow, mesh, moving);
     }
 
     enter_phase(progress_before(parameters.iterations, parameters.iterations),
                 "Moving the vertices");
     FlowReport report = flow.report();
-    add_effort(discarded, report.steps);
     report.setup_seconds = setup_seconds;
     report.area_before = area_before;
     report.area_after = after.area;

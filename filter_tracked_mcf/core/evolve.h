@@ -16,9 +16,8 @@ namespace tracked_mcf {
 /// A callback that receives, after each step, its number, counted from 1, and the positions of all
 /// vertices. An exception of the callback propagates to the caller.
 ///
-/// The numbers may begin again: a flow whose area has grown is retried with a tighter tolerance.
-/// They may exceed FlowReport::steps by 1: a last step that has made the surface vanish is taken
-/// back.
+/// The numbers may exceed FlowReport::steps by 1: a last step that has made the surface vanish is
+/// undone.
 using StepObserver = std::function<void(int step, const std::vector<Eigen::Vector3d>& positions)>;
 
 /// Smooths `mesh`, or only its selected triangles, by mean-curvature flow with tracked octree

@@ -60,6 +60,8 @@ inline constexpr int kMaximumIterations = 1000000;
 inline constexpr int kMaximumOrder = 4;
 /// The default detail size, in mean edge lengths of the triangles that flow.
 inline constexpr double kDefaultDetailInEdges = 2.5;
+/// A mesh has no finer detail than this, in the same unit.
+inline constexpr double kFinestDetailInEdges = 2;
 inline constexpr double kMaximumStabilization = 1e3;
 inline constexpr double kDefaultStabilization = 0.01;
 
@@ -143,6 +145,16 @@ struct FlowParameters {
     /// number. evolve() applies it; a Flow does not.
     int threads = 0;
 };
+
+/// How the surface is sampled, and which functions it gets; see FlowParameters.
+struct Discretisation {
+    Cubature cubature = Cubature::ThreePoints;
+    bool whole_fragments = true;  ///< whether small fragments have three points as a whole
+    bool separate_sheets = true;
+};
+
+/// Returns the discretisation that the parameters ask for.
+Discretisation discretisation_of(const FlowParameters& parameters);
 
 /// Returns the step size δ at which `iterations` steps of this order halve the amplitude of waves
 /// of length `detail_size` on a plane; in the squared unit of the detail size. A step multiplies

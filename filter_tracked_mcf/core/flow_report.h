@@ -44,8 +44,11 @@ struct FlowReport {
     bool has_strengths = false;             ///< whether vertices have strengths
     std::int64_t degenerate_triangles = 0;  ///< triangles of zero area, which were ignored
     std::int64_t boundary_edges = 0;
+    /// Handles of all components of a closed surface under a conformalized flow, else 0.
+    std::int64_t genus = 0;
     std::int64_t constrained_vertices = 0;  ///< referenced vertices that keep their bits
     double detail_size = 0;  ///< length of the waves whose amplitude all steps halve, mesh units
+    double mean_edge = 0;    ///< mean edge length of the triangles that flow, mesh units
     double step_size = 0;    ///< δ, mesh units²
     double asked_step_size = 0;  ///< larger if δ was limited, see FlowParameters::step_size
     int depth = 0;               ///< 1 if all vertices are constrained

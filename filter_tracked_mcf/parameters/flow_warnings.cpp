@@ -76,6 +76,27 @@ std::string unresolved_detail(const FlowReport& report) {
     return text.str();
 }
 
+/// Empty unless the detail is finer than that of the mesh.
+std::string fine_detail(const FlowReport& report) {
+    const double edges = report.detail_size / report.mean_edge;
+    const bool is_fine = report.resolving_depth > 0 && edges < 0.99 * kFinestDetailInEdges;
+    if (!is_fine || report.stop == Stop::NothingMoves) return {};
+    std::ostringstream text;
+    text.precision(3);
+    text << "The detail size is " << edges << " mean edges; below " << kFinestDetailInEdges
+         << " little changes. The default is " << kDefaultDetailInEdges << " edges, "
+         << kDefaultDetailInEdges * report.mean_edge << ".";
+    return text.str();
+}
+
+/// Empty unless a conformalized flow cannot end at a sphere.
+std::string handles(const FlowReport& report) {
+    if (report.genus == 0 || report.stop == Stop::NothingMoves) return {};
+    return "The surface has " + std::to_string(report.genus) +
+           (report.genus == 1 ? " handle" : " handles") +
+           ", so it cannot become a sphere. Close its tunnels first.";
+}
+
 /// A step that removes more of the area than this has changed more than noise.
 constexpr double kLargeLoss = 0.1;
 
@@ -127,7 +148,7 @@ std::vector<std::string> warnings_of(const FlowParameters& parameters, const Flo
     std::vector<std::string> warnings;
     for (const std::string& warning :
          {early_stop(report, parameters.iterations), limited_step_size(report),
-          unresolved_detail(report), sudden_loss(report)}) {
+          unresolved_detail(report), fine_detail(report), handles(report), sudden_loss(report)}) {
         if (!warning.empty()) warnings.push_back(warning);
     }
     const std::string short_steps = shortfall(report, parameters.tolerance);

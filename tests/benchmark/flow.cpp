@@ -17,6 +17,7 @@
 #include "tests/benchmark/sphere_error.h"
 #include "tests/benchmark/subcommands.h"
 #include "tests/benchmark/tracked_options.h"
+#include "tests/support/plans.h"
 
 namespace tracked_mcf::benchmark {
 
@@ -30,7 +31,7 @@ void set_up(const TriangleMesh& mesh, const FlowParameters& parameters, std::opt
     const ProcessStopwatch stopwatch;
     enter_setup_phase(kCheckMesh);
     validate(mesh);
-    flow.emplace(mesh, parameters);
+    flow.emplace(plan_of(mesh, parameters));
     print_seconds("setup", 0, stopwatch.seconds());
     for (const auto& [phase, seconds] : times.finish())
         print_seconds("setup: " + phase, 0, seconds);
@@ -49,14 +50,14 @@ void print_sizes(const FlowReport& report) {
 
 /// Prints the memory of the structures that a step reads and writes.
 void print_bytes(const Flow& flow) {
-    const TrackedElements& elements = flow.elements();
+    const TrackedElements& elements = flow.stepper().elements();
     const auto bytes_of = [](const auto& values) { return values.size() * sizeof(values[0]); };
     const auto element_count = static_cast<std::size_t>(elements.finest().element_count());
     print_quantity("sample_bytes", 0, Samples::kBytesPerSample * elements.samples.size());
     print_quantity("fragment_bytes", 0, bytes_of(elements.fragments));
     print_quantity("element_system_bytes", 0,
                    element_count * (sizeof(MatrixBlock) / kBlockElements + sizeof(ElementVector)));
-    const auto unknown_count = static_cast<std::size_t>(flow.displacement().rows());
+    const auto unknown_count = static_cast<std::size_t>(flow.state().displacement.rows());
     print_quantity("coefficient_bytes", 0, 3 * sizeof(double) * unknown_count);
     // A product with the finest level's matrix, or the smoother's, reads the elements' matrices and
     // unknowns, reads one vector, and reads and writes another.
@@ -64,7 +65,7 @@ void print_bytes(const Flow& flow) {
         "product_bytes", 0,
         element_count * (sizeof(MatrixBlock) / kBlockElements + 8 * sizeof(std::int32_t)) +
             unknown_count * 3 * 4 * sizeof(float));
-    print_quantity("step_size_in_cells", 0, flow.step_size().in_cells);
+    print_quantity("step_size_in_cells", 0, flow.stepper().size().in_cells);
 }
 
 bool step(Flow& flow, int number) {
@@ -84,8 +85,8 @@ void print_assembly(const Flow& flow) {
     ElementSystems systems;
     for (int repetition = 0; repetition < 4; ++repetition) {
         const ProcessStopwatch stopwatch;
-        assemble_elements(flow.elements(), flow.displacement(),
-                          {1.0F, static_cast<float>(flow.step_size().in_cells)}, systems);
+        assemble_elements(flow.stepper().elements(), flow.state().displacement,
+                          {1.0F, static_cast<float>(flow.stepper().size().in_cells)}, systems);
         // The first repetition also allocates memory.
         if (repetition > 0) print_seconds("kernel", repetition, stopwatch.seconds());
     }

@@ -10,6 +10,7 @@
 #include "tests/benchmark/sphere_error.h"
 #include "tests/benchmark/subcommands.h"
 #include "tests/benchmark/tracked_options.h"
+#include "tests/support/plans.h"
 
 namespace tracked_mcf::benchmark {
 
@@ -17,7 +18,7 @@ namespace {
 
 void step(TriangleMesh& mesh, const FlowParameters& parameters, int number) {
     const ProcessStopwatch whole;
-    Flow flow(mesh, parameters);
+    Flow flow(plan_of(mesh, parameters));
     print_seconds("setup", number, whole.seconds());
     flow.step();
     const ProcessStopwatch moving;

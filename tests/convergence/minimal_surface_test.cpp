@@ -12,6 +12,7 @@
 #include "filter_tracked_mcf/core/flow/flow.h"
 #include "filter_tracked_mcf/core/mesh/measures.h"
 #include "tests/support/minimal_surfaces.h"
+#include "tests/support/plans.h"
 #include "tests/support/shapes.h"
 #include "tests/support/surface_distance.h"
 
@@ -38,7 +39,7 @@ TriangleMesh flowed(TriangleMesh mesh, const Grid& grid, BoundaryCondition bound
     FlowParameters parameters;
     parameters.boundary = boundary;
     parameters.step_size = step_size;
-    Flow flow(mesh, parameters, grid);
+    Flow flow(plan_of(mesh, parameters, grid));
     for (int step = 0; step < kSteps; ++step) EXPECT_TRUE(flow.step());
     flow.move_vertices(mesh.positions);
     return mesh;

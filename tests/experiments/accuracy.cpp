@@ -9,6 +9,7 @@
 #include "tests/experiments/meshes.h"
 #include "tests/experiments/options.h"
 #include "tests/experiments/reference.h"
+#include "tests/support/plans.h"
 #include "tests/support/process_time.h"
 #include "tests/support/surface_distance.h"
 
@@ -22,7 +23,7 @@ void measure(const TriangleMesh& mesh, const std::map<int, Reference>& reference
     parameters.boundary = BoundaryCondition::Free;
     const double unit = diagonal(mesh);
     double start = cpu_seconds();
-    Flow flow(mesh, parameters);
+    Flow flow(plan_of(mesh, parameters));
     double seconds = cpu_seconds() - start;
     int iterations = 0;
     for (int step = 1; step <= references.rbegin()->first; ++step) {

@@ -7,6 +7,7 @@
 #include "tests/experiments/csv.h"
 #include "tests/experiments/experiments.h"
 #include "tests/experiments/options.h"
+#include "tests/support/plans.h"
 #include "tests/support/shapes.h"
 #include "tests/support/surface_distance.h"
 
@@ -61,7 +62,7 @@ std::vector<Shape> shapes_on_grids(int depth) {
 TriangleMesh flowed(const Shape& shape, FlowParameters parameters, bool separate,
                     const Options& options, std::int64_t& unknowns) {
     parameters.separate_sheets = separate;
-    Flow flow(shape.mesh, parameters, shape.grid);
+    Flow flow(plan_of(shape.mesh, parameters, shape.grid));
     unknowns = flow.report().unknowns;
     for (int i = 0; i < options.last_step(); ++i) flow.step();
     TriangleMesh mesh = shape.mesh;

@@ -14,6 +14,7 @@
 #include "tests/experiments/options.h"
 #include "tests/experiments/reference.h"
 #include "tests/experiments/slip.h"
+#include "tests/support/plans.h"
 #include "tests/support/surface_distance.h"
 
 namespace tracked_mcf::experiments {
@@ -90,7 +91,7 @@ void measure(const TriangleMesh& mesh, const std::map<int, Reference>& reference
              const Options& options, int depth, const std::string& configuration) {
     const FlowParameters parameters = options.parameters(depth, configuration);
     const std::vector<int> rings = rings_of(mesh);
-    Flow flow(mesh, parameters);
+    Flow flow(plan_of(mesh, parameters));
     for (int step = 1; step <= references.rbegin()->first && flow.step(); ++step) {
         const auto reference = references.find(step);
         if (reference == references.end()) continue;

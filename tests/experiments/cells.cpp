@@ -14,6 +14,7 @@
 #include "tests/experiments/csv.h"
 #include "tests/experiments/experiments.h"
 #include "tests/experiments/options.h"
+#include "tests/support/plans.h"
 
 namespace tracked_mcf::experiments {
 
@@ -65,8 +66,9 @@ public:
         : options_(options),
           file_(options.mesh),
           mesh_(file_.triangle_mesh()),
-          flow_(mesh_, options.parameters(options.depths.front(), options.configurations.front())),
-          elements_(flow_.elements()),
+          flow_(plan_of(
+              mesh_, options.parameters(options.depths.front(), options.configurations.front()))),
+          elements_(flow_.stepper().elements()),
           identity_(identity_coefficients(elements_)),
           in_patch_(elements_in_patch()) {}
 
@@ -84,7 +86,8 @@ private:
         Corners corners;
         for (std::size_t i = 0; i < corners.size(); ++i) {
             const std::int32_t unknown = elements_.finest().unknowns[element][i];
-            corners[i] = (identity_.row(unknown) + flow_.displacement().row(unknown)).transpose();
+            corners[i] =
+                (identity_.row(unknown) + flow_.state().displacement.row(unknown)).transpose();
         }
         return corners;
     }

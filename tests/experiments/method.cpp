@@ -17,6 +17,7 @@
 #include "filter_tracked_mcf/core/system/stabilization.h"
 #include "tests/support/cotangent_flow.h"
 #include "tests/support/elements.h"
+#include "tests/support/plans.h"
 #include "tests/support/process_time.h"
 #include "tests/support/shapes.h"
 
@@ -51,11 +52,9 @@ void add_step(const FlowReport& from, double seconds, MethodReport& to) {
 
 class Tracked : public Method {
 public:
-    Tracked(const TriangleMesh& mesh, const FlowParameters& parameters)
-        : domain_(mesh, parameters.boundary) {
-        check_preservable(domain_, parameters);
+    Tracked(const TriangleMesh& mesh, const FlowParameters& parameters) {
         const double start = cpu_seconds();
-        flow_.emplace(domain_, parameters);
+        flow_.emplace(plan_of(mesh, parameters));
         report_.setup_seconds = cpu_seconds() - start;
     }
 
@@ -70,7 +69,6 @@ public:
     MethodReport report() const override { return report_; }
 
 private:
-    Domain domain_;
     std::optional<Flow> flow_;
     MethodReport report_;
 };
@@ -83,12 +81,12 @@ public:
         parameters_.step_size = relative_step_size(mesh, parameters) * side * side;
         parameters_.absolute = true;
         if (parameters.depth > 0) return;
-        parameters_.depth = Flow(mesh, parameters).report().depth;
+        parameters_.depth = Flow(plan_of(mesh, parameters)).report().depth;
     }
 
     bool step() override {
         const double start = cpu_seconds();
-        Flow flow(mesh_, parameters_, with_depth(cube_, parameters_.depth));
+        Flow flow(plan_of(mesh_, parameters_, with_depth(cube_, parameters_.depth)));
         const double stepping = cpu_seconds();
         report_.setup_seconds += stepping - start;
         if (!flow.step()) return false;
@@ -144,7 +142,9 @@ public:
         parameters_.boundary = BoundaryCondition::Free;
         auto constrained = constrained_unknowns(elements_, parameters_.boundary);
         constrained_ = constrained.back();
-        solver_ = make_step_solver(elements_, std::move(constrained), parameters_);
+        solver_ =
+            make_step_solver(elements_, std::move(constrained),
+                             parameters_.solver == Solver::OneWCycle ? parameters_.cycles : 0);
         const double cells = longest_side(mesh) / elements_.grid.cell_size;
         step_size_in_cells_ = relative_step_size(mesh, parameters) * cells * cells;
     }

@@ -11,6 +11,7 @@
 #include "tests/experiments/options.h"
 #include "tests/experiments/slip.h"
 #include "tests/support/minimal_surfaces.h"
+#include "tests/support/plans.h"
 #include "tests/support/shapes.h"
 
 namespace tracked_mcf::experiments {
@@ -72,7 +73,7 @@ void print_distances(const MinimalOptions& options, const Case& c, const Surface
         worst = std::max(worst, distance);
     }
     const Slip slip = slip_at_constrained_edges(flow);
-    const Grid& grid = flow.elements().grid;
+    const Grid& grid = flow.stepper().elements().grid;
     int iterations = 0;
     for (const StepReport& step : flow.report().steps) iterations += step.solver_iterations;
     print_row(options.surface, c.tilt, c.depth, c.configuration, c.step_size, options.last_step(),
@@ -100,7 +101,8 @@ void measure(const MinimalOptions& options, const Case& c) {
     FlowParameters parameters = options.parameters(c.depth, c.configuration);
     parameters.step_size = c.step_size;
     // The cube [-1.1, 1.1]³ for every rotation of the mesh.
-    Flow flow(mesh, parameters, with_depth({Eigen::Vector3d::Constant(-1.1), 2.2, 0}, c.depth));
+    Flow flow(
+        plan_of(mesh, parameters, with_depth({Eigen::Vector3d::Constant(-1.1), 2.2, 0}, c.depth)));
     for (int step = 0; step < options.last_step() && flow.step(); ++step) {
     }
     flow.move_vertices(mesh.positions);

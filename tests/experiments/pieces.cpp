@@ -8,6 +8,7 @@
 #include "tests/experiments/csv.h"
 #include "tests/experiments/experiments.h"
 #include "tests/experiments/options.h"
+#include "tests/support/plans.h"
 #include "tests/support/shapes.h"
 #include "tests/support/surface_distance.h"
 
@@ -63,7 +64,7 @@ struct Flowed {
 Flowed flowed(TriangleMesh mesh, FlowParameters parameters, const Grid& grid, double step_size,
               int steps) {
     parameters.step_size = step_size / std::pow(longest_side(mesh), 2);
-    Flow flow(mesh, parameters, grid);
+    Flow flow(plan_of(mesh, parameters, grid));
     Flowed result;
     for (int i = 0; i < steps; ++i) {
         flow.step();

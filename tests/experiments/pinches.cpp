@@ -15,6 +15,7 @@
 #include "tests/experiments/experiments.h"
 #include "tests/experiments/options.h"
 #include "tests/experiments/reference.h"
+#include "tests/support/plans.h"
 #include "tests/support/surface_distance.h"
 
 namespace tracked_mcf::experiments {
@@ -51,7 +52,7 @@ private:
     }
 
     void flow(const FlowParameters& parameters, std::size_t index) {
-        Flow flow(mesh_, parameters);
+        Flow flow(plan_of(mesh_, parameters));
         Collapse collapse(mesh_);
         for (int step = 1; step <= references_.rbegin()->first; ++step) {
             flow.step();

@@ -9,6 +9,7 @@
 #include "tests/experiments/experiments.h"
 #include "tests/experiments/meshes.h"
 #include "tests/experiments/options.h"
+#include "tests/support/plans.h"
 #include "tests/support/process_time.h"
 
 namespace tracked_mcf::experiments {
@@ -26,7 +27,7 @@ struct Cost {
 
 void set_up(const TriangleMesh& mesh, const FlowParameters& parameters, Cost& cost) {
     const double start = cpu_seconds();
-    const Flow flow(mesh, parameters);
+    const Flow flow(plan_of(mesh, parameters));
     cost.seconds = std::min(cost.seconds, cpu_seconds() - start);
     cost.unknowns = flow.report().unknowns;
 }

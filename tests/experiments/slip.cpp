@@ -7,14 +7,15 @@
 namespace tracked_mcf::experiments {
 
 Slip slip_at_constrained_edges(const Flow& flow) {
-    const TrackedElements& elements = flow.elements();
+    const TrackedElements& elements = flow.stepper().elements();
     Slip slip;
     double length = 0;
     double squares = 0;
     for (const CurveSample& sample : elements.curve_samples) {
         const VertexLocation location = {sample.element, sample.local.cast<double>()};
-        const double distance = evaluate_vertex(elements, flow.displacement(), location).norm() *
-                                elements.grid.cell_size;
+        const double distance =
+            evaluate_vertex(elements, flow.state().displacement, location).norm() *
+            elements.grid.cell_size;
         length += sample.weight;
         squares += sample.weight * distance * distance;
         slip.worst = std::max(slip.worst, distance);

@@ -293,6 +293,18 @@ TEST(Warnings, TellOfALimitedStepADetailBelowACellAndASuddenLoss) {
               "The cells of depth 7 are 2 wide, too wide for the detail size 1. If the mesh has "
               "detail as small as that, take depth 9.");
     report.depth = 9;
+    report.mean_edge = 2;
+    ASSERT_EQ(warnings().size(), 1U);
+    EXPECT_EQ(warnings()[0],
+              "The detail size is 0.5 mean edges; below 2 little changes. The default is 2.5 edges, "
+              "5.");
+    report.mean_edge = 0.5;
+    EXPECT_TRUE(warnings().empty());
+    report.genus = 2;
+    ASSERT_EQ(warnings().size(), 1U);
+    EXPECT_EQ(warnings()[0],
+              "The surface has 2 handles, so it cannot become a sphere. Close its tunnels first.");
+    report.genus = 0;
     report.area_after = 8;
     ASSERT_EQ(warnings().size(), 1U);
     EXPECT_EQ(warnings()[0],

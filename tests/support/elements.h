@@ -6,9 +6,9 @@
 #include "filter_tracked_mcf/core/cells/fragments.h"
 #include "filter_tracked_mcf/core/cells/grid.h"
 #include "filter_tracked_mcf/core/elements/tracked_elements.h"
-#include "filter_tracked_mcf/core/memory/memory_check.h"
-#include "filter_tracked_mcf/core/memory/memory_estimate.h"
-#include "filter_tracked_mcf/core/octree/automatic_depth.h"
+#include "filter_tracked_mcf/core/plan/automatic_depth.h"
+#include "filter_tracked_mcf/core/plan/memory_check.h"
+#include "filter_tracked_mcf/core/plan/memory_estimate.h"
 
 namespace tracked_mcf {
 
@@ -16,10 +16,8 @@ namespace tracked_mcf {
 /// build_tracked_elements throw.
 inline TrackedElements build_tracked_elements(const Domain& domain, const Grid& grid,
                                               Cubature cubature, bool separate_sheets = true) {
-    FlowParameters parameters;
-    parameters.cubature = cubature;
-    parameters.separate_sheets = separate_sheets;
-    return build_tracked_elements(domain, clip_to_grid(domain.surface(), grid), parameters);
+    return build_tracked_elements(domain, clip_to_grid(domain.surface(), grid),
+                                  {cubature, cubature == Cubature::ThreePoints, separate_sheets});
 }
 
 /// Builds the elements of a whole mesh with its boundary constrained.

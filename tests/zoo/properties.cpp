@@ -332,10 +332,10 @@ void Checker::check_box_within(double allowed) {
 /// The samples' coordinates are multiples of 5e-7 of a cell. So the area of a triangle changes by
 /// that times its longest side.
 ///
-/// The area of the mesh is not that of the tracked surface. evolve() repeats a mean-curvature flow
-/// if it has grown by more than 1e-3, and then to a tolerance of 1e-6. What remains displaces
-/// vertices by the samples' coordinates again, and by
-/// - that tolerance in the energy norm, which for a single vertex may be a thousandth of the
+/// The area of the mesh is not that of the tracked surface. Vertices are displaced by the samples'
+/// coordinates again, and by
+/// - the solver's tolerance in the energy norm, which for a single vertex may be a thousandth of
+/// the
 ///   displacement, where a part is much thinner than a cell;
 /// - a part of a cell beside constrained vertices, which keep their place while the functions of
 ///   their cell move.

@@ -136,7 +136,7 @@ double fragments_at(const TriangleMesh& mesh, const Selection& selection, int de
         const Eigen::Vector3d u = cells_per_unit * (mesh.positions[t[1]] - mesh.positions[t[0]]);
         const Eigen::Vector3d v = cells_per_unit * (mesh.positions[t[2]] - mesh.positions[t[0]]);
         // On average over positions, a triangle meets about as many cells as this, see
-        // core/memory/memory_estimate.h.
+        // core/plan/memory_estimate.h.
         fragments += 1 + u.lpNorm<1>() + v.lpNorm<1>() + u.cross(v).lpNorm<1>();
     }
     return fragments;

@@ -94,10 +94,6 @@ const std::vector<CubatureNode>& cubature_rule(Cubature cubature) {
     return three;
 }
 
-bool samples_small_fragments_whole(const FlowParameters& parameters) {
-    return parameters.cubature == Cubature::ThreePoints && parameters.solver == Solver::Converged;
-}
-
 bool is_small(const Polygon& polygon) {
     const auto is_short = [&](int axis) {
         const Extent extent = extent_along(polygon, axis);

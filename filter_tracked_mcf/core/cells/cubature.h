@@ -31,9 +31,6 @@ struct WeightedPoint {
     double weight;
 };
 
-/// Returns whether small fragments have three nodes as a whole, see Cubature::ThreePoints.
-bool samples_small_fragments_whole(const FlowParameters& parameters);
-
 /// Returns whether three nodes for a polygon as a whole are nearly as exact as three for each
 /// triangle of its fan: it extends at most half a cell along each axis.
 bool is_small(const Polygon& polygon);

@@ -10,7 +10,6 @@
 #include "filter_tracked_mcf/core/cells/clip.h"
 #include "filter_tracked_mcf/core/cells/cubature.h"
 #include "filter_tracked_mcf/core/elements/curve_samples.h"
-#include "filter_tracked_mcf/core/elements/densities.h"
 #include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/mesh/measures.h"
 #include "filter_tracked_mcf/core/octree/sheet_links.h"
@@ -38,13 +37,13 @@ void claim(std::atomic<std::int32_t>& vertex, std::int32_t element) {
 class ElementBuilder {
 public:
     ElementBuilder(TrackedElements& elements, const Domain& domain, const GridMesh& mesh,
-                   const RawVector<FragmentEntry>& entries, const FlowParameters& parameters)
+                   const RawVector<FragmentEntry>& entries, const Discretisation& discretisation)
         : elements_(elements),
           domain_(domain),
           mesh_(mesh),
           entries_(entries),
-          rule_(cubature_rule(parameters.cubature)),
-          some_whole_(samples_small_fragments_whole(parameters)),
+          rule_(cubature_rule(discretisation.cubature)),
+          some_whole_(discretisation.whole_fragments),
           claims_(mesh.positions.size()) {
         parallel_for_rows(static_cast<std::int64_t>(claims_.size()), [&](std::int32_t vertex) {
             claims_[vertex].store(kUnclaimed, std::memory_order_relaxed);
@@ -198,6 +197,26 @@ Components components_of(const std::vector<Level>& levels) {
     return components;
 }
 
+/// Sets the elements' densities to the mean of those of their triangles.
+void set_densities(TrackedElements& elements, const std::vector<double>& of_triangle,
+                   const RawVector<FragmentEntry>& fragments) {
+    const std::int32_t count = elements.finest().element_count();
+    elements.densities.assign(static_cast<std::size_t>(count) + kElementBatch, 1.0F);
+    parallel_for_rows(count, [&](std::int32_t element) {
+        double area = 0, mass = 0;
+        std::int64_t sample = elements.sample_begin[element];
+        for (std::int64_t i = elements.fragment_begin[element];
+             i < elements.fragment_begin[element + 1]; ++i) {
+            const std::int64_t end = sample + elements.fragments[i].sample_count;
+            for (; sample < end; ++sample) {
+                area += elements.samples.weight(sample);
+                mass += elements.samples.weight(sample) * of_triangle[fragments[i].triangle];
+            }
+        }
+        if (area > 0) elements.densities[element] = static_cast<float>(mass / area);
+    });
+}
+
 void count_vertices(TrackedElements& elements, const std::vector<std::uint8_t>& referenced) {
     const auto count = static_cast<std::int64_t>(referenced.size());
     elements.referenced_vertex_count =
@@ -210,7 +229,8 @@ void count_vertices(TrackedElements& elements, const std::vector<std::uint8_t>& 
 }  // namespace
 
 TrackedElements build_tracked_elements(const Domain& domain, ClippedSurface surface,
-                                       const FlowParameters& parameters) {
+                                       const Discretisation& discretisation,
+                                       const std::vector<double>& densities) {
     const std::size_t triangle_count = domain.surface().triangles.size();
     if (surface.degenerate_count == static_cast<std::int64_t>(triangle_count)) {
         throw InvalidMesh(
@@ -225,13 +245,11 @@ TrackedElements build_tracked_elements(const Domain& domain, ClippedSurface surf
 
     enter_setup_phase(kBuildOctree);
     build_octree(elements, surface.mesh, domain.topology(), surface.fragments,
-                 parameters.separate_sheets);
+                 discretisation.separate_sheets);
     elements.components = components_of(elements.levels);
     enter_setup_phase(kSampleSurface);
-    ElementBuilder(elements, domain, surface.mesh, surface.fragments, parameters).build();
-    const auto densities = triangle_densities(domain, parameters.local_detail_size);
-    if (!densities.empty())
-        elements.densities = element_densities(elements, densities, surface.fragments);
+    ElementBuilder(elements, domain, surface.mesh, surface.fragments, discretisation).build();
+    if (!densities.empty()) set_densities(elements, densities, surface.fragments);
     elements.curve_samples = sample_constrained_edges(elements, surface.mesh, surface.fragments,
                                                       domain.constrained_edges());
     return elements;

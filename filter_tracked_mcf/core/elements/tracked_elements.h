@@ -55,7 +55,9 @@ struct TrackedElements {
     std::vector<std::int64_t> fragment_begin;  ///< per finest element, and the end
     std::vector<std::int64_t> sample_begin;    ///< per finest element, and the end
 
-    std::vector<float> densities;  ///< per finest element (densities.h); empty if all are 1
+    std::vector<float> densities;  ///< mass, per finest element and kElementBatch more, because
+                                   ///< kernels read whole vectors;
+    ///< empty if all are 1
 
     RawVector<VertexLocation> vertices;                ///< equal for coincident vertices
     std::vector<std::uint8_t> vertex_constrained;      ///< per vertex: it keeps its bits
@@ -72,10 +74,11 @@ struct TrackedElements {
 };
 
 /// Builds the octree over the domain's clipped surface, and computes its samples and the locations
-/// of its vertices, with the cubature, separate_sheets and local_detail_size of the parameters.
-/// Throws InvalidMesh if all triangles are degenerate.
+/// of its vertices. `densities` are those of the surface's triangles; none if all are 1. Throws
+/// InvalidMesh if all triangles are degenerate.
 TrackedElements build_tracked_elements(const Domain& domain, ClippedSurface surface,
-                                       const FlowParameters& parameters);
+                                       const Discretisation& discretisation,
+                                       const std::vector<double>& densities = {});
 
 /// Returns the coefficients of the identity, Σ (i, j, k) B_ijk(p) = p (section 5.3): the
 /// coefficient of each unknown is its corner.

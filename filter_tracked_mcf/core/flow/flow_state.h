@@ -27,6 +27,9 @@ struct FlowState {
     /// One flag per unknown of the finest level: it keeps its value from now on.
     std::vector<std::uint8_t> constrained;
 
+    /// Of the surface in the first step, grid units²; 0 before it.
+    double first_area = 0;
+
     /// Where the next step may take each connected component, see Confinement, in grid units. Empty
     /// until the surface has been moved on purpose: its initial boxes.
     std::vector<Eigen::AlignedBox3d> boxes;

@@ -3,21 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 #include <utility>
 
-#include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/mesh/measures.h"
-#include "filter_tracked_mcf/core/mesh/mesh_topology.h"
 #include "filter_tracked_mcf/core/parallel/parallel.h"
 
 namespace tracked_mcf {
 
 namespace {
-
-/// A surface is flat if its volume is below this fraction of its area to the power 3/2. The
-/// fraction of a sphere is 0.09.
-constexpr double kFlat = 1e-9;
 
 /// The flow ends if components of more than this share of the area would be inflated.
 constexpr double kMostBlownUp = 0.5;
@@ -31,65 +24,10 @@ constexpr int kMostNewtonSteps = 10;
 /// A component cannot move if a pressure moves it less than this fraction of what it moves a plane.
 constexpr double kImmovable = 1e-9;
 
-void check_no_constraints(const Domain& domain, const char* what) {
-    if (!domain.has_constraints()) return;
-    throw InvalidParameter(
-        std::string(what) +
-        " would move vertices that must stay: those of a boundary that is not free, those of "
-        "unselected faces, and those with strength 0. Preserve the volume of a mean-curvature flow "
-        "instead, or free all vertices.");
-}
-
-void check_oriented(const Domain& domain) {
-    if (domain.topology().is_oriented_consistently()) return;
-    throw InvalidMesh(
-        "The volume cannot be preserved because the faces are not oriented consistently: some "
-        "neighbours disagree about which side is inside. Re-orient all faces coherently first, or "
-        "preserve the area.");
-}
-
-void check_encloses_volume(const Domain& domain) {
-    if (domain.boundary_edge_count() > 0) {
-        throw InvalidMesh(
-            "A conformalized flow cannot preserve the volume because the surface is "
-            "open: " +
-            std::to_string(domain.boundary_edge_count()) +
-            " edges have only one face. Close the holes first, or preserve the "
-            "area.");
-    }
-    if (!domain.topology().bounds_volume() ||
-        std::abs(enclosed_volume(domain.mesh())) <=
-            kFlat * std::pow(surface_area(domain.mesh()), 1.5)) {
-        throw InvalidMesh(
-            "The volume cannot be preserved because the surface encloses none; preserve the area "
-            "instead.");
-    }
-}
-
-bool scales(Preserve kind, FlowKind flow) {
-    return kind == Preserve::Area || flow == FlowKind::Conformalized;
-}
-
 }  // namespace
 
-void check_preservable(const Domain& domain, const FlowParameters& parameters) {
-    if (parameters.preserve == Preserve::None) return;
-    if (parameters.preserve == Preserve::Area) {
-        check_no_constraints(domain, "Preserving the area");
-        return;
-    }
-    check_oriented(domain);
-    if (!scales(parameters.preserve, parameters.flow)) return;
-    check_no_constraints(domain, "Preserving the volume of a conformalized flow");
-    check_encloses_volume(domain);
-}
-
-Preserver::Preserver(const Domain& domain, const FlowParameters& parameters, Stepper& stepper)
-    : stepper_(stepper),
-      mesh_(domain.mesh()),
-      triangles_(domain.surface().triangles),
-      kind_(parameters.preserve),
-      flow_(parameters.flow) {
+Preserver::Preserver(const Domain& domain, Preserve kind, const Stepper& stepper)
+    : stepper_(stepper), mesh_(domain.mesh()), triangles_(domain.surface().triangles), kind_(kind) {
     component_of_.reserve(triangles_.size());
     for (const Triangle& triangle : triangles_) {
         const TrackedElements& elements = stepper.elements();
@@ -97,8 +35,9 @@ Preserver::Preserver(const Domain& domain, const FlowParameters& parameters, Ste
             elements.components.of_element[elements.vertices[triangle[0]].element]);
     }
     initial_ = measure(mesh_.positions);
-    const double growth =
-        flow_ == FlowKind::Conformalized ? kLargestConformalizedGrowth : kLargestGrowth;
+    const double growth = stepper.plan().flow == FlowKind::Conformalized
+                              ? kLargestConformalizedGrowth
+                              : kLargestGrowth;
     for (Measures& component : initial_) {
         const double sphere = std::sqrt(component.area / std::acos(-1.0));
         const double half = growth / 2 * std::max(component.box.sizes().maxCoeff(), sphere);
@@ -139,8 +78,7 @@ std::vector<Eigen::Vector3d> Preserver::moved(const FlowState& state) const {
     return positions;
 }
 
-StepResult Preserver::restore(const FlowState& from, FlowState to, const Care& care,
-                              StepReport& report) const {
+StepResult Preserver::restore(FlowState to) const {
     std::vector<Eigen::Vector3d> positions = moved(to);
     const std::vector<Measures> present = measure(positions);
     double area = 0, initial_area = 0;
@@ -150,10 +88,9 @@ StepResult Preserver::restore(const FlowState& from, FlowState to, const Care& c
     }
     if (!(area > kVanishedArea * initial_area)) return Stop::Vanished;
     double blown_up = 0;  // initial area
-    if (scales(kind_, flow_)) {
+    if (!stepper_.plan().takes_responses) {
         scale(to, scalings(present, blown_up));
-    } else if (!restore_volumes(to, stepper_.pressure_response(from, care, report),
-                                std::move(positions), blown_up)) {
+    } else if (!restore_volumes(to, stepper_.pressure_response(), std::move(positions), blown_up)) {
         return Stop::NotPreserved;
     }
     if (blown_up > kMostBlownUp * initial_area) return Stop::Pinched;

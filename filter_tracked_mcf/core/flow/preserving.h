@@ -6,7 +6,6 @@
 
 #include "filter_tracked_mcf/core/flow/flow_state.h"
 #include "filter_tracked_mcf/core/flow/stepper.h"
-#include "filter_tracked_mcf/core/flow_parameters.h"
 #include "filter_tracked_mcf/core/mesh/domain.h"
 #include "filter_tracked_mcf/core/triangle_mesh.h"
 
@@ -18,24 +17,19 @@ namespace tracked_mcf {
 /// Long shapes become longer in a conformalized flow before they become round.
 inline constexpr double kLargestGrowth = 4, kLargestConformalizedGrowth = 16;
 
-/// Throws InvalidParameter or InvalidMesh if the flow cannot preserve what the parameters ask for;
-/// see FlowParameters::preserve.
-void check_preservable(const Domain& domain, const FlowParameters& parameters);
-
 /// Restores the area or the volume of each connected component after each step of a flow.
 class Preserver {
 public:
     /// Measures the domain's surface. The domain's mesh must outlive the preserver and keep its
     /// positions. `stepper` must have been made from this domain and outlive the preserver.
-    Preserver(const Domain& domain, const FlowParameters& parameters, Stepper& stepper);
+    Preserver(const Domain& domain, Preserve kind, const Stepper& stepper);
 
-    /// Restores what is preserved in `to`, the state after the stepper's last step, which was made
-    /// from `from` with this care. Returns Stop::Vanished if the step has left almost nothing,
-    /// Stop::Pinched if it has left only thin threads, and Stop::NotPreserved if it has changed the
-    /// volume so much that no pressure restores it. A component that has vanished, cannot move, or
-    /// would be inflated because only thin threads are left of it, stays as it is.
-    StepResult restore(const FlowState& from, FlowState to, const Care& care,
-                       StepReport& report) const;
+    /// Restores what is preserved in `to`, the state after the stepper's last step. Returns
+    /// Stop::Vanished if the step has left almost nothing, Stop::Pinched if it has left only thin
+    /// threads, and Stop::NotPreserved if it has changed the volume so much that no pressure
+    /// restores it. A component that has vanished, cannot move, or would be inflated because only
+    /// thin threads are left of it, stays as it is.
+    StepResult restore(FlowState to) const;
 
 private:
     /// Measures of a component, mesh units.
@@ -62,12 +56,11 @@ private:
     bool restore_volumes(FlowState& state, const Coefficients& response,
                          std::vector<Eigen::Vector3d> positions, double& blown_up) const;
 
-    Stepper& stepper_;
+    const Stepper& stepper_;
     const TriangleMesh& mesh_;
     std::vector<Triangle> triangles_;         ///< those that flow
     std::vector<std::int32_t> component_of_;  ///< per triangle
     Preserve kind_;
-    FlowKind flow_;
     std::vector<Measures> initial_;
 };
 

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "filter_tracked_mcf/core/flow/drift.h"
-#include "filter_tracked_mcf/core/mesh/measures.h"
 #include "filter_tracked_mcf/core/parallel/parallel.h"
 #include "filter_tracked_mcf/core/parallel/progress_meter.h"
 #include "filter_tracked_mcf/core/parallel/raw_vector.h"
@@ -35,44 +34,26 @@ double largest_step_size(const std::vector<float>& densities) {
     return kLargestStepSizeInCells * (smallest == densities.end() ? 1.0 : double{*smallest});
 }
 
-StepSize in_cells(double cells, const Grid& grid) {
-    return {cells, cells * (grid.cell_size * grid.cell_size)};
-}
-
-/// Returns the step size that the parameters ask for, in squared sides of a cell.
-double asked_in_cells(const FlowParameters& parameters, const Domain& domain, const Grid& grid) {
-    if (parameters.step_size > 0) {
-        const double unit = parameters.absolute ? 1 : longest_side(domain.mesh());
-        const double cells = unit / grid.cell_size;
-        return parameters.step_size * cells * cells;
-    }
-    const double detail_size = detail_size_of(parameters, mean_edge_length(domain.surface()));
-    return step_size_for(detail_size / grid.cell_size, parameters.iterations, parameters.order);
-}
-
 }  // namespace
 
-Stepper::Stepper(const Domain& domain, ClippedSurface surface, const FlowParameters& parameters)
-    : parameters_(parameters),
-      elements_(build_tracked_elements(domain, std::move(surface), parameters)),
-      asked_size_(in_cells(asked_in_cells(parameters, domain, elements_.grid), elements_.grid)),
-      size_(in_cells(std::min(asked_size_.in_cells, largest_step_size(elements_.densities)),
+Stepper::Stepper(TrackedElements elements, const StepPlan& plan)
+    : plan_(plan),
+      elements_(std::move(elements)),
+      size_(in_cells(std::min(plan.size.in_cells, largest_step_size(elements_.densities)),
                      elements_.grid)),
       stabilization_(elements_),
-      curve_constraint_(elements_, parameters.boundary_penalty),
-      confinement_(elements_, parameters.order == 1
-                                  ? 0
-                                  : detail_size_for(size_.in_cells, 1, parameters.order)),
-      solutions_(parameters.order) {
+      curve_constraint_(elements_, plan.boundary_penalty),
+      confinement_(elements_, plan.order == 1 ? 0 : detail_size_for(size_.in_cells, 1, plan.order)),
+      solutions_(plan.order) {
     enter_setup_phase(kPrepareSolver);
-    auto constrained = constrained_unknowns(elements_, parameters.boundary);
+    auto constrained = constrained_unknowns(elements_, plan.boundary);
     initially_constrained_ = constrained.back();
     locked_unknown_count_ =
         std::count(initially_constrained_.begin(), initially_constrained_.end(), 1);
-    solver_ = make_step_solver(elements_, std::move(constrained), parameters);
-    if (parameters.flow == FlowKind::Conformalized) vanished_components_.emplace(elements_);
+    solver_ = make_step_solver(elements_, std::move(constrained), plan.cycles);
+    if (plan.flow == FlowKind::Conformalized) vanished_components_.emplace(elements_);
     // With the stabilisation, functions that hardly meet the surface follow those that do.
-    if (stabilization_of(parameters) == 0) constrain_negligible(supports(), initially_constrained_);
+    if (plan.stabilization == 0) constrain_negligible(supports(), initially_constrained_);
 }
 
 FlowState Stepper::start() const {
@@ -89,31 +70,30 @@ StepResult Stepper::advance(const FlowState& from, const StepSize& size, const C
     FlowState to;
     to.boxes = from.boxes;
     to.constrained = from.constrained;
-    to.multipliers = constrains_curve() && parameters_.update_boundary_multipliers
+    to.multipliers = constrains_curve() && plan_.update_boundary_multipliers
                          ? curve_constraint_.updated(from.multipliers, from.displacement)
                          : from.multipliers;
 
     const Stopwatch assembling;
     // A = D + δS, b = -δ S x(t)
     assemble_elements(elements_, from.displacement,
-                      {1.0F, static_cast<float>(delta), parameters_.flow, parameters_.order > 1},
-                      systems_);
+                      {1.0F, static_cast<float>(delta), plan_.flow, plan_.order > 1}, systems_);
     report.area = systems_.area * elements_.grid.cell_size * elements_.grid.cell_size;
     report.collapsed_samples = systems_.collapsed_samples;
-    if (first_area_ == 0) first_area_ = systems_.area;
-    if (systems_.area < kVanishedArea * first_area_) return Stop::Vanished;
+    to.first_area = from.first_area > 0 ? from.first_area : systems_.area;
+    if (systems_.area < kVanishedArea * to.first_area) return Stop::Vanished;
     predict(care.removes_drift ? std::vector<Scaling>() : from.scalings, from.displacement);
     // A += δη C, b += δ (n + λ) - δη C u
     if (constrains_curve()) {
         curve_constraint_.add(from.displacement, to.multipliers, delta, systems_);
     }
     // A += κ (δ + 0.1) N
-    stabilization_.add(stabilization_of(parameters_), delta, systems_.matrices);
+    stabilization_.add(plan_.stabilization, delta, systems_.matrices);
     // Constrained unknowns: zero rows and columns of A. When a surface shrinks, its mass shrinks
     // and its stiffness does not.
     constrain_pinches(to.constrained);
     solver_->take(systems_.matrices, to.constrained,
-                  systems_.area > 0 ? delta * first_area_ / systems_.area : delta);
+                  systems_.area > 0 ? delta * to.first_area / systems_.area : delta);
     report.assemble_seconds += assembling.seconds();
 
     const ProgressSpan solving(kAssemblyShare, 1);
@@ -123,17 +103,18 @@ StepResult Stepper::advance(const FlowState& from, const StepSize& size, const C
     }
     const Stopwatch stopwatch;
     solve(care.tolerance, report);  // A d = b, and again for a greater order
-    report.reached_tolerance = report.error_estimate <= parameters_.tolerance;
+    report.reached_tolerance = report.error_estimate <= plan_.tolerance;
     poll_progress();
-    to.displacement = step_of(parameters_.order);
+    to.displacement = step_of(plan_.order);
     if (care.removes_drift) remove_drift_from(to.displacement, from, to.constrained);
     to.displacement += from.displacement;  // x(t+δ) = x(t) + d
-    if (parameters_.quality == Quality::MeanCurvature) {
+    if (plan_.takes_velocities) {
         to.velocity = step_of(1) / size.in_mesh_units;
     }
     report.solve_seconds += stopwatch.seconds();
     const bool reached = report.reached_tolerance || report.error_estimate <= kNothingReached;
     if (!reached || !confinement_.holds(to.displacement, to.boxes)) return Stop::StepFailed;
+    if (plan_.takes_responses) respond(from, care.tolerance, report);
     return to;
 }
 
@@ -153,11 +134,11 @@ void Stepper::predict(const std::vector<Scaling>& scalings, const Coefficients& 
 }
 
 void Stepper::constrain_pinches(std::vector<std::uint8_t>& constrained) {
-    if (!parameters_.constrain_pinches) return;
+    if (!plan_.constrain_pinches) return;
     if (vanished_components_) {
         vanished_components_->constrain(systems_, kVanishedArea, constrained);
     } else if (!systems_.collapses.empty()) {
-        const bool converged = parameters_.solver == Solver::Converged;
+        const bool converged = plan_.cycles == 0;
         constrain_pinched(elements_, supports(), systems_,
                           converged ? kPinchedShareConverged : kPinchedShareOneWCycle, constrained);
     }
@@ -169,8 +150,8 @@ const Supports& Stepper::supports() {
 }
 
 void Stepper::solve(double tolerance, StepReport& report) {
-    for (int i = 0; i < parameters_.order; ++i) {
-        const ProgressSpan span(1.0 * i / parameters_.order, (i + 1.0) / parameters_.order);
+    for (int i = 0; i < plan_.order; ++i) {
+        const ProgressSpan span(1.0 * i / plan_.order, (i + 1.0) / plan_.order);
         // A d = δ S d', where d' is the displacement of a step of one order less
         if (i > 0) multiply(elements_, systems_.stiffnesses, step_of(i), systems_.right_sides);
         if (predicts()) subtract_prediction(i + 1);
@@ -186,7 +167,7 @@ double Stepper::Prediction::loss(std::int32_t component, int order, int all_orde
 void Stepper::subtract_prediction(int order) {
     parallel_for_rows(elements_.finest().element_count(), [&](std::int32_t element) {
         const auto loss = static_cast<float>(
-            prediction_.loss(elements_.components.of_element[element], order, parameters_.order));
+            prediction_.loss(elements_.components.of_element[element], order, plan_.order));
         for (int axis = 0; axis < 3; ++axis) {
             for (int row = 0; row < 8; ++row) {
                 systems_.right_sides[element].entry[axis][row] +=
@@ -201,8 +182,8 @@ Coefficients Stepper::step_of(int order) const {
     if (!predicts()) return step;
     parallel_for_rows(elements_.finest().unknown_count(), [&](std::int32_t unknown) {
         const std::int32_t component = elements_.components.of_unknown[unknown];
-        step.row(unknown) -= prediction_.loss(component, order, parameters_.order) *
-                             prediction_.embedding.row(unknown);
+        step.row(unknown) -=
+            prediction_.loss(component, order, plan_.order) * prediction_.embedding.row(unknown);
     });
     return step;
 }
@@ -218,18 +199,16 @@ void Stepper::remove_drift_from(Coefficients& step, const FlowState& from,
         if (constrains_curve()) held[elements_.components.of_element[sample.element]] = 1;
     }
     ElementSystems masses;
-    assemble_elements(elements_, from.displacement, {1.0F, 0.0F, parameters_.flow, false}, masses);
+    assemble_elements(elements_, from.displacement, {1.0F, 0.0F, plan_.flow, false}, masses);
     remove_drift(elements_, masses.matrices, held, step);
 }
 
-const Coefficients& Stepper::pressure_response(const FlowState& from, const Care& care,
-                                               StepReport& report) {
+void Stepper::respond(const FlowState& from, double tolerance, StepReport& report) {
     const Stopwatch stopwatch;
     assemble_normals(elements_, from.displacement, systems_.right_sides);
-    solver_->solve(systems_.right_sides, care.tolerance, pressure_response_, report);
-    report.reached_tolerance = report.error_estimate <= parameters_.tolerance;
+    solver_->solve(systems_.right_sides, tolerance, pressure_response_, report);
+    report.reached_tolerance = report.error_estimate <= plan_.tolerance;
     report.solve_seconds += stopwatch.seconds();
-    return pressure_response_.x;
 }
 
 }  // namespace tracked_mcf

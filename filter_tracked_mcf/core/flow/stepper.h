@@ -11,8 +11,8 @@
 #include "filter_tracked_mcf/core/elements/tracked_elements.h"
 #include "filter_tracked_mcf/core/flow/confinement.h"
 #include "filter_tracked_mcf/core/flow/flow_state.h"
-#include "filter_tracked_mcf/core/flow_parameters.h"
 #include "filter_tracked_mcf/core/flow_report.h"
+#include "filter_tracked_mcf/core/plan/plan.h"
 #include "filter_tracked_mcf/core/solver/step_solver.h"
 #include "filter_tracked_mcf/core/system/curve_constraint.h"
 #include "filter_tracked_mcf/core/system/pinches.h"
@@ -22,16 +22,6 @@ namespace tracked_mcf {
 
 /// A surface whose area is below this fraction of its initial area has vanished.
 inline constexpr double kVanishedArea = 1e-3;
-
-/// A step size δ, a squared length.
-struct StepSize {
-    double in_cells;       ///< in squared sides of a finest cell
-    double in_mesh_units;  ///< in squared units of the mesh
-};
-
-inline StepSize operator*(double factor, const StepSize& size) {
-    return {factor * size.in_cells, factor * size.in_mesh_units};
-}
 
 /// How carefully a step is made.
 struct Care {
@@ -48,14 +38,12 @@ inline bool is(const StepResult& result, Stop reason) {
     return stop != nullptr && *stop == reason;
 }
 
-/// Makes the steps of a flow: functions from a state to the next one. Set up once from the clipped
-/// surface. Afterwards only workspaces change: what they hold from earlier steps, such as the
-/// guesses that a solver starts from, changes a result by less than the tolerance.
+/// Makes the steps of a flow: functions from a state to the next one. After the constructor, only
+/// workspaces change: what they hold from earlier steps, such as the guesses that a solver starts
+/// from, changes a result by less than the tolerance.
 class Stepper {
 public:
-    /// The mesh and the parameters must have passed validate(). The domain is not needed
-    /// afterwards. Throws InvalidMesh if all triangles are degenerate.
-    Stepper(const Domain& domain, ClippedSurface surface, const FlowParameters& parameters);
+    Stepper(TrackedElements elements, const StepPlan& plan);
     Stepper(const Stepper&) = delete;
     Stepper& operator=(const Stepper&) = delete;
 
@@ -63,8 +51,8 @@ public:
     FlowState start() const;
 
     /// Makes one step of equation 2: solves (D + δS) d = -δ S x(t) for the displacement
-    /// d = x(t+δ) - x(t), with the stabilisation and the constraints that the parameters ask for,
-    /// and adds d to the embedding. A step of order m solves m times, see FlowParameters::order.
+    /// d = x(t+δ) - x(t), with the stabilisation and the constraints that the plan asks for, and
+    /// adds d to the embedding. A step of order m solves m times, see FlowParameters::order.
     ///
     /// In the code, n is the conormal and λ the multiplier of the curve constraint, C its matrix
     /// and u its displacement; N is the matrix of the stabilisation.
@@ -76,21 +64,19 @@ public:
     StepResult advance(const FlowState& from, const StepSize& size, const Care& care,
                        StepReport& report);
 
-    /// Returns the displacement z by which the last step, made from `from`, answers a pressure of
-    /// 1: the solution of its system for the right-hand side ∫ B_I n, with the normal n before the
-    /// step. In grid units. Adds the solver's numbers to the report. Valid until the next call.
-    const Coefficients& pressure_response(const FlowState& from, const Care& care,
-                                          StepReport& report);
+    /// Returns the displacement z by which the last step that advance() returned answers a pressure
+    /// of 1: the solution of its system for the right-hand side ∫ B_I n, with the normal n before
+    /// the step. In grid units. Empty unless the plan takes responses.
+    const Coefficients& pressure_response() const { return pressure_response_.x; }
 
     /// Makes the next solves start from zero instead of the last step's solutions.
     void forget_solutions() { solutions_.assign(solutions_.size(), {}); }
 
     const TrackedElements& elements() const { return elements_; }
+    const StepPlan& plan() const { return plan_; }
     const Confinement& confinement() const { return confinement_; }
     /// Returns the number of unknowns that a boundary of locked cells constrains.
     std::int64_t locked_unknown_count() const { return locked_unknown_count_; }
-    /// Returns δ as the parameters ask for it.
-    const StepSize& asked_size() const { return asked_size_; }
     /// Returns δ, which is at most 1e5 squared sides of a cell.
     const StepSize& size() const { return size_; }
 
@@ -111,14 +97,15 @@ private:
     void constrain_pinches(std::vector<std::uint8_t>& constrained);
     void solve(double tolerance, StepReport& report);  // A d = b, and again for a greater order
     Coefficients step_of(int order) const;
+    void respond(const FlowState& from, double tolerance, StepReport& report);
     void remove_drift_from(Coefficients& step, const FlowState& from,
                            const std::vector<std::uint8_t>& constrained) const;
-    bool constrains_curve() const { return parameters_.boundary != BoundaryCondition::LockedCells; }
+    bool constrains_curve() const { return plan_.boundary != BoundaryCondition::LockedCells; }
     const Supports& supports();
 
-    const FlowParameters parameters_;
+    const StepPlan plan_;
     const TrackedElements elements_;
-    const StepSize asked_size_, size_;
+    const StepSize size_;
     const Stabilization stabilization_;
     const CurveConstraint curve_constraint_;
     const Confinement confinement_;
@@ -126,7 +113,6 @@ private:
     std::int64_t locked_unknown_count_ = 0;
     std::optional<VanishedComponents> vanished_components_;  ///< only in a conformalized flow
     std::optional<Supports> supports_;                       ///< measured when first needed
-    double first_area_ = 0;  ///< of the surface in the first step, grid units²
 
     // Workspaces.
     std::unique_ptr<StepSolver> solver_;

@@ -115,7 +115,8 @@ void Domain::leave_zero_strength_out() {
 }
 
 void Domain::restrict_to_selection() {
-    selected_triangles_ = selected_of(mesh_.triangles, selection_);
+    selected_triangles_ =
+        std::make_unique<std::vector<Triangle>>(selected_of(mesh_.triangles, selection_));
     topology_.referenced = referenced_vertices(surface());
     topology_.triangles = selected_of(topology_.triangles, selection_);
     find_edges(topology_);

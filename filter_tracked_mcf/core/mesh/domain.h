@@ -2,7 +2,7 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
+#include <memory>
 #include <vector>
 
 #include "filter_tracked_mcf/core/flow_parameters.h"
@@ -73,10 +73,10 @@ private:
     void constrain_edges(const IsConstrained& is_constrained);
 
     const TriangleMesh& mesh_;
-    const std::vector<double> strength_;
+    std::vector<double> strength_;
     Selection selection_;
     std::int64_t zero_strength_count_ = 0;
-    std::optional<std::vector<Triangle>> selected_triangles_;
+    std::unique_ptr<std::vector<Triangle>> selected_triangles_;  ///< views outlive a move
     MeshTopology topology_;
     std::vector<std::uint8_t> constrained_edges_;
     std::vector<std::uint8_t> constrained_vertices_;

@@ -8,6 +8,7 @@
 
 #include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/mesh/weld.h"
+#include "filter_tracked_mcf/core/parallel/disjoint_sets.h"
 #include "filter_tracked_mcf/core/parallel/marks.h"
 #include "filter_tracked_mcf/core/parallel/parallel.h"
 
@@ -200,6 +201,26 @@ std::int64_t count_vertices(const MeshTopology& topology) {
         if (topology.referenced[vertex] != 0) welded.set(topology.welded[vertex]);
     });
     return welded.count();
+}
+
+std::int64_t genus_of(const MeshTopology& topology) {
+    std::vector<std::int8_t> triangles_of(static_cast<std::size_t>(topology.edge_count), 0);
+    DisjointSets sets(static_cast<std::int32_t>(topology.welded.size()));
+    std::int64_t unions = 0, faces = 0;
+    for (std::size_t i = 0; i < topology.triangles.size(); ++i) {
+        const Triangle& t = topology.triangles[i];
+        const auto& edges = topology.edges[i];
+        if (std::count(edges.begin(), edges.end(), MeshTopology::kNoEdge) > 0) continue;
+        ++faces;
+        for (int side = 0; side < 3; ++side) {
+            if (++triangles_of[edges[side]] > 2) return 0;
+            if (sets.unite(t[side], t[(side + 1) % 3])) ++unions;
+        }
+    }
+    if (std::count(triangles_of.begin(), triangles_of.end(), 2) != topology.edge_count) return 0;
+    const std::int64_t vertices = count_vertices(topology), components = vertices - unions;
+    const std::int64_t characteristic = vertices - topology.edge_count + faces;
+    return std::max<std::int64_t>(0, components - characteristic / 2);
 }
 
 }  // namespace tracked_mcf

@@ -8,7 +8,6 @@
 #include <optional>
 #include <string>
 
-#include "filter_tracked_mcf/core/memory/memory_check.h"
 #include "filter_tracked_mcf/core/memory/process_memory.h"
 #include "filter_tracked_mcf/core/mesh/domain.h"
 #include "filter_tracked_mcf/core/mesh/measures.h"

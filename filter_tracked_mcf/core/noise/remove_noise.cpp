@@ -9,7 +9,6 @@
 #include <string>
 #include <utility>
 
-#include "filter_tracked_mcf/core/memory/memory_check.h"
 #include "filter_tracked_mcf/core/memory/process_memory.h"
 #include "filter_tracked_mcf/core/mesh/measures.h"
 #include "filter_tracked_mcf/core/noise/cross_validation.h"

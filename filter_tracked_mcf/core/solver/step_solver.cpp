@@ -141,10 +141,9 @@ private:
 }  // namespace
 
 std::unique_ptr<StepSolver> make_step_solver(const TrackedElements& elements,
-                                             ConstrainedByLevel constrained,
-                                             const FlowParameters& parameters) {
-    if (parameters.solver == Solver::OneWCycle) {
-        return std::make_unique<CycleSolver>(elements, std::move(constrained), parameters.cycles);
+                                             ConstrainedByLevel constrained, int cycles) {
+    if (cycles > 0) {
+        return std::make_unique<CycleSolver>(elements, std::move(constrained), cycles);
     }
     return std::make_unique<ConvergedSolver>(elements, std::move(constrained));
 }

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "filter_tracked_mcf/core/elements/tracked_elements.h"
-#include "filter_tracked_mcf/core/flow_parameters.h"
 #include "filter_tracked_mcf/core/flow_report.h"
 #include "filter_tracked_mcf/core/kernels/element_matrix.h"
 #include "filter_tracked_mcf/core/solver/field.h"
@@ -21,7 +20,7 @@ struct Solution {
     Field earlier_guess;
 };
 
-/// Solves the linear systems of a flow's steps by the method in FlowParameters::solver. Computes
+/// Solves the linear systems of a flow's steps by one of the methods of Solver. Computes
 /// everything that does not change between steps only once.
 class StepSolver {
 public:
@@ -43,10 +42,11 @@ public:
                        Solution& solution, StepReport& report) = 0;
 };
 
-/// Returns a new solver. `constrained` is what constrained_unknowns() returns; `elements` must
+/// Returns a new solver: the paper's with so many cycles, or with none, the one that converges.
+/// `constrained` is what constrained_unknowns() returns; `elements` must
 /// outlive the solver.
 std::unique_ptr<StepSolver> make_step_solver(const TrackedElements& elements,
                                              std::vector<std::vector<std::uint8_t>> constrained,
-                                             const FlowParameters& parameters);
+                                             int cycles);
 
 }  // namespace tracked_mcf

@@ -10,6 +10,7 @@
 
 #include "filter_tracked_mcf/core/flow/flow.h"
 #include "filter_tracked_mcf/core/mesh/measures.h"
+#include "tests/support/plans.h"
 #include "tests/support/shapes.h"
 #include "tests/unit/flows.h"
 
@@ -46,12 +47,12 @@ TriangleMesh sphere_at_corner(double factor) {
 
 TEST(Confinement, AllowsAHundredthOfTheDiagonalAndATenthOfACell) {
     const TriangleMesh mesh = shapes::geodesic_sphere(8);
-    const Flow flow(mesh, parameters(4, 1e-4, 1));
+    const Flow flow(plan_of(mesh, parameters(4, 1e-4, 1)));
     const double diagonal = box_of(mesh).diagonal().norm() / flow.report().cell_size;
     const auto holds = [&](double detail_size, double distance) {
-        Coefficients displacement = flow.displacement();
+        Coefficients displacement = flow.state().displacement;
         displacement.col(0).array() += distance;
-        return Confinement(flow.elements(), detail_size).holds(displacement);
+        return Confinement(flow.stepper().elements(), detail_size).holds(displacement);
     };
     const double margin = 0.01 * diagonal + 0.1;
     EXPECT_TRUE(holds(0, 0.99 * margin));

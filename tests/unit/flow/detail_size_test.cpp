@@ -11,6 +11,7 @@
 #include "filter_tracked_mcf/core/cells/grid.h"
 #include "filter_tracked_mcf/core/flow/flow.h"
 #include "filter_tracked_mcf/core/mesh/measures.h"
+#include "tests/support/plans.h"
 #include "tests/support/shapes.h"
 #include "tests/unit/flows.h"
 
@@ -129,7 +130,7 @@ protected:
 
 TEST_P(WavyPlate, IsResolvedByTheGrid) {
     // In units of the detail size. The plate's box has a side of at most its diagonal, 9.4.
-    const Flow flow(wavy_plate(1), parameters());
+    const Flow flow(plan_of(wavy_plate(1), parameters()));
     EXPECT_LE(flow.report().cell_size, 1.0 / 8);
 }
 

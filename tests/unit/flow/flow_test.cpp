@@ -10,6 +10,7 @@
 #include "filter_tracked_mcf/core/evolve.h"
 #include "filter_tracked_mcf/core/mesh/measures.h"
 #include "filter_tracked_mcf/core/mesh/mesh_topology.h"
+#include "tests/support/plans.h"
 #include "tests/support/shapes.h"
 #include "tests/unit/flows.h"
 
@@ -145,11 +146,11 @@ TEST(Flow, StopsWhenItsNumbersAreNotFinite) {
         FlowParameters p = parameters(4, 1e-4, 1);
         p.solver = solver;
         p.stabilization = std::numeric_limits<double>::quiet_NaN();  // validate() rejects it
-        Flow flow(shapes::bumpy_sphere(10), p);
+        Flow flow(plan_of(shapes::bumpy_sphere(10), p));
         EXPECT_FALSE(flow.step());
         EXPECT_EQ(flow.report().stop, Stop::StepFailed);
         EXPECT_TRUE(flow.report().steps.empty());
-        EXPECT_TRUE(flow.displacement().isZero(0));
+        EXPECT_TRUE(flow.state().displacement.isZero(0));
     }
 }
 

@@ -7,9 +7,10 @@
 #include <cmath>
 #include <string>
 
-#include "filter_tracked_mcf/core/elements/densities.h"
 #include "filter_tracked_mcf/core/flow/flow.h"
 #include "filter_tracked_mcf/core/mesh/measures.h"
+#include "filter_tracked_mcf/core/plan/densities.h"
+#include "tests/support/plans.h"
 #include "tests/support/shapes.h"
 #include "tests/unit/flows.h"
 
@@ -90,14 +91,14 @@ TEST(LocalDetailSize, IsATenthToTenTimesTheDetailSize) {
     ASSERT_GT(mean_edge_length(coarse), 2 * kLargestDetailRatio * mean_edge_length(mesh));
     FlowParameters p = following_edges();
     p.depth = 4;
-    const Flow flow(mesh, p);
-    const std::vector<float>& densities = flow.elements().densities;
+    const Flow flow(plan_of(mesh, p));
+    const std::vector<float>& densities = flow.stepper().elements().densities;
     const auto [least, most] = std::minmax_element(densities.begin(), densities.end());
     EXPECT_NEAR(*least, 1 / (kLargestDetailRatio * kLargestDetailRatio), 1e-8);
     EXPECT_GT(*most, 1);
     // The limit holds where the step is largest.
     p.step_size = 1e9;
-    EXPECT_NEAR(Flow(mesh, p).step_size().in_cells, 1e5 * double{*least}, 1);
+    EXPECT_NEAR(Flow(plan_of(mesh, p)).stepper().size().in_cells, 1e5 * double{*least}, 1);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "filter_tracked_mcf/core/flow/flow.h"
 #include "filter_tracked_mcf/core/system/stabilization.h"
+#include "tests/support/plans.h"
 #include "tests/support/shapes.h"
 #include "tests/unit/flows.h"
 #include "tests/unit/system.h"
@@ -24,8 +25,8 @@ FlowParameters of_order(int order) {
 
 /// Returns the embedding's coefficients after applying h to them `order` times, by dense matrices.
 Dense apply_h(const Flow& flow, const FlowParameters& p) {
-    const TrackedElements& elements = flow.elements();
-    const auto step_size = static_cast<float>(flow.step_size().in_cells);
+    const TrackedElements& elements = flow.stepper().elements();
+    const auto step_size = static_cast<float>(flow.stepper().size().in_cells);
     const Coefficients rest = Coefficients::Zero(elements.finest().unknown_count(), 3);
     ElementSystems whole, stiffness;
     assemble_elements(elements, rest, {1, step_size}, whole);
@@ -42,7 +43,7 @@ TEST(Order, IsTheNumberOfTimesThatHIsApplied) {
     const TriangleMesh mesh = shapes::bumpy_sphere(10);
     for (int order = 1; order <= kMaximumOrder; ++order) {
         const FlowParameters p = of_order(order);
-        Flow flow(mesh, p);
+        Flow flow(plan_of(mesh, p));
         const Coefficients expected = -apply_h(flow, p);
         ASSERT_TRUE(flow.step());
         TriangleMesh moved = mesh;
@@ -50,8 +51,9 @@ TEST(Order, IsTheNumberOfTimesThatHIsApplied) {
         double error = 0, size = 0;
         for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
             const Eigen::Vector3d displacement =
-                flow.elements().grid.cell_size *
-                evaluate_vertex(flow.elements(), expected, flow.elements().vertices[i]);
+                flow.stepper().elements().grid.cell_size *
+                evaluate_vertex(flow.stepper().elements(), expected,
+                                flow.stepper().elements().vertices[i]);
             error += (moved.positions[i] - mesh.positions[i] - displacement).squaredNorm();
             size += displacement.squaredNorm();
         }

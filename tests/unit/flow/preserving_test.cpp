@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "filter_tracked_mcf/core/cells/grid.h"
+#include "tests/support/plans.h"
 #include "tests/support/shapes.h"
 #include "tests/unit/flows.h"
 
@@ -227,15 +228,13 @@ TEST(PreservingVolume, MovesWithThePressureOfTheSameStep) {
     // response.
     const TriangleMesh mesh = shapes::bumpy_sphere(20);
     FlowParameters p = preserving(Preserve::Volume, 1e-3, 1);
-    Flow restored(mesh, p);
+    Flow restored(plan_of(mesh, p));
     ASSERT_TRUE(restored.step());
     p.preserve = Preserve::None;
-    Flow plain(mesh, p);
+    Flow plain(plan_of(mesh, p));
     ASSERT_TRUE(plain.step());
-    const Coefficients difference = restored.displacement() - plain.displacement();
-    StepReport report;
-    const Coefficients response =
-        plain.stepper().pressure_response(plain.stepper().start(), {p.tolerance}, report);
+    const Coefficients difference = restored.state().displacement - plain.state().displacement;
+    const Coefficients& response = restored.stepper().pressure_response();
     const double factor = difference.cwiseProduct(response).sum() / response.squaredNorm();
     EXPECT_GT(factor, 0);
     EXPECT_LT((difference - factor * response).norm(), 1e-10 * difference.norm());

@@ -9,6 +9,7 @@
 
 #include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/flow/flow.h"
+#include "tests/support/plans.h"
 #include "tests/support/shapes.h"
 #include "tests/unit/flows.h"
 
@@ -56,7 +57,7 @@ TEST(Quality, IsEmptyUnlessAskedFor) {
 
 TEST(Quality, VelocitiesAreZeroUnlessTheMeanCurvatureIsAskedFor) {
     const TriangleMesh mesh = sphere();
-    Flow flow(mesh, measuring(Quality::Displacement));
+    Flow flow(plan_of(mesh, measuring(Quality::Displacement)));
     ASSERT_TRUE(flow.step());
     for (const Eigen::Vector3d& velocity : flow.velocities(mesh.positions.size())) {
         EXPECT_TRUE(velocity.isZero(0));

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "filter_tracked_mcf/core/flow/flow.h"
+#include "tests/support/plans.h"
 #include "tests/support/shapes.h"
 #include "tests/unit/flows.h"
 
@@ -54,8 +55,8 @@ TEST(Selection, FlowsAsTheSelectedFacesAlone) {
     FlowParameters p = parameters(6, 1e-3, 3);
     p.absolute = true;
     const TriangleMesh part = part_of(mesh, top);
-    Flow of_selection(Domain(mesh, top, p.boundary), p);
-    Flow of_part(part, p);
+    Flow of_selection(plan_of(mesh, top, p));
+    Flow of_part(plan_of(part, p));
     for (int step = 0; step < p.iterations; ++step) {
         of_selection.step();
         of_part.step();

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "filter_tracked_mcf/core/flow/flow.h"
+#include "tests/support/plans.h"
 #include "tests/support/shapes.h"
 #include "tests/unit/flows.h"
 
@@ -20,8 +21,8 @@ FlowState stepped(Stepper& stepper, const FlowState& from, double share = 1) {
 TEST(Stepper, AStepIsAFunctionOfItsState) {
     FlowParameters p = parameters(5, 2e-3, 1);
     p.quality = Quality::MeanCurvature;
-    Flow flow(bumpy_cap(12), p);
-    Stepper& stepper = flow.stepper();
+    const TriangleMesh cap = bumpy_cap(12);
+    Stepper stepper = stepper_of(plan_of(cap, p));
     const FlowState start = stepper.start();
     const FlowState first = stepped(stepper, start);
     const FlowState second = stepped(stepper, first);
@@ -42,8 +43,7 @@ TEST(Stepper, PinchedUnknownsBelongToTheStateThatHasPinched) {
         const double waist = 0.06 + 0.94 * p[0] * p[0];
         p = Eigen::Vector3d(2 * p[0], waist * p[1], waist * p[2]);
     }
-    Flow flow(mesh, parameters(5, 2e-4, 1));
-    Stepper& stepper = flow.stepper();
+    Stepper stepper = stepper_of(plan_of(mesh, parameters(5, 2e-4, 1)));
     const FlowState start = stepper.start();
     FlowState state = start;
     for (int i = 0; i < 40 && state.constrained == start.constrained; ++i) {

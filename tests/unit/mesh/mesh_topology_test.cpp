@@ -159,5 +159,20 @@ TEST(Orientation, OfEdgesWithManyTriangles) {
     EXPECT_FALSE(oriented(fins));
 }
 
+TEST(Genus, IsTheNumberOfHandlesOfAllComponents) {
+    const auto genus = [](const TriangleMesh& mesh) { return genus_of(topology_of(mesh)); };
+    const TriangleMesh sphere = shapes::geodesic_sphere(3), torus = shapes::torus(12, 8, 3, 1);
+    EXPECT_EQ(genus(sphere), 0);
+    EXPECT_EQ(genus(torus), 1);
+    EXPECT_EQ(genus(shapes::merged(sphere, torus)), 1);
+    EXPECT_EQ(
+        genus(shapes::merged(
+            torus, shapes::transformed(torus, Eigen::Affine3d(Eigen::Translation3d(9, 0, 0))))),
+        2);
+    TriangleMesh open = torus;
+    open.triangles.pop_back();
+    EXPECT_EQ(genus(open), 0);
+}
+
 }  // namespace
 }  // namespace tracked_mcf

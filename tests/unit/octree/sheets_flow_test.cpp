@@ -15,6 +15,7 @@
 #include "filter_tracked_mcf/core/solver/paper/multigrid.h"
 #include "filter_tracked_mcf/core/solver/paper/transfer.h"
 #include "filter_tracked_mcf/core/system/constrained_cells.h"
+#include "tests/support/plans.h"
 #include "tests/unit/octree/sheets.h"
 
 namespace tracked_mcf {
@@ -88,7 +89,7 @@ FlowParameters one_step(double step_size) {
 }
 
 TriangleMesh after_a_step(TriangleMesh mesh, const FlowParameters& parameters, const Grid& grid) {
-    Flow flow(mesh, parameters, grid);
+    Flow flow(plan_of(mesh, parameters, grid));
     flow.step();
     flow.move_vertices(mesh.positions);
     return mesh;
@@ -232,9 +233,9 @@ TEST(Sheets, TwoClosePiecesFlowAsEachAloneBitForBit) {
 TEST(Sheets, ManySeparateTrianglesFlow) {
     const TriangleMesh mesh = shapes::separate_triangles(20000);
     const Grid grid = enclosing_grid(mesh, 6);
-    const Flow flow(mesh, one_step(1e-5), grid);
-    EXPECT_EQ(flow.elements().levels[0].element_count(), 20000);
-    EXPECT_EQ(flow.elements().levels[0].unknown_count(), 8 * 20000);
+    const Flow flow(plan_of(mesh, one_step(1e-5), grid));
+    EXPECT_EQ(flow.stepper().elements().levels[0].element_count(), 20000);
+    EXPECT_EQ(flow.stepper().elements().levels[0].unknown_count(), 8 * 20000);
     const TriangleMesh after = after_a_step(mesh, one_step(1e-5), grid);
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
         ASSERT_TRUE(after.positions[i].allFinite());
@@ -246,11 +247,11 @@ TEST(Sheets, AreCountedInTheReport) {
     const TriangleMesh mesh = close_shells();
     FlowParameters parameters;
     parameters.depth = 4;
-    const Flow separate(mesh, parameters);
-    EXPECT_EQ(separate.report().elements, separate.elements().finest().element_count());
+    const Flow separate(plan_of(mesh, parameters));
+    EXPECT_EQ(separate.report().elements, separate.stepper().elements().finest().element_count());
     EXPECT_GT(separate.report().elements, separate.report().cells);
     parameters.separate_sheets = false;
-    const Flow glued(mesh, parameters);
+    const Flow glued(plan_of(mesh, parameters));
     EXPECT_EQ(glued.report().cells, separate.report().cells);
     EXPECT_EQ(glued.report().elements, glued.report().cells);
 }

@@ -134,27 +134,6 @@ TEST(Progress, IsReportedByTheCallingThreadAndRisesFromZeroToOne) {
     }
 }
 
-TEST(Progress, NeverDecreasesInAFlowThatIsMadeAgainBecauseItsAreaHasGrown) {
-    // A cap that is much thinner than a cell.
-    TriangleMesh mesh =
-        shapes::transformed(bumpy_cap(9), Eigen::Affine3d(Eigen::Scaling(1.0, 1e-3, 1e-3)));
-    FlowParameters p = parameters(4, 1e-3, 2);
-    Calls calls;
-    TriangleMesh flowing = mesh;
-    const FlowReport report = evolve(flowing, p, calls.progress());
-    ASSERT_EQ(
-        std::count(calls.phases.begin(), calls.phases.end(), "Step 2 of 2, again with more care"),
-        1);
-    EXPECT_TRUE(std::is_sorted(calls.fractions.begin(), calls.fractions.end()));
-    EXPECT_EQ(std::count(calls.phases.begin(), calls.phases.end(), "Checking the mesh"), 1);
-    // The report has the iterations of both.
-    p.tolerance = kCarefulTolerance;
-    const FlowReport careful = evolve(mesh, p);
-    for (std::size_t i = 0; i < 2; ++i) {
-        EXPECT_GT(report.steps[i].solver_iterations, careful.steps[i].solver_iterations);
-    }
-}
-
 TEST(Progress, NamesThePhases) {
     TriangleMesh mesh = shapes::bumpy_sphere(5);
     FlowParameters p = parameters(0, 1e-3, 2);

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "filter_tracked_mcf/core/elements/densities.h"
+#include "filter_tracked_mcf/core/plan/densities.h"
 
 #include <algorithm>
 
 #include "filter_tracked_mcf/core/mesh/measures.h"
-#include "filter_tracked_mcf/core/parallel/parallel.h"
 
 namespace tracked_mcf {
 
@@ -32,11 +31,10 @@ std::vector<double> local_edge_lengths(const Domain& domain) {
 
 }  // namespace
 
-std::vector<double> triangle_densities(const Domain& domain, bool follows_edges) {
+std::vector<double> triangle_densities(const Domain& domain, bool follows_edges, double mean) {
     if (!follows_edges && !domain.has_strengths()) return {};
     std::vector<double> lengths;
     if (follows_edges) lengths = local_edge_lengths(domain);
-    const double mean = mean_edge_length(domain.surface());
     const auto limited = [](double ratio) {
         return std::clamp(ratio, 1 / kLargestDetailRatio, kLargestDetailRatio);
     };
@@ -47,27 +45,6 @@ std::vector<double> triangle_densities(const Domain& domain, bool follows_edges)
         if (follows_edges) ratio *= limited((lengths[a] + lengths[b] + lengths[c]) / 3 / mean);
         densities.push_back(1 / (ratio * ratio));
     }
-    return densities;
-}
-
-std::vector<float> element_densities(const TrackedElements& elements,
-                                     const std::vector<double>& of_triangle,
-                                     const RawVector<FragmentEntry>& fragments) {
-    const std::int32_t count = elements.finest().element_count();
-    std::vector<float> densities(static_cast<std::size_t>(count) + kElementBatch, 1.0F);
-    parallel_for_rows(count, [&](std::int32_t element) {
-        double area = 0, mass = 0;
-        std::int64_t sample = elements.sample_begin[element];
-        for (std::int64_t i = elements.fragment_begin[element];
-             i < elements.fragment_begin[element + 1]; ++i) {
-            const std::int64_t end = sample + elements.fragments[i].sample_count;
-            for (; sample < end; ++sample) {
-                area += elements.samples.weight(sample);
-                mass += elements.samples.weight(sample) * of_triangle[fragments[i].triangle];
-            }
-        }
-        if (area > 0) densities[element] = static_cast<float>(mass / area);
-    });
     return densities;
 }
 

@@ -4,18 +4,17 @@
 #include "filter_tracked_mcf/core/cells/fragments.h"
 #include "filter_tracked_mcf/core/cells/grid.h"
 #include "filter_tracked_mcf/core/flow_parameters.h"
-#include "filter_tracked_mcf/core/memory/memory_check.h"
-#include "filter_tracked_mcf/core/memory/memory_estimate.h"
 #include "filter_tracked_mcf/core/mesh/domain.h"
+#include "filter_tracked_mcf/core/plan/memory_check.h"
+#include "filter_tracked_mcf/core/plan/memory_estimate.h"
 #include "filter_tracked_mcf/core/triangle_mesh.h"
 
 namespace tracked_mcf {
 
 /// Returns the least depth, 1 to kMaximumDepth, at which the cells of the grid's cube resolve the
 /// detail size: a cell is at most about as wide as it if it is at least the default, else at most
-/// half as wide. Returns 0 if the parameters give a step
-/// size: its caller knows the grid.
-int resolving_depth(const SurfaceView& mesh, const Grid& grid, const FlowParameters& parameters);
+/// half as wide. Lengths are in mesh units.
+int resolving_depth(double detail_size, double mean_edge, const Grid& grid);
 
 /// Clips the domain's surface, of this size, to `cube` (a grid of depth 0) at the depth, 1 to
 /// kMaximumDepth, whose expected number of unknowns is nearest to the number of vertices. It is

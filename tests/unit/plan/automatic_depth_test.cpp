@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "filter_tracked_mcf/core/octree/automatic_depth.h"
+#include "filter_tracked_mcf/core/plan/automatic_depth.h"
 
 #include <gtest/gtest.h>
 
@@ -79,32 +79,29 @@ double cells_per_detail(const TriangleMesh& mesh, double detail_size, int depth)
     return detail_size / enclosing_grid(mesh, depth).cell_size;
 }
 
+int least_depth(const TriangleMesh& mesh, double detail_size, int depth = 0) {
+    return resolving_depth(detail_size, mean_edge_length(mesh), enclosing_grid(mesh, depth));
+}
+
 TEST(ResolvingDepth, IsTheLeastWithTwoCellsPerDetailThatIsFinerThanTheDefault) {
     const TriangleMesh mesh = shapes::geodesic_sphere(8);
-    FlowParameters p;
     for (const double edges : {2.4, 1.0, 0.3, 0.05}) {
-        p.detail_size = edges * mean_edge_length(mesh);
-        const int depth = resolving_depth(mesh, enclosing_grid(mesh, 0), p);
-        EXPECT_EQ(resolving_depth(mesh, enclosing_grid(mesh, 5), p), depth);
-        EXPECT_GE(cells_per_detail(mesh, p.detail_size, depth), 2) << edges;
-        EXPECT_LT(cells_per_detail(mesh, p.detail_size, depth - 1), 2) << edges;
+        const double detail_size = edges * mean_edge_length(mesh);
+        const int depth = least_depth(mesh, detail_size);
+        EXPECT_EQ(least_depth(mesh, detail_size, 5), depth);
+        EXPECT_GE(cells_per_detail(mesh, detail_size, depth), 2) << edges;
+        EXPECT_LT(cells_per_detail(mesh, detail_size, depth - 1), 2) << edges;
     }
-    p.detail_size = 1e-9;
-    EXPECT_EQ(resolving_depth(mesh, enclosing_grid(mesh, 0), p), kMaximumDepth);
-    p.step_size = 1;
-    EXPECT_EQ(resolving_depth(mesh, enclosing_grid(mesh, 0), p), 0);
+    EXPECT_EQ(least_depth(mesh, 1e-9), kMaximumDepth);
 }
 
 TEST(ResolvingDepth, TakesCellsAboutAsWideAsTheDefaultDetailAndGreaterDetail) {
     const TriangleMesh mesh = shapes::geodesic_sphere(8);
-    FlowParameters p;
     const double by_default = kDefaultDetailInEdges * mean_edge_length(mesh);
-    for (const double detail_size : {0.995 * by_default, 0.0, 1.5 * by_default}) {
-        p.detail_size = detail_size;
-        const int depth = resolving_depth(mesh, enclosing_grid(mesh, 0), p);
-        const double asked = detail_size > 0 ? detail_size : by_default;
-        EXPECT_GE(cells_per_detail(mesh, asked, depth), 0.9) << detail_size;
-        EXPECT_LT(cells_per_detail(mesh, asked, depth - 1), 0.9) << detail_size;
+    for (const double detail_size : {0.995 * by_default, by_default, 1.5 * by_default}) {
+        const int depth = least_depth(mesh, detail_size);
+        EXPECT_GE(cells_per_detail(mesh, detail_size, depth), 0.9) << detail_size;
+        EXPECT_LT(cells_per_detail(mesh, detail_size, depth - 1), 0.9) << detail_size;
     }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "filter_tracked_mcf/core/memory/memory_check.h"
+#include "filter_tracked_mcf/core/plan/memory_check.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "filter_tracked_mcf/core/cells/cubature.h"
 #include "filter_tracked_mcf/core/cells/grid.h"
 #include "filter_tracked_mcf/core/flow_parameters.h"
 #include "filter_tracked_mcf/core/mesh/domain.h"
@@ -39,7 +40,7 @@ struct ExpectedCounts {
 };
 
 ExpectedCounts expected_counts(const SurfaceSize& size, const Grid& grid,
-                               const FlowParameters& parameters);
+                               const Discretisation& discretisation);
 
 /// Returns the expected peak of the memory, in bytes, that evolve() takes besides the mesh.
 double estimate_flow_bytes(const SurfaceSize& size, const Grid& grid,

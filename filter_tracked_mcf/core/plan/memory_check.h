@@ -2,25 +2,22 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 
 #include "filter_tracked_mcf/core/cells/grid.h"
 #include "filter_tracked_mcf/core/flow_parameters.h"
-#include "filter_tracked_mcf/core/memory/memory_estimate.h"
+#include "filter_tracked_mcf/core/memory/process_memory.h"
+#include "filter_tracked_mcf/core/plan/memory_estimate.h"
 
 namespace tracked_mcf {
-
-/// Throws NotEnoughMemory if `task` ("Removing noise") needs these bytes and fewer are free. The
-/// message ends with `advice`.
-void check_free_memory(double bytes, const std::string& task, const std::string& advice);
 
 /// Refuses depths that need more memory than is available, before the work on them begins.
 class MemoryCheck {
 public:
-    /// Takes the flow's grid at any depth, and the bytes that the flow may take, or 0 if they are
-    /// unknown: then every depth fits.
+    /// Takes the flow's grid at any depth, and the bytes that the flow may take, by default those
+    /// that are free now, or 0 if they are unknown: then every depth fits. Errs on the safe side by
+    /// the domain's own 30 bytes per triangle, which the estimate includes.
     MemoryCheck(const SurfaceSize& size, const Grid& cube, const FlowParameters& parameters,
-                std::int64_t available)
+                std::int64_t available = available_memory_bytes())
         : size_(size), cube_(cube), parameters_(parameters), available_(available) {}
 
     /// Returns whether a flow at this depth is expected to fit.
@@ -45,9 +42,5 @@ private:
     FlowParameters parameters_;
     std::int64_t available_;
 };
-
-/// Returns the check for a domain's surface, with the memory that is available on this machine now.
-/// It errs on the safe side by the domain's own 30 bytes per triangle, which the estimate includes.
-MemoryCheck check_of(const SurfaceSize& size, const Grid& cube, const FlowParameters& parameters);
 
 }  // namespace tracked_mcf

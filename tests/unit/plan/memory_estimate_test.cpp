@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "filter_tracked_mcf/core/memory/memory_estimate.h"
+#include "filter_tracked_mcf/core/plan/memory_estimate.h"
 
 #include <gtest/gtest.h>
 
@@ -29,7 +29,8 @@ FlowParameters free_at(int depth) {
 
 /// Returns the elements of a surface in a grid.
 TrackedElements elements_of(const Domain& domain, const Grid& grid, const FlowParameters& p) {
-    return build_tracked_elements(domain, clip_to_grid(domain.surface(), grid), p);
+    return build_tracked_elements(domain, clip_to_grid(domain.surface(), grid),
+                                  discretisation_of(p));
 }
 
 /// Expects that the counts agree with those of the flow within 4 %. Only the samples of the paper's
@@ -38,7 +39,7 @@ void expect_counts(const TriangleMesh& mesh, FlowParameters p) {
     p.solver = Solver::OneWCycle;
     const Domain domain(mesh, p.boundary);
     const Grid grid = enclosing_grid(mesh, p.depth);
-    const ExpectedCounts counts = expected_counts(size_of(domain), grid, p);
+    const ExpectedCounts counts = expected_counts(size_of(domain), grid, discretisation_of(p));
     const TrackedElements elements = elements_of(domain, grid, p);
     const auto expect_near = [](double expected, std::size_t number) {
         const auto counted = static_cast<double>(number);
@@ -88,7 +89,7 @@ TEST(ExpectedCounts, CountSheetsSeparatelyOrPerCell) {
     together.separate_sheets = false;
     const Domain domain(mesh, together.boundary);
     const ExpectedCounts counts =
-        expected_counts(size_of(domain), enclosing_grid(mesh, 1), together);
+        expected_counts(size_of(domain), enclosing_grid(mesh, 1), discretisation_of(together));
     EXPECT_LE(counts.elements, 8) << "there are no more cells";
     EXPECT_LE(counts.unknowns, 27);
 }
@@ -100,7 +101,8 @@ TEST(ExpectedCounts, KnowThatSmallFragmentsHaveFewerSamples) {
         const FlowParameters p = free_at(depth);
         const Grid grid = enclosing_grid(mesh, depth);
         const auto counted = static_cast<double>(elements_of(domain, grid, p).samples.size());
-        EXPECT_NEAR(expected_counts(size_of(domain), grid, p).samples, counted, 0.1 * counted)
+        EXPECT_NEAR(expected_counts(size_of(domain), grid, discretisation_of(p)).samples, counted,
+                    0.1 * counted)
             << depth;
     }
 }

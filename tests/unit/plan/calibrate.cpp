@@ -17,8 +17,8 @@
 #include <vector>
 
 #include "filter_tracked_mcf/core/evolve.h"
-#include "filter_tracked_mcf/core/memory/memory_estimate.h"
 #include "filter_tracked_mcf/core/memory/process_memory.h"
+#include "filter_tracked_mcf/core/plan/memory_estimate.h"
 #include "tests/support/off_file.h"
 #include "tests/support/shapes.h"
 
@@ -70,7 +70,7 @@ Measurement measure(const Flow& flow) {
     result.unknowns = static_cast<double>(report.unknowns);
     const SurfaceSize size = size_of(Domain(initial, flow.parameters.boundary));
     const Grid grid = enclosing_grid(initial, report.depth);
-    const ExpectedCounts counts = expected_counts(size, grid, flow.parameters);
+    const ExpectedCounts counts = expected_counts(size, grid, discretisation_of(flow.parameters));
     result.quantities << 1, size.vertices, counts.fragments, counts.samples, counts.all_unknowns,
         counts.all_elements;
     result.estimate = static_cast<double>(report.estimated_memory_bytes) - before;

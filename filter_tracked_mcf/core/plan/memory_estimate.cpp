@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "filter_tracked_mcf/core/memory/memory_estimate.h"
+#include "filter_tracked_mcf/core/plan/memory_estimate.h"
 
 #include <algorithm>
 #include <atomic>
@@ -22,7 +22,7 @@ struct BytesPer {
     double unknown, element;  ///< of all levels
 };
 
-// tests/unit/memory/calibrate.cpp measures the peaks of many flows and fits these numbers to them.
+// tests/unit/plan/calibrate.cpp measures the peaks of many flows and fits these numbers to them.
 // Run it again after a change of the data that a flow keeps. The bytes of a converged flow itself
 // are those of the smallest flows, one triangle and coarse spheres.
 constexpr BytesPer kClipping = {0.9e6, 40, 56, 0, 0, 0};
@@ -173,7 +173,7 @@ SurfaceSize size_of(const Domain& domain) {
 }
 
 ExpectedCounts expected_counts(const SurfaceSize& size, const Grid& grid,
-                               const FlowParameters& parameters) {
+                               const Discretisation& discretisation) {
     ExpectedCounts counts;
     for (int depth = 0; depth <= grid.depth; ++depth) {
         const double cell = std::ldexp(grid.cell_size, grid.depth - depth);
@@ -184,13 +184,12 @@ ExpectedCounts expected_counts(const SurfaceSize& size, const Grid& grid,
         // crossing of an edge and a plane, and four for each crossing of the triangle and a line. A
         // polygon has two split triangles less than corners.
         counts.fragments = size.triangles + extents + shadows;
-        const double large = samples_small_fragments_whole(parameters)
-                                 ? share_of_large(size.triangles, extents, shadows)
-                                 : 1;
+        const double large =
+            discretisation.whole_fragments ? share_of_large(size.triangles, extents, shadows) : 1;
         counts.samples = (counts.fragments + large * (extents + shadows)) *
-                         static_cast<double>(cubature_rule(parameters.cubature).size());
+                         static_cast<double>(cubature_rule(discretisation.cubature).size());
         const LevelCounts level =
-            level_counts(size, cell, depth, counts.fragments, parameters.separate_sheets);
+            level_counts(size, cell, depth, counts.fragments, discretisation.separate_sheets);
         counts.elements = level.elements;
         counts.unknowns = level.unknowns;
         counts.all_elements += level.elements;
@@ -201,12 +200,12 @@ ExpectedCounts expected_counts(const SurfaceSize& size, const Grid& grid,
 
 double estimate_clip_bytes(const SurfaceSize& size, const Grid& grid,
                            const FlowParameters& parameters) {
-    return bytes_of(kClipping, size, expected_counts(size, grid, parameters));
+    return bytes_of(kClipping, size, expected_counts(size, grid, discretisation_of(parameters)));
 }
 
 double estimate_flow_bytes(const SurfaceSize& size, const Grid& grid,
                            const FlowParameters& parameters) {
-    const ExpectedCounts counts = expected_counts(size, grid, parameters);
+    const ExpectedCounts counts = expected_counts(size, grid, discretisation_of(parameters));
     const BytesPer& solver = parameters.solver == Solver::Converged ? kConverged : kOneWCycle;
     double bytes = bytes_of(solver, size, counts);
     if (parameters.preserve == Preserve::Area) bytes += bytes_of(kArea, size, counts);

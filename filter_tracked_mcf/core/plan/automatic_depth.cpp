@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "filter_tracked_mcf/core/octree/automatic_depth.h"
+#include "filter_tracked_mcf/core/plan/automatic_depth.h"
 
 #include <algorithm>
 #include <cmath>
@@ -79,10 +79,7 @@ int deepest_with_few_fragments(const SurfaceSize& size, const Grid& cube) {
 
 }  // namespace
 
-int resolving_depth(const SurfaceView& mesh, const Grid& grid, const FlowParameters& parameters) {
-    if (parameters.step_size > 0) return 0;
-    const double mean_edge = mean_edge_length(mesh);
-    const double detail_size = detail_size_of(parameters, mean_edge);
+int resolving_depth(double detail_size, double mean_edge, const Grid& grid) {
     const bool is_fine = detail_size < kAlmost * kDefaultDetailInEdges * mean_edge;
     const double per_detail = is_fine ? kCellsPerDetail : kCellsPerDefaultDetail;
     const double cells = per_detail * grid.cell_size * grid.cells_per_side() / detail_size;

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "filter_tracked_mcf/core/mesh/domain.h"
+
+namespace tracked_mcf {
+
+/// Edge lengths multiply the detail size at a place by at most this number and at least its
+/// inverse; strengths, by at least its inverse.
+inline constexpr double kLargestDetailRatio = 10;
+
+/// Returns the mass density of each triangle of the domain's surface; nothing if all are 1. In
+/// equation 2, a density ρ acts like a time step δ / ρ, so it is 1 / r² where the detail size is r
+/// times the usual one. r is the product of two limited factors: the mean strength of the vertices
+/// and, if the detail size `follows_edges`, the local edge length over the `mean` one.
+std::vector<double> triangle_densities(const Domain& domain, bool follows_edges, double mean);
+
+}  // namespace tracked_mcf
