@@ -585,7 +585,7 @@ class Errors(unittest.TestCase):
     def test_warnings(self):
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
-            _, report = smooth(depth=2, detail_size=0.01)
+            _, report = smooth(depth=2, detail_size=0.2)
         self.assertEqual([str(warning.message) for warning in caught], report["warnings"])
         self.assertIn("The cells of depth 2 ", report["warnings"][0])
         self.assertIs(caught[0].category, tracked_mcf.FlowWarning)
@@ -596,7 +596,7 @@ class Errors(unittest.TestCase):
         self.assertEqual(raised.filename, __file__)
         with warnings.catch_warnings(), self.assertRaises(tracked_mcf.FlowWarning):
             warnings.simplefilter("error")
-            smooth(depth=2, detail_size=0.01)
+            smooth(depth=2, detail_size=0.2)
         with warnings.catch_warnings():
             warnings.simplefilter("error")
             self.assertEqual(smooth()[1]["warnings"], [])
@@ -704,7 +704,7 @@ class Steps(unittest.TestCase):
     def test_warnings(self):
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
-            self.assertEqual(len(list(self.steps(depth=2, detail_size=0.01))), 3)
+            self.assertEqual(len(list(self.steps(depth=2, detail_size=0.2))), 3)
         self.assertIn("The cells of depth 2 ", str(caught[0].message))
         self.assertIs(caught[0].category, tracked_mcf.FlowWarning)
         self.assertEqual(caught[0].filename, __file__)

@@ -276,18 +276,32 @@ TEST_F(Program, AMeshThatCannotMoveIsAWarning) {
 }
 
 TEST_F(Program, AWarningNamesTheDepthThatResolvesTheDetail) {
+    write_file(folder_ / "grid.off", grid(20));
     const auto errors_at = [&](const std::string& depth) {
-        return run("a.off b.ply --detail-size 10% --quiet --depth " + depth).errors;
+        return run("grid.off b.ply --detail-size 12% --quiet --depth " + depth).errors;
     };
-    const std::string errors = errors_at("3");
+    const std::string errors = errors_at("2");
     std::smatch depth;
     ASSERT_TRUE(std::regex_match(
         errors, depth,
-        std::regex("tracked_mcf: warning: The cells of depth 3 are [0-9.]+ wide, too wide for the "
+        std::regex("tracked_mcf: warning: The cells of depth 2 are [0-9.]+ wide, too wide for the "
                    "detail size [0-9.]+. If the mesh has detail as small as that, take depth "
                    "([0-9]+).\n")))
         << errors;
     EXPECT_THAT(errors_at(depth[1]), IsEmpty());
+}
+
+TEST_F(Program, DetailFinerThanTheMeshIsAWarningAndAddsNoDepth) {
+    write_file(folder_ / "grid.off", grid(20));
+    const ProgramRun fine = run("grid.off b.ply --detail-size 1% --report fine.json");
+    EXPECT_THAT(fine.errors, StartsWith("tracked_mcf: warning: The detail size is 0.2"));
+    EXPECT_THAT(fine.errors, HasSubstr(" mean edges; below 2 little changes. The default is 2.5 "));
+    ASSERT_EQ(run("grid.off b.ply --detail-size 0.001% --report finer.json").exit_code, 0);
+    const auto depth_of = [&](const char* report) {
+        const std::string text = read_file(folder_ / report);
+        return text.substr(text.find("\n  \"depth\": "), 13);
+    };
+    EXPECT_EQ(depth_of("finer.json"), depth_of("fine.json"));
 }
 
 TEST_F(Program, FlowsDiffer) {

@@ -262,7 +262,7 @@ TEST(Report, HoldsEveryWarningThatIsPrinted) {
     const ProgramRun run = run_program(folder, "a.obj b.ply --detail-size 50% --report r.json");
     ASSERT_EQ(run.exit_code, 0) << run.errors;
     const Json warnings = Json::parse(read_file(folder / "r.json"))["warnings"];
-    ASSERT_EQ(warnings.size(), 2u) << run.errors;
+    ASSERT_EQ(warnings.size(), 3u) << run.errors;
     std::string lines;
     for (const Json& warning : warnings) {
         lines += "tracked_mcf: warning: " + warning.get<std::string>() + "\n";

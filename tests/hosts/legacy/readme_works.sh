@@ -48,6 +48,6 @@ while read -r _ arguments; do
     read -ra words <<< "$arguments"
     "$tool" "${words[@]}" 2> errors.txt
     # The hand is coarser than a scan, and the mannequin's neck is rough for the size of its hole.
-    ! grep -vE "warning: The (cells of depth .* are .* wide|surface around .* is rough)" errors.txt || exit 1
+    ! grep -vE "warning: The (detail size is .* mean edges|surface around .* is rough)" errors.txt || exit 1
 done <<< "$commands"
 [ "$(wc -l <<< "$commands")" -ge 5 ]
