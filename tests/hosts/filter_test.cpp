@@ -295,9 +295,10 @@ TEST(Warnings, TellOfALimitedStepADetailBelowACellAndASuddenLoss) {
     report.depth = 9;
     report.mean_edge = 2;
     ASSERT_EQ(warnings().size(), 1U);
-    EXPECT_EQ(warnings()[0],
-              "The detail size is 0.5 mean edges; below 2 little changes. The default is 2.5 edges, "
-              "5.");
+    EXPECT_EQ(
+        warnings()[0],
+        "The detail size is 0.5 mean edges; below 2 little changes. The default is 2.5 edges, "
+        "5.");
     report.mean_edge = 0.5;
     EXPECT_TRUE(warnings().empty());
     report.genus = 2;
