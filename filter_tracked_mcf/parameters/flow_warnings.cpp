@@ -100,6 +100,23 @@ std::string handles(const FlowReport& report) {
 /// A step that removes more of the area than this has changed more than noise.
 constexpr double kLargeLoss = 0.1;
 
+/// A closed surface that keeps less of its area than this has lost its shape.
+constexpr double kLost = 0.1;
+
+/// Empty unless waves as long as a closed surface were removed, and almost all of it with them.
+std::string lost_shape(const FlowReport& report) {
+    const double grid = std::ldexp(report.cell_size, report.depth);
+    if (report.detail_size <= grid || report.boundary_edges > 0 || report.steps.empty() ||
+        report.area_after >= kLost * report.area_before)
+        return {};
+    std::ostringstream text;
+    text.precision(3);
+    text << "The detail size " << report.detail_size << " is longer than the mesh, and "
+         << 100 * (1 - report.area_after / report.area_before)
+         << " % of the area is gone. Take a smaller one, such as 2 % of the diagonal.";
+    return text.str();
+}
+
 /// Empty unless a step removed much of the area, though the shape was to be kept: waves as long as
 /// the grid are all of it.
 std::string sudden_loss(const FlowReport& report) {
@@ -148,7 +165,8 @@ std::vector<std::string> warnings_of(const FlowParameters& parameters, const Flo
     std::vector<std::string> warnings;
     for (const std::string& warning :
          {early_stop(report, parameters.iterations), limited_step_size(report),
-          unresolved_detail(report), fine_detail(report), handles(report), sudden_loss(report)}) {
+          unresolved_detail(report), fine_detail(report), handles(report), lost_shape(report),
+          sudden_loss(report)}) {
         if (!warning.empty()) warnings.push_back(warning);
     }
     const std::string short_steps = shortfall(report, parameters.tolerance);

@@ -112,7 +112,7 @@ std::string summary(const NoiseParameters& /*parameters*/, const NoiseReport& re
     if (report.steps > 0) {
         text += "\nThe noise along the normals was about " + digits(report.noise, 3) + ".";
         if (report.crease_share > 0) {
-            text += "\nCreases were kept. They cross " + digits(100 * report.crease_share, 2) +
+            text += "\nCreases were kept. They cross " + digits(100 * report.crease_share, 3) +
                     " % of the area.";
         }
         if (report.detail_size > 0) {

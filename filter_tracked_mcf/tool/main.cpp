@@ -128,6 +128,17 @@ void answer_or_smooth(std::vector<std::string> arguments) {
         std::cout << line.answer << std::flush;
 }
 
+/// Throws InvalidParameter if the first argument is a command of the program, but for its dashes.
+void refuse_misspelt_command(const std::string& argument) {
+    std::string letters;
+    for (const char c : argument) {
+        if (c != '-' && c != '_') letters += c;
+    }
+    if (letters == "removenoise") {
+        throw InvalidParameter(argument + " is no command; do you mean remove-noise?");
+    }
+}
+
 int fail(ExitCode code, std::string message) {
     complain(std::move(message));
     return code;
@@ -147,6 +158,7 @@ int main(int argc, char** argv) {
             arguments.erase(arguments.begin());
             answer_or_smooth<FairParameters>(std::move(arguments));
         } else {
+            if (!arguments.empty()) refuse_misspelt_command(arguments[0]);
             answer_or_smooth<FlowParameters>(std::move(arguments));
         }
         if (!std::cout) {

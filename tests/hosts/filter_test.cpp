@@ -207,7 +207,7 @@ TEST(Summary, OfNoiseHasAFactInEachLine) {
     EXPECT_EQ(summary({}, report),
               "Removed noise from 100 vertices in 0.12 s.\n"
               "The noise along the normals was about 0.0123.\n"
-              "Creases were kept. They cross 5.7 % of the area.\n"
+              "Creases were kept. They cross 5.67 % of the area.\n"
               "Elsewhere, detail smaller than 0.25 was removed.\n"
               "Vertices moved by up to 0, RMS 0.\nArea: unchanged. Volume: unchanged.\n"
               "7 vertices moved as far as the largest movement allows.");
@@ -306,6 +306,16 @@ TEST(Warnings, TellOfALimitedStepADetailBelowACellAndASuddenLoss) {
     EXPECT_EQ(warnings()[0],
               "The surface has 2 handles, so it cannot become a sphere. Close its tunnels first.");
     report.genus = 0;
+    report.cell_size = 1.0 / 1024;
+    report.area_before = 10;
+    report.area_after = 0.5;
+    ASSERT_EQ(warnings().size(), 1U);
+    EXPECT_EQ(warnings()[0],
+              "The detail size 1 is longer than the mesh, and 95 % of the area is gone. Take a "
+              "smaller one, such as 2 % of the diagonal.");
+    report.boundary_edges = 3;  // a minimal surface may be small
+    EXPECT_TRUE(warnings().empty());
+    report.cell_size = 2;
     report.area_after = 8;
     ASSERT_EQ(warnings().size(), 1U);
     EXPECT_EQ(warnings()[0],

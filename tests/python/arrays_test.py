@@ -458,8 +458,9 @@ class Meshes(unittest.TestCase):
         self.assertEqual(calls, ["vertices"])
 
     def test_anything_else_is_refused(self):
-        for mesh in (VERTICES, None, "scan.ply"):
-            with self.assertRaisesRegex(TypeError, "give arrays of vertices and faces"):
+        for mesh, words in ((VERTICES, "faces is missing: give arrays of vertices and faces"),
+                            (None, "give arrays of vertices and faces"), ("scan.ply", "is the name of a file")):
+            with self.assertRaisesRegex(TypeError, words):
                 tracked_mcf.smooth(mesh)
 
 

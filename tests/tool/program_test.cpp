@@ -52,6 +52,13 @@ TEST_F(Program, VerboseTellsTheNumbersOfTheSolver) {
                 AllOf(HasSubstr("\nGrid of depth 4: "), HasSubstr("\nStep size 0.0005, ")));
 }
 
+TEST_F(Program, AMisspeltCommandIsNamed) {
+    const ProgramRun result = run("remove_noise a.off b.ply");
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_EQ(result.errors,
+              "tracked_mcf: remove_noise is no command; do you mean remove-noise?\n");
+}
+
 TEST_F(Program, QuietSaysNothing) {
     const ProgramRun result = run("a.off b.ply --depth 3 --step-size 1e-5 --quiet");
     EXPECT_EQ(result.exit_code, 0);

@@ -2,6 +2,7 @@
 """Converts what users give to the arrays that the extension module takes."""
 
 import copy
+import os
 import sys
 
 import numpy
@@ -29,6 +30,10 @@ def arrays_of(mesh, faces):
     if hasattr(mesh, "vertices") and hasattr(mesh, "triangles"):  # Open3D
         return (numpy.asarray(mesh.vertices), numpy.asarray(mesh.triangles),
                 lambda moved: _with_open3d_vertices(mesh, moved))
+    if isinstance(mesh, (str, os.PathLike)):
+        raise TypeError(f"{mesh!r} is the name of a file; load it first, such as by trimesh.load_mesh().")
+    if isinstance(mesh, (numpy.ndarray, list)):
+        raise TypeError("faces is missing: give arrays of vertices and faces.")
     raise TypeError(f"{type(mesh).__name__} is no mesh of trimesh, PyVista, Open3D or meshio; "
                     "give arrays of vertices and faces.")
 
