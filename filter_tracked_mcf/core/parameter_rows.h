@@ -28,13 +28,13 @@ template <auto member>
 ParameterOf<Owner<member>> access(Parameter::Type type, Range range) {
     using P = Owner<member>;
     using Value = std::decay_t<decltype(std::declval<P>().*member)>;
-    using Held = std::conditional_t<std::is_enum_v<Value>, int, Value>;
+    using Stored = std::conditional_t<std::is_enum_v<Value>, int, Value>;
     ParameterOf<P> row;
     row.type = type;
     row.range = std::move(range);
-    row.get = [](const P& p) -> ParameterValue { return static_cast<Held>(p.*member); };
+    row.get = [](const P& p) -> ParameterValue { return static_cast<Stored>(p.*member); };
     row.set = [](P& p, const ParameterValue& value) {
-        p.*member = static_cast<Value>(std::get<Held>(value));
+        p.*member = static_cast<Value>(std::get<Stored>(value));
     };
     return row;
 }

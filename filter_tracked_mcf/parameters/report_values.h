@@ -25,10 +25,10 @@ struct ReportValue {
         value;
 };
 
-/// Returns the parameters, the members of the flow's report but for the quality, and the warnings,
-/// under their names in the code. `inputs` follow the parameters. The
-/// stabilisation is the one used. W-cycles have no tolerance: error_estimate and reached_tolerance
-/// of their steps are null.
+/// Returns the parameters and then the `inputs`, the warnings, and the flow's report under its
+/// names in the code, without the quality and what only warnings and summary() use. It has also
+/// `converged` and `volume_after`. The stabilisation is the one used. W-cycles have no tolerance:
+/// error_estimate and reached_tolerance of their steps are null.
 ReportObject report_values(const FlowParameters& parameters, const ReportObject& inputs,
                            const FlowReport& report, const std::vector<std::string>& warnings);
 

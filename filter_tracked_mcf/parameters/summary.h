@@ -10,13 +10,13 @@
 
 namespace tracked_mcf {
 
-/// Returns lines for a person, one fact each: what the filter did and in which time, how far
+/// Returns lines for a person, as far as the filter knows: what it did and in which time, how far
 /// vertices moved, the change of area and volume, and which faces or vertices did not take part.
 std::string summary(const FlowParameters& parameters, const FlowReport& report);
 std::string summary(const NoiseParameters& parameters, const NoiseReport& report);
 std::string summary(const FairParameters& parameters, const FairReport& report);
 
-/// Returns lines with the numbers of the grid and of the solver. Empty if a filter has neither.
+/// Returns lines with the numbers of the solver and, if the filter has one, of the grid.
 std::string solver_details(const FlowParameters& parameters, const FlowReport& report);
 std::string solver_details(const NoiseParameters& parameters, const NoiseReport& report);
 std::string solver_details(const FairParameters& parameters, const FairReport& report);

@@ -15,7 +15,7 @@ def keyword(parameter):
 
 
 def paragraph(parameter):
-    """Returns the parameter's help. help() shows it in 80 columns."""
+    """Returns the parameter's paragraph of the docstring, wrapped to 80 columns for Python's help()."""
     def wrapped(text, columns, indent):
         return textwrap.wrap(text, columns, initial_indent=indent * " ", subsequent_indent=12 * " ",
                              break_on_hyphens=False)

@@ -293,7 +293,8 @@ void check_paths(const CommandLine& line, bool has_quality) {
 
 /// Returns how many letters must be inserted, removed or replaced to turn one word into the other.
 std::size_t distance(const std::string& a, const std::string& b) {
-    std::vector<std::size_t> row(b.size() + 1);  // from the first letters of a to those of b
+    std::vector<std::size_t> row(b.size() +
+                                 1);  // [j]: distance from a's letters so far to b's first j
     std::iota(row.begin(), row.end(), 0);
     for (const char letter : a) {
         std::size_t above_left = row[0]++;

@@ -147,7 +147,7 @@ int fail(ExitCode code, std::string message) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    report_file_limits();
+    let_writes_fail_at_file_limits();
     handle_interrupts();
     try {
         std::vector<std::string> arguments = utf8_arguments(argc, argv);

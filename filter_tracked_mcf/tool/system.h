@@ -17,7 +17,7 @@ bool writes_to_terminal();
 
 /// Lets a file that grows beyond a limit of the system fail as on a full disk. On Unix, it would
 /// end the program.
-void report_file_limits();
+void let_writes_fail_at_file_limits();
 
 /// Lets `handler` be called with the number of each signal that interrupts the program, on a thread
 /// of its own on Windows. There, Ctrl-C and Ctrl-Break are SIGINT; closing the console, logging off

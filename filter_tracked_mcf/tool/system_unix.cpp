@@ -16,7 +16,7 @@ bool writes_to_terminal() {
     return isatty(STDERR_FILENO) != 0;
 }
 
-void report_file_limits() {
+void let_writes_fail_at_file_limits() {
     std::signal(SIGXFSZ, SIG_IGN);
 }
 

@@ -53,7 +53,7 @@ bool writes_to_terminal() {
            SetConsoleMode(errors, mode | ENABLE_VIRTUAL_TERMINAL_PROCESSING) != 0;
 }
 
-void report_file_limits() {}
+void let_writes_fail_at_file_limits() {}
 
 void call_on_interrupts(void (*handler)(int number)) {
     interrupt_handler = handler;

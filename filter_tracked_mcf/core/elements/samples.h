@@ -40,7 +40,7 @@ public:
                                     (a & kPackedMask) << kPackedShift | (b & kPackedMask));
         return steps / kSampleSteps;
     }
-    /// Returns w_p, the area of the initial surface that a sample stands for, in grid units.
+    /// Returns w_p, the area of the initial surface that a sample stands for, in grid units².
     float weight(std::int64_t sample) const { return weight_[sample]; }
 
     const std::uint32_t* packed_local(int word) const { return packed_local_[word].data(); }

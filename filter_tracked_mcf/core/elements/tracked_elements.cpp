@@ -21,8 +21,8 @@ namespace tracked_mcf {
 
 namespace {
 
-/// The smallest element that contains each vertex. Being the smallest, it does not depend on the
-/// order in which threads claim the vertex.
+/// Per vertex: the smallest index of an element that contains it. Being the smallest, it does not
+/// depend on the order in which threads claim the vertex.
 using Claims = std::vector<std::atomic<std::int32_t>>;
 
 constexpr std::int32_t kUnclaimed = std::numeric_limits<std::int32_t>::max();

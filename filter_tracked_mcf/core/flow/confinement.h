@@ -27,8 +27,8 @@ public:
     /// Returns the box, with the margin, of each component of the surface with this displacement.
     std::vector<Eigen::AlignedBox3d> boxes(const Coefficients& displacement) const;
 
-    /// Returns whether all vertices are within these boxes of their components, or within the
-    /// initial ones if there are none.
+    /// Returns whether all vertices that can move are within these boxes of their components, or
+    /// the initial ones if there are none.
     bool holds(const Coefficients& displacement,
                const std::vector<Eigen::AlignedBox3d>& boxes = {}) const;
 

@@ -44,8 +44,8 @@ public:
 
     /// Returns the velocity of the last step (FlowState::velocity) at each of `vertex_count`
     /// vertices, in 1 / mesh units. If no step was made, it is that of a short step, which is made
-    /// for this. Where the detail size follows the local edge length, δ is that of the vertex's
-    /// element. Zero at vertices that do not move, and unless the plan takes velocities.
+    /// for this. Where the surface has densities ρ (densities.h), the step size is δ / ρ of the
+    /// vertex's element. Zero at vertices that do not move, and unless the plan takes velocities.
     std::vector<Eigen::Vector3d> velocities(std::size_t vertex_count);
 
     const FlowReport& report() const { return report_; }

@@ -31,7 +31,7 @@ struct FlowState {
     double first_area = 0;
 
     /// Where the next step may take each connected component, see Confinement, in grid units. Empty
-    /// until the surface has been moved on purpose: its initial boxes.
+    /// until an area or a volume has been restored: then the initial boxes count.
     std::vector<Eigen::AlignedBox3d> boxes;
 
     /// What has scaled each connected component after the last step; empty if nothing has. The next
@@ -42,8 +42,8 @@ struct FlowState {
     std::vector<Scaling> scalings;
 
     /// Coefficients of the velocity d/δ of the last step, that of order 1, before anything is
-    /// preserved; grid units / mesh units². Empty at the start, and unless the parameters' quality
-    /// asks for the mean curvature.
+    /// preserved; grid units / mesh units². Empty at the start, and unless the plan takes
+    /// velocities.
     Coefficients velocity;
 };
 

@@ -57,10 +57,11 @@ public:
     /// In the code, n is the conormal and λ the multiplier of the curve constraint, C its matrix
     /// and u its displacement; N is the matrix of the stabilisation.
     ///
-    /// Returns Stop::Vanished if `from` has almost no area, Stop::NothingMoves if it has no free
-    /// unknown, and Stop::StepFailed if the solver reaches nothing, or if the step takes the
-    /// surface where it cannot be (confinement.h). Sets the report's area and collapsed samples to
-    /// those of `from`, and adds its other numbers to those of earlier substeps.
+    /// Returns Stop::Vanished if `from` has almost no area, Stop::NothingMoves if all its
+    /// vertices or all its unknowns are constrained, and Stop::StepFailed if the solver reaches
+    /// nothing, or if the step takes the surface where it cannot be (confinement.h). Sets the
+    /// report's area and collapsed samples to those of `from`, and combines its other numbers with
+    /// those of earlier substeps.
     StepResult advance(const FlowState& from, const StepSize& size, const Care& care,
                        StepReport& report);
 

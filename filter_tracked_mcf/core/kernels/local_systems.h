@@ -46,7 +46,7 @@ constexpr CouplingIndices kCouplingIndices = make_coupling_indices();
 struct CoupledElements {
     const std::int32_t* unknowns;  ///< eight for each element of the level
     /// For each element a mask of entries. Bit kCouplingIndices.bit[i][j] marks the entry (i, j) as
-    /// unshared: another pair of unknowns, on another sheet, uses the same index in Couplings.
+    /// unshared: its place in Couplings belongs to another pair of unknowns, on another sheet.
     const std::uint32_t* unshared;
     std::int32_t begin, end;
 };

@@ -9,7 +9,7 @@
 
 namespace tracked_mcf {
 
-std::string in_words(double bytes) {
+std::string bytes_in_words(double bytes) {
     const bool large = bytes >= 1e9;
     const double number = bytes / (large ? 1e9 : 1e6);
     std::ostringstream text;
@@ -22,8 +22,9 @@ std::string in_words(double bytes) {
 void check_free_memory(double bytes, const std::string& task, const std::string& advice) {
     const auto available = static_cast<double>(available_memory_bytes());
     if (available == 0 || bytes <= available) return;
-    throw NotEnoughMemory(task + " would need about " + in_words(bytes) + " of memory, but only " +
-                          in_words(available) + " are free. " + advice);
+    throw NotEnoughMemory(task + " would need about " + bytes_in_words(bytes) +
+                          " of memory, but only " + bytes_in_words(available) + " are free. " +
+                          advice);
 }
 
 }  // namespace tracked_mcf

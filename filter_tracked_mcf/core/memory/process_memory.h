@@ -23,7 +23,7 @@ std::int64_t resident_memory_bytes();
 std::int64_t peak_memory_bytes();
 
 /// Returns a number such as "3.7 GB", "37 GB" or "370 MB".
-std::string in_words(double bytes);
+std::string bytes_in_words(double bytes);
 
 /// Throws NotEnoughMemory if `task` ("Removing noise") needs these bytes and fewer are free. The
 /// message ends with `advice`.

@@ -65,7 +65,7 @@ double noise_of(const Effect& effect) {
     return effect.sign_square > 0 ? std::sqrt(effect.square / effect.sign_square) : 0;
 }
 
-/// Positions after a treatment of the sample, and of the sample with perturbed heights.
+/// Positions of the sample, and of the sample with perturbed heights, before or after a treatment.
 struct Twins {
     Positions plain, perturbed;
 };
@@ -131,15 +131,15 @@ private:
         const Positions& positions = sample_.surface.positions;
         normals_ = smoothing_.smooth_normals(positions, settings_for(kTrialNormalLength, 0));
         perturbation_ = perturbation;
-        start_ = {positions, positions};
+        untreated_ = {positions, positions};
         parallel_for_rows(sample_.surface.stars.count(), [&](std::int32_t vertex) {
-            start_.perturbed[vertex] += perturbation * sample_.signs[vertex] * normal(vertex);
+            untreated_.perturbed[vertex] += perturbation * sample_.signs[vertex] * normal(vertex);
         });
     }
 
     void measure_noise() {
         if (wishes_.noise > 0) return;
-        Twins twins = start_;
+        Twins twins = untreated_;
         step(settings_for(kTrialNormalLength, kTrialStepSize), twins);
         noise_ = noise_of(effect_of(twins));
     }
@@ -149,7 +149,7 @@ private:
     }
 
     void step(const StepSettings& settings, Twins& twins) {
-        const Eigen::AlignedBox3d box = confinement(start_.plain);
+        const Eigen::AlignedBox3d box = confinement(untreated_.plain);
         smoothing_.step(settings, box, twins.plain);
         smoothing_.step(settings, box, twins.perturbed);
     }
@@ -205,7 +205,7 @@ private:
         const bool sized = wishes_.detail_size > 0;
         const int most = sized ? kStepsToDetailSize : kMostSteps;
         const double wave = wishes_.detail_size / kTwoPi;
-        Twins twins = start_;
+        Twins twins = untreated_;
         Treatment treatment;
         treatment.settings =
             settings_for(kNormalLengths[static_cast<std::size_t>(place[0])],
@@ -267,7 +267,7 @@ private:
     std::int64_t count_ = 0;
     Vectors normals_;
     double perturbation_ = 0;
-    Twins start_;
+    Twins untreated_;
     Attempt best_;
 };
 

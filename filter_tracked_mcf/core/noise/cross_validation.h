@@ -22,7 +22,8 @@ struct Treatment {
     double noise = 0;  ///< the standard deviation that the sample shows
 };
 
-/// Returns the length of the waves whose amplitude the steps of a treatment halve.
+/// Returns the length of the waves whose amplitude the steps of a treatment halve;
+/// 0 without steps.
 double detail_size_of(const Treatment& treatment);
 
 /// Returns the treatment that suits a sample best.

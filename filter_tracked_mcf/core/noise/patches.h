@@ -15,13 +15,13 @@ struct Patch {
     std::int32_t moving = 0;             ///< number of vertices that move
     std::int32_t held = 0;               ///< end of the first ring, which holds them
     std::int32_t inner = 0;  ///< end of the second ring: vertices before it have whole stars
-    std::vector<std::uint8_t> has_normal;  ///< per vertex: whether the surface has two sides there
+    std::vector<std::uint8_t> has_normal;  ///< per vertex: whether all its edges have two triangles
     std::vector<Triangle> triangles;       ///< indices into `vertices`
 };
 
 /// Returns the patches of the inner vertices of a selection, see fair(). Of coincident vertices, a
-/// patch has the first. Patches have no vertex in common. Throws InvalidMesh if nothing holds a
-/// part of the vertices that move.
+/// patch has the first. Patches have no vertex in common. Throws InvalidMesh if fewer than
+/// three vertices hold a connected part of those that move.
 std::vector<Patch> patches_of(const MeshTopology& topology, const Selection& selection);
 
 }  // namespace tracked_mcf

@@ -23,7 +23,8 @@ struct Stars {
     RawVector<std::uint32_t> corners;  ///< 3 × triangle + corner, increasing for each vertex
     std::vector<std::uint32_t> neighbour_begin;  ///< per vertex, and the end
     RawVector<std::int32_t> neighbours;          ///< increasing for each vertex; without itself
-    /// Per entry of `corners`: the places in `neighbours` of the triangle's next and last corner.
+    /// Per entry of `corners`: the places in `neighbours` of the triangle's next and previous
+    /// corner.
     RawVector<std::array<std::uint32_t, 2>> places;
 
 private:

@@ -11,16 +11,16 @@
 
 namespace tracked_mcf {
 
-/// Returns the least depth, 1 to kMaximumDepth, at which the cells of the grid's cube resolve the
-/// detail size: a cell is at most about as wide as it if it is at least the default, else at most
-/// half as wide. Lengths are in mesh units.
+/// Returns the least depth at which the cells of the grid's cube resolve the detail size, but at
+/// most kMaximumDepth. Cells resolve a detail size less than the default if they are at most half
+/// as wide, and a greater one if they are at most 1.1 times as wide. Lengths are in mesh units.
 int resolving_depth(double detail_size, double mean_edge, const Grid& grid);
 
 /// Clips the domain's surface, of this size, to `cube` (a grid of depth 0) at the depth, 1 to
 /// kMaximumDepth, whose expected number of unknowns is nearest to the number of vertices. It is
-/// less where threads thinner than a cell have many more. If that depth is less than `least_depth`,
-/// the depth is up to two greater, as far as the flow fits into the memory. It is 1 if no triangle
-/// has an area. Throws what clip_to_grid throws, and NotEnoughMemory if the flow does not fit.
+/// less where threads thinner than a cell have many more, and 1 if no triangle has an area. If that
+/// depth is less than `least_depth`, the depth is up to two greater, as far as the flow fits into
+/// the memory. Throws what clip_to_grid throws, and NotEnoughMemory if the flow does not fit.
 ClippedSurface clip_at_automatic_depth(const Domain& domain, const SurfaceSize& size,
                                        const Grid& cube, int least_depth,
                                        const MemoryCheck& memory);

@@ -27,15 +27,15 @@ void MemoryCheck::refuse(int depth) const {
     int less = depth - 1;
     while (less > 0 && !fits(less)) --less;
     const std::string need = "Depth " + std::to_string(depth) + " would need about " +
-                             in_words(flow_bytes(depth)) + " of memory, but only " +
-                             in_words(static_cast<double>(available_)) + " are free.";
+                             bytes_in_words(flow_bytes(depth)) + " of memory, but only " +
+                             bytes_in_words(static_cast<double>(available_)) + " are free.";
     if (less == 0) {
         throw NotEnoughMemory(need +
                               " No depth would fit: smooth a simplified mesh, or a part of it.");
     }
     throw NotEnoughMemory(need + " Choose depth " + std::to_string(less) +
                           (less > 1 ? " or less" : "") + ", which needs about " +
-                          in_words(flow_bytes(less)) +
+                          bytes_in_words(flow_bytes(less)) +
                           ", or smooth a simplified mesh or a part of it.");
 }
 

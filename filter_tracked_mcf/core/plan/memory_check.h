@@ -10,7 +10,7 @@
 
 namespace tracked_mcf {
 
-/// Refuses depths that need more memory than is available, before the work on them begins.
+/// Refuses depths that need more memory than is available, before most of the work on them.
 class MemoryCheck {
 public:
     /// Takes the flow's grid at any depth, and the bytes that the flow may take, by default those

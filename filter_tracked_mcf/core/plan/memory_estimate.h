@@ -28,8 +28,8 @@ struct SurfaceSize {
 SurfaceSize size_of(const Domain& domain);
 
 /// The expected numbers of items of a flow: means over all positions of the grid's planes. They are
-/// exact means for fragments and samples, and for elements and unknowns if the surface in every
-/// cell and support is a disk.
+/// exact means for fragments, for samples unless small fragments have three points as a whole, and
+/// for elements and unknowns if the surface in every cell and support is a disk.
 struct ExpectedCounts {
     double fragments = 0;
     double samples = 0;

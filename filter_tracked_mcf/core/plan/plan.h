@@ -24,7 +24,8 @@ inline StepSize in_cells(double cells, const Grid& grid) {
     return {cells, cells * (grid.cell_size * grid.cell_size)};
 }
 
-/// How the steps of a flow are made. The members are those of FlowParameters of the same names.
+/// How the steps of a flow are made. Members without a comment are those of
+/// FlowParameters of the same names.
 struct StepPlan {
     StepSize size;  ///< δ as it was asked for
     int order;
@@ -40,7 +41,7 @@ struct StepPlan {
     bool takes_responses;   ///< Stepper::pressure_response
 };
 
-/// All that follows from a mesh, inputs and parameters before anything is computed on the grid:
+/// All that follows from a mesh, inputs and parameters before any element is made:
 /// made once, and used up by the Flow. The other rooms take parts of it, never the parameters.
 struct Plan {
     Domain domain;  ///< its mesh must outlive the plan
@@ -58,12 +59,13 @@ struct Plan {
 /// Plans a flow on a grid that encloses the surface, at the depth that the parameters ask for. The
 /// mesh, the inputs and the parameters must have passed validate().
 ///
-/// Throws InvalidMesh or InvalidParameter if the flow cannot preserve what it should, and
-/// NotEnoughMemory if it is expected not to fit into the free memory.
+/// Throws InvalidMesh or InvalidParameter if the flow cannot preserve what it should, InvalidMesh
+/// if the surface is none to compute with or all its vertices have strength 0, and NotEnoughMemory
+/// if the flow is expected not to fit into the free memory.
 Plan plan_of(const TriangleMesh& mesh, const Inputs& inputs, FlowParameters parameters);
 
 /// Plans a flow on the grid to which the domain's surface has been clipped. `mean_edge` is that of
-/// the surface.
+/// the surface. Leaves resolving_depth and expected_bytes 0, and does not check what is preserved.
 Plan plan_of(Domain domain, ClippedSurface surface, double mean_edge,
              const FlowParameters& parameters);
 

@@ -13,8 +13,8 @@ namespace tracked_mcf {
 
 namespace {
 
-ContainingTable make_containing_table() {
-    ContainingTable table{};
+RefinementTable make_refinement_table() {
+    RefinementTable table{};
     for (int octant = 0; octant < 8; ++octant) {
         const auto weights = refinement_weights(octant);
         for (int i = 0; i < 8; ++i) {
@@ -56,8 +56,8 @@ int lowest_bit(int mask) {
 
 }  // namespace
 
-const ContainingTable& containing_table() {
-    static const ContainingTable table = make_containing_table();
+const RefinementTable& refinement_table() {
+    static const RefinementTable table = make_refinement_table();
     return table;
 }
 
@@ -70,7 +70,7 @@ ElementTransfer::ElementTransfer(const Level& fine, const Level& coarse)
 void ElementTransfer::add_prolongated(const Field& correction,
                                       const std::vector<std::uint8_t>& free_unknowns,
                                       Field& x) const {
-    const ContainingTable& table = containing_table();
+    const RefinementTable& table = refinement_table();
     parallel_for_rows(fine_->element_count(), [&](std::int32_t element) {
         const auto& from = coarse_->unknowns[fine_->parents[element]];
         const auto& of_corner = table[octant_of(fine_->cells[element])];
@@ -89,7 +89,7 @@ void ElementTransfer::add_prolongated(const Field& correction,
 
 void ElementTransfer::restrict(const Field& residual, const ElementPartition& coarse_parts,
                                Field& coarse_residual) const {
-    const ContainingTable& table = containing_table();
+    const RefinementTable& table = refinement_table();
     coarse_parts.sum(nullptr, coarse_residual, [&](const ElementRange& range, float* sums) {
         for (std::int32_t parent = range.begin; parent < range.end; ++parent) {
             const std::array<float*, 8> to = targets_of(range, parent, sums);

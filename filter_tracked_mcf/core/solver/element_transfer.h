@@ -22,10 +22,10 @@ struct ContainingFunctions {
 };
 
 /// The containing functions for each octant and each corner of it.
-using ContainingTable = std::array<std::array<ContainingFunctions, 8>, 8>;
+using RefinementTable = std::array<std::array<ContainingFunctions, 8>, 8>;
 
 /// Returns the table of the refinement weights (bspline.h).
-const ContainingTable& containing_table();
+const RefinementTable& refinement_table();
 
 /// The prolongation P from a level's unknowns to those of the next finer level, and its transpose,
 /// without a matrix. Each fine unknown is interpolated in one of its elements, from the eight

@@ -92,16 +92,17 @@ private:
         texture = texture.substr(0, second);
 
         polygons_.corners.push_back(vertex_index(word.substr(0, slash)));
-        normal_of_corner_.push_back(normal.empty() ? -1 : any_index(normal, normals_.size()));
+        normal_of_corner_.push_back(normal.empty() ? -1
+                                                   : zero_based_index(normal, normals_.size()));
         last_normal_ = std::max(last_normal_, normal_of_corner_.back());
         if (texture.empty()) return;
-        const std::int32_t coordinate = any_index(texture, texture_coordinate_count_);
+        const std::int32_t coordinate = zero_based_index(texture, texture_coordinate_count_);
         last_texture_coordinate_ = std::max(last_texture_coordinate_, coordinate);
     }
 
     /// Returns an index counted from 0. Files count from 1, or with negative numbers from the last
     /// of the `count` so far.
-    static std::int32_t any_index(std::string_view word, std::size_t count) {
+    static std::int32_t zero_based_index(std::string_view word, std::size_t count) {
         const std::int64_t number = parse_integer(word);
         const std::int64_t index =
             number > 0 ? number - 1 : static_cast<std::int64_t>(count) + number;
@@ -113,7 +114,7 @@ private:
     }
 
     std::int32_t vertex_index(std::string_view word) const {
-        const std::int32_t index = any_index(word, positions_.size());
+        const std::int32_t index = zero_based_index(word, positions_.size());
         if (static_cast<std::size_t>(index) < positions_.size()) return index;
         throw UnreadableFile("a face refers to vertex " + std::string(word) + ", but only " +
                              std::to_string(positions_.size()) + " precede it");

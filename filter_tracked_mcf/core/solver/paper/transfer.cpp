@@ -9,7 +9,7 @@
 namespace tracked_mcf {
 
 SparseMatrix prolongation(const Level& fine, const Level& coarse) {
-    const ContainingTable& table = containing_table();
+    const RefinementTable& table = refinement_table();
     SparseMatrix matrix(fine.unknown_count(), coarse.unknown_count());
     matrix.reserve(4 * static_cast<Eigen::Index>(fine.unknown_count()));
     // Unknowns are numbered in the order in which elements first have them.
