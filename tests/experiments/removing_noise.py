@@ -15,7 +15,7 @@ writing files, the others' do not.
 Needs PyMeshLab: external/pymeshlab.sh build/pymeshlab, then build/pymeshlab/bin/python removing_noise.py.
 """
 
-import contextlib
+import csv
 import itertools
 import pathlib
 import subprocess
@@ -90,16 +90,32 @@ def ours(experiment, scan, vertices):
         return result(scan, clean.current_mesh().vertex_matrix(), seconds)
 
 
+def kept_peers(experiment, scan, noise):
+    """Returns the results of the other smoothers in the file that --peers names. They do not depend on the program."""
+    if not experiment.options.peers:
+        return {}
+    with open(experiment.options.peers, newline="", encoding="utf-8") as file:
+        return {row["smoother"]: {key: float(row[key]) for key in ("RMS", "angle", "seconds")}
+                for row in csv.DictReader(file)
+                if (row["mesh"], row["noise"]) == (scan.name.removesuffix("_original"), noise)
+                and row["smoother"] not in ("noisy", OURS)}
+
+
 def measure(experiment, scan, noise, vertices):
     """Returns a result for each smoother, for a mesh with noise."""
     row = {"noisy": result(scan, vertices, 0), OURS: ours(experiment, scan, vertices)}
     if noise == "0":
         return row
+    kept = kept_peers(experiment, scan, noise)
+    if kept and not (noise == "0.2" and scan.name in DRAWN):
+        return {**row, **kept}
     families = taubin_families(scan, vertices)
     row[TAUBIN] = best(scan, families)
     row[TAUBIN_DEFAULT] = result(scan, *families[0][STEPS.index(10)]())
+    if kept:
+        return {**kept, **row}  # the picture needs the vertices of Taubin's filter
     if noise in WITH_ALL_PEERS:
-        with contextlib.suppress(pymeshlab.PyMeshLabException):  # refuses vertices that no face uses
+        if len(numpy.unique(scan.faces)) == len(scan.vertices):  # others make the filter fail
             row[TWO_STEP] = best(scan, two_step_families(scan, vertices))
         row[BILATERAL] = best(scan, bilateral_families(scan, vertices))
     return row
@@ -195,9 +211,16 @@ def compare(experiment, title, rows, peer, figure):
 
 
 def main():
-    experiment = Experiment("removing_noise", __doc__, lambda parser: parser.add_argument(
-        "--pairs", type=pathlib.Path, metavar="FOLDER", help="pairs NAME_noisy.ply and NAME_original.ply"))
+    def add_options(parser):
+        parser.add_argument("--pairs", type=pathlib.Path, metavar="FOLDER",
+                            help="pairs NAME_noisy.ply and NAME_original.ply")
+        parser.add_argument("--peers", type=pathlib.Path, metavar="FILE",
+                            help="results of an earlier run, of which the other smoothers' are taken")
+
+    experiment = Experiment("removing_noise", __doc__, add_options)
     options = experiment.options
+    if options.peers:
+        experiment.say("The other smoothers' results are those of an earlier run: they do not depend on the program.")
     folders = [options.build / "cgal-meshes", *([options.meshes] if options.meshes else [])]
 
     def scans(names):
