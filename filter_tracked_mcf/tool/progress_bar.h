@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <ostream>
 #include <string>
 #include <string_view>
@@ -59,7 +60,7 @@ private:
         if (elapsed < 1 || fraction_ == 0) return {};
         const double left = elapsed * (1 - fraction_) / fraction_;
         const auto rounded = [](double number, const char* unit) {
-            return std::to_string(static_cast<int>(number + 0.5)) + unit + " left, ";
+            return std::to_string(std::lround(number)) + unit + " left, ";
         };
         if (left < 100) return rounded(left, " s");
         return left < 6000 ? rounded(left / 60, " min") : rounded(left / 3600, " h");

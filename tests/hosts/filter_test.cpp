@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <exception>
 #include <limits>
 #include <map>
 
@@ -56,7 +57,8 @@ TEST(ParameterTable, ANumberThatIsNoChoiceIsRefusedWithTheLabels) {
 /// Returns the message of a filter that fails with this error.
 template <class Error>
 std::string message_of(const Error& error) {
-    const FilterOutcome outcome = guard([&]() -> FilterOutcome { throw error; });
+    const FilterOutcome outcome =
+        guard([&]() -> FilterOutcome { std::rethrow_exception(std::make_exception_ptr(error)); });
     EXPECT_FALSE(outcome.succeeded);
     return outcome.message;
 }

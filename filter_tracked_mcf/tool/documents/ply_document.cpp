@@ -157,6 +157,7 @@ void write_rows(std::ostream& out, const PlyElement& element, const Points* posi
         int coordinate, normal;  ///< or -1
     };
     std::vector<Source> sources;
+    sources.reserve(element.properties.size());
     for (const PlyProperty& property : element.properties) {
         sources.push_back({is_computed(element, property),
                            written_type(element, property, doubles) == PlyType::Double,
