@@ -51,20 +51,22 @@ TEST(ParameterTable, AMethodComesBackAndANumberThatIsNoneIsRefused) {
     }
 }
 
-TEST(ParameterTable, AnInputHasOneMember) {
-    for (const Input& input : input_table<FlowParameters>()) {
+template <class Parameters>
+void expect_different_names_and_one_member_of_each_input() {
+    std::set<std::string> names;
+    for (const auto& parameter : parameter_table<Parameters>()) {
+        EXPECT_TRUE(names.insert(parameter.name).second) << parameter.name;
+    }
+    for (const Input& input : input_table<Parameters>()) {
+        EXPECT_TRUE(names.insert(input.name).second) << input.name;
         EXPECT_NE(input.of_faces == nullptr, input.of_vertices == nullptr) << input.name;
     }
 }
 
-TEST(ParameterTable, NamesDiffer) {
-    std::set<std::string> names;
-    for (const auto& parameter : parameter_table<FlowParameters>()) {
-        EXPECT_TRUE(names.insert(parameter.name).second) << parameter.name;
-    }
-    for (const Input& input : input_table<FlowParameters>()) {
-        EXPECT_TRUE(names.insert(input.name).second) << input.name;
-    }
+TEST(ParameterTable, NamesDifferAndAnInputHasOneMember) {
+    expect_different_names_and_one_member_of_each_input<FlowParameters>();
+    expect_different_names_and_one_member_of_each_input<NoiseParameters>();
+    expect_different_names_and_one_member_of_each_input<FairParameters>();
 }
 
 }  // namespace

@@ -71,8 +71,8 @@ void treat(NoisySurface& surface, double edge, const NoiseParameters& parameters
     for (int step = 0; step < treatment.steps; ++step) {
         enter_phase(0.45 + 0.45 * step / treatment.steps,
                     "Step " + std::to_string(step + 1) + " of " + std::to_string(treatment.steps));
-        for (int shorter = 0; !smoothing.step(settings, box, surface.positions); ++shorter) {
-            if (shorter == kMostShorter) break;
+        for (int tries = 0; tries <= kMostShorter; ++tries) {
+            if (smoothing.step(settings, box, surface.positions)) break;
             settings.step_size /= 4;
         }
     }
