@@ -97,14 +97,11 @@ std::vector<double> measure_quality(Quality quality, Flow& flow, const TriangleM
                                     const std::vector<Eigen::Vector3d>& after,
                                     const Selection& selection) {
     if (quality == Quality::None) return {};
-    std::vector<Eigen::Vector3d> vectors(after.size(), Eigen::Vector3d::Zero());
-    if (quality == Quality::MeanCurvature) {
-        vectors = flow.velocities(after.size());
-        for (Eigen::Vector3d& velocity : vectors) velocity *= -0.5;
-    } else {
-        for (std::size_t i = 0; i < after.size(); ++i) vectors[i] = after[i] - before.positions[i];
-    }
-    return along_normals(vectors, {after, before.triangles}, selection);
+    if (quality == Quality::Displacement)
+        return displacements_along_normals(before, after, selection);
+    std::vector<Eigen::Vector3d> curvatures = flow.velocities(after.size());
+    for (Eigen::Vector3d& curvature : curvatures) curvature *= -0.5;
+    return along_normals(curvatures, {after, before.triangles}, selection);
 }
 
 }  // namespace

@@ -20,10 +20,8 @@ const std::vector<ParameterOf<FairParameters>>& parameter_table() {
         named(integer<&P::iterations>(1, 20), "iterations", "Iterations",
               "1 to 20: how often tangent and curvature are solved for, each time on the shape "
               "before."),
-        named(choice<&P::quality>({{"Kept", "none"}, {"Displacement", "displacement"}}), "quality",
-              "Vertex quality", "For colours: how far the vertex moved along its normal."),
-        named(integer<&P::threads>(0, kMaximumThreads, ", where 0 takes one for each processor"),
-              "threads", "", kThreadsHelp),
+        displacement<&P::quality>(),
+        threads<&P::threads>(),
     };
     return table;
 }

@@ -34,10 +34,8 @@ const std::vector<ParameterOf<NoiseParameters>>& parameter_table() {
               "Boundary",
               "Free: the rim of an open mesh is smoothed, too. Locked: its vertices stay, with "
               "their noise."),
-        named(choice<&P::quality>({{"Kept", "none"}, {"Displacement", "displacement"}}), "quality",
-              "Vertex quality", "For colours: how far the vertex moved along its normal."),
-        named(integer<&P::threads>(0, kMaximumThreads, ", where 0 takes one for each processor"),
-              "threads", "", kThreadsHelp),
+        displacement<&P::quality>(),
+        threads<&P::threads>(),
     };
     return table;
 }

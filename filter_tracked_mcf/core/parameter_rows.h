@@ -72,36 +72,51 @@ ParameterOf<P> named(ParameterOf<P> row, std::string name, std::string label, st
     return row;
 }
 
-/// The row of Inputs::selection.
-inline Input selected(std::string help) {
-    return {{Parameter::Type::Switch,
-             {0, 1, ""},
-             {},
-             "selected",
-             "Affect only selected faces",
-             std::move(help),
-             false},
-            &Inputs::selection};
-}
-
-/// The row of Inputs::strength.
-inline Input strength(std::string help) {
-    return {{Parameter::Type::Switch,
-             {0, 1, ""},
-             {},
-             "strength",
-             "Strength from vertex quality",
-             std::move(help),
-             false},
-            nullptr,
-            &Inputs::strength};
-}
-
 inline constexpr int kMaximumThreads = 1024;
 
 inline constexpr const char* kThreadsHelp =
     "Threads, up to 1024; 0 takes OMP_NUM_THREADS or, unless that is set, one for each processor "
     "that the program may use. The result does not depend on it; only processors with other vector "
     "instructions round differently.";
+
+/// The row of the number of threads, for the program alone.
+template <auto member>
+ParameterOf<Owner<member>> threads() {
+    return named(integer<member>(0, kMaximumThreads, ", where 0 takes one for each processor"),
+                 "threads", "", kThreadsHelp);
+}
+
+/// The row of a quality that is none or the displacement.
+template <auto member>
+ParameterOf<Owner<member>> displacement() {
+    return named(choice<member>({{"Kept", "none"}, {"Displacement", "displacement"}}), "quality",
+                 "Vertex quality", "For colours: how far the vertex moved along its normal.");
+}
+
+/// A row of the table of inputs, without its member.
+inline Input input(std::string name, std::string label, std::string help) {
+    Input row;
+    row.type = Parameter::Type::Switch;
+    row.range = {0, 1, ""};
+    row.name = std::move(name);
+    row.label = std::move(label);
+    row.help = std::move(help);
+    row.initial = false;
+    return row;
+}
+
+/// The row of Inputs::selection.
+inline Input selected(std::string help) {
+    Input row = input("selected", "Affect only selected faces", std::move(help));
+    row.of_faces = &Inputs::selection;
+    return row;
+}
+
+/// The row of Inputs::strength.
+inline Input strength(std::string help) {
+    Input row = input("strength", "Strength from vertex quality", std::move(help));
+    row.of_vertices = &Inputs::strength;
+    return row;
+}
 
 }  // namespace tracked_mcf::parameter_rows

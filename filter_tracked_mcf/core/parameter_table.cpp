@@ -146,8 +146,7 @@ const std::vector<ParameterOf<P>>& parameter_table() {
             "a cell unless --method paper is given. Take 1, which is inaccurate, or 12, which is "
             "slow "
             "and exact to degree 6, only to compare."),
-        named(integer<&P::threads>(0, kMaximumThreads, ", where 0 takes one for each processor"),
-              "threads", "", kThreadsHelp),
+        threads<&P::threads>(),
     };
     return table;
 }

@@ -181,4 +181,13 @@ std::vector<double> along_normals(const std::vector<Eigen::Vector3d>& vectors,
     return components;
 }
 
+std::vector<double> displacements_along_normals(const TriangleMesh& before,
+                                                const std::vector<Eigen::Vector3d>& after,
+                                                const Selection& selection) {
+    std::vector<Eigen::Vector3d> displacements(after.size());
+    for (std::size_t i = 0; i < after.size(); ++i)
+        displacements[i] = after[i] - before.positions[i];
+    return along_normals(displacements, {after, before.triangles}, selection);
+}
+
 }  // namespace tracked_mcf

@@ -68,6 +68,12 @@ double swept_volume_rate(const std::array<Eigen::Vector3d, 3>& initial,
 std::vector<double> along_normals(const std::vector<Eigen::Vector3d>& vectors,
                                   const SurfaceView& surface, const Selection& selection = {});
 
+/// Returns how far each vertex has moved from `before` to `after`, along_normals() of the surface
+/// after the movement.
+std::vector<double> displacements_along_normals(const TriangleMesh& before,
+                                                const std::vector<Eigen::Vector3d>& after,
+                                                const Selection& selection);
+
 /// Returns the positions of a triangle's corners.
 inline std::array<Eigen::Vector3d, 3> corners_of(const std::vector<Eigen::Vector3d>& positions,
                                                  const Triangle& triangle) {

@@ -327,11 +327,8 @@ FairReport fair(TriangleMesh& mesh, const Selection& selection, const FairParame
     report.seam_curvature = around.curvature() / scale;
     report.area_before = surface_area(mesh, selection);
     report.area_after = surface_area({after, mesh.triangles}, selection);
-    if (parameters.quality == Quality::Displacement) {
-        std::vector<Eigen::Vector3d> vectors(after.size());
-        for (std::size_t i = 0; i < after.size(); ++i) vectors[i] = after[i] - mesh.positions[i];
-        report.quality = along_normals(vectors, {after, mesh.triangles}, selection);
-    }
+    if (parameters.quality == Quality::Displacement)
+        report.quality = displacements_along_normals(mesh, after, selection);
     report.seconds = watch.seconds();
     report.peak_memory_bytes = peak_memory_bytes();
     enter_phase(1, "Done");

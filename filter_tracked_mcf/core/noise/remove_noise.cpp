@@ -203,11 +203,8 @@ NoiseReport remove_noise(TriangleMesh& mesh, const Inputs& inputs,
     std::vector<Eigen::Vector3d> after =
         moved_positions(mesh, moved, before, parameters.largest_movement, report);
     measure_change(mesh, after, moving, report);
-    if (parameters.quality == Quality::Displacement) {
-        std::vector<Eigen::Vector3d> vectors(after.size());
-        for (std::size_t i = 0; i < after.size(); ++i) vectors[i] = after[i] - mesh.positions[i];
-        report.quality = along_normals(vectors, {after, mesh.triangles}, moving);
-    }
+    if (parameters.quality == Quality::Displacement)
+        report.quality = displacements_along_normals(mesh, after, moving);
     report.seconds = watch.seconds();
     report.peak_memory_bytes = peak_memory_bytes();
     enter_phase(1, "Done");
