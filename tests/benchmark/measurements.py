@@ -17,7 +17,8 @@ BASELINE_INSTRUCTIONS = "ours, baseline instructions"
 OTHER_BINARY = "ours, other binary"
 TRIAD = "triad"
 # Of ours, then of PyMeshLab.
-WHOLE_JOBS = ("ours, default parameters", "ours, one thread", "ours, ten steps of 1e-5",
+WHOLE_JOBS = ("flow, default parameters", "flow, one thread", "flow, ten steps of 1e-5",
+              "remove noise, default parameters", "remove noise, one thread",
               "MeshLab's Taubin", "MeshLab's Laplacian")
 
 

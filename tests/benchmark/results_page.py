@@ -383,12 +383,14 @@ class Page:
         self._title("Times")
         loads = self._of.loads(peer=WHOLE_JOBS[0])
         rows = []
-        for job in WHOLE_JOBS:
-            for mesh in self._of.meshes(peer=job):
+        for mesh in self._of.meshes(peer=WHOLE_JOBS[0]):
+            for job in WHOLE_JOBS:
+                if mesh not in self._of.meshes(peer=job):
+                    continue
                 case = {"peer": job, "mesh": mesh}
-                rows.append([job, mesh, *(self._seconds(busy=busy, **case) for busy in loads),
+                rows.append([mesh, job, *(self._seconds(busy=busy, **case) for busy in loads),
                              digits(self._of.median("peak_memory_bytes", **case) / 1e6, "MB")])
-        self._table(["job", "mesh", *("alone" if busy == 0 else f"beside {busy}" for busy in loads), "memory"],
+        self._table(["mesh", "job", *("alone" if busy == 0 else f"beside {busy}" for busy in loads), "memory"],
                     rows)
 
     def _seconds(self, **case):

@@ -189,29 +189,27 @@ class Benchmark:
 
     def _whole_jobs(self):
         """Returns jobs from file to file, on an idle machine and beside endless loops."""
-        mesh, name = self._job_mesh()
-        if mesh is None:
-            return []
         script = pathlib.Path(__file__).parent / "whole_job.py"
         tool = self._arguments.build / "filter_tracked_mcf" / "tool" / "tracked_mcf"
-        written = self._output / f"job{mesh.suffix}"
-        ours_too = (tool, mesh, written, "--quiet")
-        jobs = [(WHOLE_JOBS[0], sys.executable, ours_too),
-                (WHOLE_JOBS[1], sys.executable, (*ours_too, "--threads", 1)),
-                (WHOLE_JOBS[2], sys.executable, (*ours_too, "--step-size", 1e-5, "--iterations", 10))]
         python = self._arguments.build / "pymeshlab" / "bin" / "python"
+        commands = [(sys.executable, (tool, *words))
+                    for words in ((), ("--threads", 1), ("--step-size", 1e-5, "--iterations", 10),
+                                  ("remove-noise",), ("remove-noise", "--threads", 1))]
         if python.exists():
-            jobs += [(job, python, ("pymeshlab", words, mesh, written))
-                     for job, words in zip(WHOLE_JOBS[3:], PYMESHLAB_FILTERS)]
-        return [Case(job, name, words=(script, *words), program=program, busy=busy)
-                for busy in (0, 1, os.cpu_count()) for job, program, words in jobs]
+            commands += [(python, ("pymeshlab", name)) for name in PYMESHLAB_FILTERS]
+        return [Case(job, name, words=(script, *words, mesh, self._output / f"job{mesh.suffix}"),
+                     program=program, busy=busy)
+                for mesh, name in self._job_meshes() for busy in (0, 1, os.cpu_count())
+                for job, (program, words) in zip(WHOLE_JOBS, commands)]
 
-    def _job_mesh(self):
-        """Returns the largest scan's file and name, or None."""
-        if self._arguments.meshes and not self._arguments.quick:
-            return unpacked(self._arguments.meshes / f"{LARGE_SCAN}.ply.xz", self._output), LARGE_SCAN
+    def _job_meshes(self):
+        """Returns files and names."""
+        folder = self._arguments.meshes
+        if folder and not self._arguments.quick:
+            return [(folder / f"{name}.ply", name) for name in ("hand_8k", "skull_50k")] + [
+                (unpacked(folder / f"{LARGE_SCAN}.ply.xz", self._output), LARGE_SCAN)]
         armadillo = self._arguments.build / "cgal-meshes" / "armadillo.off"
-        return (armadillo, "armadillo") if armadillo.exists() else (None, "")
+        return [(armadillo, "armadillo")] if armadillo.exists() else []
 
     def _files(self):
         """Returns names for the driver and for tables, and depths besides the automatic one."""
