@@ -10,6 +10,7 @@
 
 #include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/evolve.h"
+#include "filter_tracked_mcf/core/fair.h"
 #include "filter_tracked_mcf/core/remove_noise.h"
 #include "tests/zoo/properties.h"
 #include "tests/zoo/zoo_case.h"
@@ -93,6 +94,14 @@ NoiseParameters noise_parameters_of(Bytes& bytes) {
     return p;
 }
 
+FairParameters fair_parameters_of(Bytes& bytes) {
+    FairParameters p;
+    p.continuity = bytes.pick({Continuity::Position, Continuity::Tangent, Continuity::Curvature});
+    p.iterations = bytes.integer(0, 5);
+    p.quality = bytes.pick({Quality::None, Quality::Displacement});
+    return p;
+}
+
 /// Returns the index of a vertex, or seldom one that is out of range.
 int index(Bytes& bytes, int vertex_count) {
     const int taken = bytes.integer(-1, 254);
@@ -103,7 +112,11 @@ zoo::Case case_of(Bytes& bytes) {
     zoo::Case made;
     made.kind = "bytes";
     made.parameters = parameters_of(bytes);
-    if (bytes.flag()) made.noise = noise_parameters_of(bytes);
+    if (bytes.flag()) {
+        made.noise = noise_parameters_of(bytes);
+    } else if (bytes.flag()) {
+        made.fair = fair_parameters_of(bytes);
+    }
     const bool has_selection = bytes.flag();
     const int vertex_count = bytes.integer(0, kMostVertices);
     for (int i = 0; i < vertex_count; ++i) {
@@ -124,6 +137,8 @@ void require_refusal(zoo::Case& invalid) {
     try {
         if (invalid.noise) {
             remove_noise(invalid.mesh, invalid.inputs, *invalid.noise);
+        } else if (invalid.fair) {
+            fair(invalid.mesh, invalid.inputs.selection, *invalid.fair);
         } else {
             evolve(invalid.mesh, invalid.inputs, invalid.parameters);
         }

@@ -24,7 +24,7 @@ struct Options {
     double seconds = 0;
     std::vector<std::int64_t> chosen;  ///< run only these cases
     double tolerance = 0;              ///< solve to this tolerance; 0 leaves the case's solver
-    bool remove_noise = false;         ///< instead of making flows
+    bool remove_noise = false, fair = false;  ///< instead of making flows
     std::string file;
 };
 
@@ -70,6 +70,7 @@ void Zoo::run_many() {
 
 Case Zoo::make_case(std::int64_t number) const {
     if (options_.remove_noise) return noise_case_of(options_.seed, number);
+    if (options_.fair) return fair_case_of(options_.seed, number);
     Case made = case_of(options_.seed, number);
     if (options_.tolerance > 0) {
         made.parameters.solver = Solver::Converged;
@@ -138,6 +139,7 @@ int main(int argc, char** argv) {
         "--tolerance", options.tolerance,
         "Solve every case to this tolerance, which tells the solver's error from others");
     app.add_flag("--remove-noise", options.remove_noise, "Remove noise instead of making flows");
+    app.add_flag("--fair", options.fair, "Fair patches instead")->excludes("--remove-noise");
     app.add_option("--write", options.file, "With --case: write its mesh to this PLY file")
         ->needs("--case");
     try {

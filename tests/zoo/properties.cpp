@@ -15,6 +15,7 @@
 
 #include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/evolve.h"
+#include "filter_tracked_mcf/core/fair.h"
 #include "filter_tracked_mcf/core/flow/confinement.h"
 #include "filter_tracked_mcf/core/flow/preserving.h"
 #include "filter_tracked_mcf/core/mesh/weld.h"
@@ -35,31 +36,44 @@ struct Run {
     bool made() const { return refusal.empty() && foreign.empty(); }
 };
 
-/// Returns the report of remove_noise() as far as a flow's report says the same.
-FlowReport remove_noise_from(TriangleMesh& mesh, const Case& run_case, int threads) {
-    NoiseParameters parameters = *run_case.noise;
-    parameters.threads = threads;
-    NoiseReport noise = remove_noise(mesh, run_case.inputs, parameters);
+/// Returns another filter's report as far as a flow's report says the same.
+template <class Report>
+FlowReport as_flow_report(Report made) {
     FlowReport report;
-    report.detail_size = noise.detail_size;
-    report.area_before = noise.area_before;
-    report.area_after = noise.area_after;
-    report.volume_change = noise.volume_change;
-    report.largest_displacement = noise.largest_displacement;
-    report.rms_displacement = noise.rms_displacement;
-    report.quality = std::move(noise.quality);
+    report.area_before = made.area_before;
+    report.area_after = made.area_after;
+    report.largest_displacement = made.largest_displacement;
+    report.rms_displacement = made.rms_displacement;
+    report.quality = std::move(made.quality);
     return report;
+}
+
+FlowReport filtered(TriangleMesh& mesh, const Case& run_case, int threads) {
+    if (run_case.noise) {
+        NoiseParameters parameters = *run_case.noise;
+        parameters.threads = threads;
+        const NoiseReport made = remove_noise(mesh, run_case.inputs, parameters);
+        FlowReport report = as_flow_report(made);
+        report.detail_size = made.detail_size;
+        report.volume_change = made.volume_change;
+        return report;
+    }
+    if (run_case.fair) {
+        FairParameters parameters = *run_case.fair;
+        parameters.threads = threads;
+        return as_flow_report(fair(mesh, run_case.inputs.selection, parameters));
+    }
+    FlowParameters parameters = run_case.parameters;
+    parameters.threads = threads;
+    return evolve(mesh, run_case.inputs, parameters);
 }
 
 Run run(const Case& run_case, int threads = 1) {
     Run made;
     made.mesh = run_case.mesh;
-    FlowParameters parameters = run_case.parameters;
-    parameters.threads = threads;
     const double start = cpu_seconds();
     try {
-        made.report = run_case.noise ? remove_noise_from(made.mesh, run_case, threads)
-                                     : evolve(made.mesh, run_case.inputs, parameters);
+        made.report = filtered(made.mesh, run_case, threads);
     } catch (const Error& error) {
         made.refusal = error.what();
     } catch (const std::exception& error) {
@@ -93,6 +107,23 @@ std::vector<bool> vertices_of(const TriangleMesh& mesh, const Selection& selecti
         for (const std::int32_t vertex : mesh.triangles[i]) used[vertex] = true;
     }
     return used;
+}
+
+/// Returns, per vertex, whether it keeps its place though a selected triangle may use it: where the
+/// strength is 0, and, for fair(), where a triangle that is not selected uses it, too.
+std::vector<bool> held_vertices(const Case& of) {
+    const TriangleMesh& mesh = of.mesh;
+    std::vector<bool> held(mesh.positions.size(), false);
+    for (std::size_t i = 0; i < of.inputs.strength.size(); ++i)
+        held[i] = of.inputs.strength[i] == 0;
+    if (!of.fair) return held;
+    const std::vector<std::int32_t> first = weld_coincident_vertices(mesh);
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        if (of.inputs.selection[i] != 0) continue;
+        for (const std::int32_t vertex : mesh.triangles[i]) held[first[vertex]] = true;
+    }
+    for (std::size_t i = 0; i < held.size(); ++i) held[i] = held[first[i]];
+    return held;
 }
 
 Eigen::AlignedBox3d box_of(const TriangleMesh& mesh, const std::vector<bool>& vertices) {
@@ -162,7 +193,7 @@ bool is_well_posed(const FlowParameters& parameters) {
 /// Returns whether the same flow of an equal mesh should give an equal result: every system was
 /// solved, and no decision was made that rounding could turn.
 bool is_regular(const Case& made, const FlowReport& report) {
-    if (made.noise) return true;
+    if (!made.makes_flow()) return true;
     const FlowParameters& parameters = made.parameters;
     if (parameters.solver == Solver::Converged && !is_well_posed(parameters)) return false;
     if (report.stop != Stop::None) return false;
@@ -179,6 +210,8 @@ std::string number(double value) {
 
 /// How far the removal of noise may take a vertex out of the box, in its diagonals.
 const double kNoiseMargin = 0.1 * std::sqrt(3.0);
+/// The same for fair(), which takes no vertex farther than the size of the hole from the membrane.
+constexpr double kFairMargin = 1.001;
 
 /// Runs a case and collects failures.
 class Checker {
@@ -207,7 +240,6 @@ private:
 
     void check_errors();
     void check_time();
-    void check_noise_time();
     void allow_time(double allowed);
     void check_result();
     void check_finite();
@@ -244,7 +276,9 @@ void Checker::check_errors() {
 
 /// The slowest of 4,000 cases took a tenth of this.
 void Checker::check_time() {
-    if (case_.noise) return check_noise_time();
+    if (!case_.makes_flow()) {
+        return allow_time(0.5 + 2e-3 * static_cast<double>(case_.mesh.triangles.size()));
+    }
     const double fragments =
         std::max(fragments_at(case_.mesh, case_.inputs.selection, case_.parameters.depth),
                  static_cast<double>(base_.report.fragments));
@@ -253,10 +287,6 @@ void Checker::check_time() {
     const int cycles = parameters.solver == Solver::OneWCycle ? parameters.cycles : 1;
     const double solves = 1.0 * parameters.iterations * parameters.order * cycles;
     allow_time(0.5 + 1e-4 * size * (10 + solves));
-}
-
-void Checker::check_noise_time() {
-    allow_time(0.5 + 2e-3 * static_cast<double>(case_.mesh.triangles.size()));
 }
 
 void Checker::allow_time(double allowed) {
@@ -299,6 +329,7 @@ void Checker::check_box() {
     const FlowParameters& parameters = case_.parameters;
     const double diagonal = box_.diagonal().norm();
     if (case_.noise) return check_box_within(kNoiseMargin * diagonal);
+    if (case_.fair) return check_box_within(kFairMargin * diagonal);
     double allowed = Confinement::kMarginInDiagonals * diagonal +
                      Confinement::kMarginInCells * base_.report.cell_size;
     if (parameters.order > 1) allowed += Confinement::kMarginInDetail * diagonal;
@@ -342,9 +373,9 @@ void Checker::check_box_within(double allowed) {
 /// A triangle that crosses several cells is bent there; only its corners are in the mesh. So the
 /// area of a mesh that has grown is measured again with every triangle split in four.
 ///
-/// The removal of noise lowers the energy of another metric, which bounds no area.
+/// The other filters lower other energies, which bound no area.
 void Checker::check_area() {
-    if (case_.noise) return;
+    if (!case_.makes_flow()) return;
     const FlowReport& report = base_.report;
     const FlowParameters& parameters = case_.parameters;
     if (parameters.order > 1 || parameters.preserve != Preserve::None) return;
@@ -371,9 +402,9 @@ void Checker::check_area() {
 }
 
 void Checker::check_unmoved() {
+    const std::vector<bool> held = held_vertices(case_);
     for (std::size_t i = 0; i < flows_.size(); ++i) {
-        const bool is_held = !case_.inputs.strength.empty() && case_.inputs.strength[i] == 0;
-        const bool moves = flows_[i] && !is_held;
+        const bool moves = flows_[i] && !held[i];
         if (moves || same_bits(base_.mesh.positions[i], case_.mesh.positions[i])) continue;
         fail(Property::Unmoved, "vertex " + std::to_string(i));
         return;
@@ -450,10 +481,10 @@ double Checker::difference(const Case& base, const Run& base_run, const Case& ot
 /// few treatments: 32 runs find those that are as good. Coincident vertices stay coincident.
 double Checker::effect_of_rounding(const Case& base, const Run& base_run) {
     const std::vector<std::int32_t> first = weld_coincident_vertices(base.mesh);
-    const double rounding = base.noise ? std::ldexp(box_.diagonal().norm(), -24)
-                                       : std::ldexp(base_run.report.cell_size, -30);
+    const double rounding = !base.makes_flow() ? std::ldexp(box_.diagonal().norm(), -24)
+                                               : std::ldexp(base_run.report.cell_size, -30);
     double largest = 0;
-    for (int i = 0; i < (base.noise ? 32 : 8); ++i) {
+    for (int i = 0; i < (base.makes_flow() ? 8 : 32); ++i) {
         Case moved = base;
         std::vector<Eigen::Vector3d>& at = moved.mesh.positions;
         for (Eigen::Vector3d& position : at) position += rounding * random_.point();

@@ -14,7 +14,7 @@ namespace tracked_mcf::zoo {
 enum class Property {
     Error,        ///< an exception is one of errors.h, and the mesh then keeps its bits
     Finite,       ///< all results are finite
-    Box,          ///< no vertex leaves the initial bounding box
+    Box,          ///< no vertex leaves the initial bounding box by more than its filter may
     Area,         ///< the area never exceeds the initial one if nothing is preserved
     Unmoved,      ///< vertices that do not flow keep their bits
     Time,         ///< the processor time is in proportion to the size

@@ -49,6 +49,20 @@ Selection random_selection(const TriangleMesh& mesh, Random& random) {
     return selection;
 }
 
+/// The triangles in a ball around a vertex.
+Selection random_patch(const TriangleMesh& mesh, double side, Random& random) {
+    Selection selection;
+    if (mesh.positions.empty()) return selection;
+    const Eigen::Vector3d centre =
+        mesh.positions[random.below(static_cast<int>(mesh.positions.size()))];
+    const double radius = side * random.between(0.2, 0.8);
+    for (const Triangle& t : mesh.triangles) {
+        const bool is_inside = (mesh.positions[t[0]] - centre).stableNorm() < radius;
+        selection.push_back(is_inside ? 1 : 0);
+    }
+    return selection;
+}
+
 void set_step_size(FlowParameters& parameters, double side, Random& random) {
     switch (random.below(4)) {
         case 0:
@@ -188,6 +202,21 @@ Case noise_case_of(std::uint64_t seed, std::int64_t number) {
     return made;
 }
 
+Case fair_case_of(std::uint64_t seed, std::int64_t number) {
+    Case made = case_of(seed, number);
+    Random random(seed, ~static_cast<std::uint64_t>(number));
+    const double side = box_of(made.mesh, {}).sizes().maxCoeff();
+    if (made.inputs.selection.empty())
+        made.inputs.selection = random_patch(made.mesh, side, random);
+    made.inputs.strength.clear();
+    FairParameters& fair = made.fair.emplace();
+    fair.continuity =
+        random.pick({Continuity::Position, Continuity::Tangent, Continuity::Curvature});
+    fair.iterations = random.integer(1, 8);
+    if (random.chance(0.3)) fair.quality = Quality::Displacement;
+    return made;
+}
+
 namespace {
 
 /// Writes the options that differ from their defaults.
@@ -216,9 +245,12 @@ void write_options(const Parameters& parameters, std::ostream& text) {
 
 std::string options_of(const Case& described) {
     std::ostringstream text;
-    text << (described.noise ? "remove-noise" : "");
     if (described.noise) {
+        text << "remove-noise";
         write_options(*described.noise, text);
+    } else if (described.fair) {
+        text << "fair";
+        write_options(*described.fair, text);
     } else {
         write_options(described.parameters, text);
     }

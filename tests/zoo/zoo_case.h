@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "filter_tracked_mcf/core/fair_parameters.h"
 #include "filter_tracked_mcf/core/flow_parameters.h"
 #include "filter_tracked_mcf/core/noise_parameters.h"
 #include "filter_tracked_mcf/core/triangle_mesh.h"
@@ -12,13 +13,16 @@
 
 namespace tracked_mcf::zoo {
 
-/// A mesh, its inputs, and the parameters of the flow, or of the removal of noise.
+/// A mesh, its inputs, and the parameters of the flow, or of another filter.
 struct Case {
     std::string kind;  ///< of bad_meshes.h
     TriangleMesh mesh;
     Inputs inputs;
     FlowParameters parameters;
     std::optional<NoiseParameters> noise;  ///< if set, remove_noise() is called instead of evolve()
+    std::optional<FairParameters> fair;    ///< if set, fair() is called
+
+    bool makes_flow() const { return !noise && !fair; }
 };
 
 /// Returns a case of a seed; the same one every time.
@@ -26,6 +30,9 @@ Case case_of(std::uint64_t seed, std::int64_t number);
 
 /// Returns the same mesh with random parameters of the removal of noise.
 Case noise_case_of(std::uint64_t seed, std::int64_t number);
+
+/// Returns the same mesh with a random patch to be faired.
+Case fair_case_of(std::uint64_t seed, std::int64_t number);
 
 /// Returns about how many fragments (pieces of a triangle in one cell) a flow at this depth has. 0
 /// if the mesh has no finite size.

@@ -318,9 +318,9 @@ FairReport fair(TriangleMesh& mesh, const Selection& selection, const FairParame
         done += patch.moving;
     }
     for (std::size_t i = 0; i < after.size(); ++i) {
-        if (welded[i] != static_cast<std::int32_t>(i)) {
-            after[i] += after[welded[i]] - mesh.positions[welded[i]];
-        }
+        const Eigen::Vector3d moved = after[welded[i]] - mesh.positions[welded[i]];
+        // Adding 0 to -0 would change its bits.
+        if (welded[i] != static_cast<std::int32_t>(i) && !moved.isZero(0)) after[i] += moved;
     }
     report.rms_displacement = std::sqrt(squares / static_cast<double>(report.vertices));
     report.patch_curvature = inside.curvature() / scale;

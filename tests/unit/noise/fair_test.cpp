@@ -148,6 +148,21 @@ TEST(Fair, KeepsTheBitsOfAllButTheInnerVerticesOfTheSelection) {
     EXPECT_EQ(report.patches, 1);
 }
 
+TEST(Fair, KeepsTheSignsOfZerosOfCoincidentVertices) {
+    TriangleMesh soup = shapes::soup(shapes::square(10));
+    for (Eigen::Vector3d& p : soup.positions) p[2] = -0.0;
+    const Selection selection = star_of(soup, [](const Eigen::Vector3d& p) {
+        return (p - Eigen::Vector3d(0.5, 0.5, 0)).norm() < 0.25;
+    });
+    const TriangleMesh before = soup;
+    EXPECT_GT(fair(soup, selection, {}).vertices, 0);
+    for (std::size_t i = 0; i < soup.triangles.size(); ++i) {
+        if (selection[i] != 0) continue;
+        for (const std::int32_t vertex : soup.triangles[i])
+            EXPECT_TRUE(same_bits(soup.positions[vertex], before.positions[vertex])) << vertex;
+    }
+}
+
 TEST(Fair, HasTheSameBitsForAnyNumberOfThreads) {
     const Filled filled(shapes::bumpy_sphere(20), cap(40));
     FairParameters parameters;
