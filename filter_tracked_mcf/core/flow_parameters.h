@@ -65,9 +65,34 @@ inline constexpr double kFinestDetailInEdges = 2;
 inline constexpr double kMaximumStabilization = 1e3;
 inline constexpr double kDefaultStabilization = 0.01;
 
+/// The parameters of a flow that each step takes as they are.
+struct StepParameters {
+    /// Order m of a step, 1 to kMaximumOrder. With h = (D + δS)⁻¹ δS, which is nearly 0 for waves
+    /// much longer than √δ and nearly 1 for much shorter ones, a step takes x to x - hᵐ x. Order 1
+    /// is equation 2. A greater order takes one more solve each, and keeps long waves better.
+    int order = 1;
+
+    FlowKind flow = FlowKind::MeanCurvature;
+    BoundaryCondition boundary = BoundaryCondition::Locked;
+
+    /// Locked: the penalty η of the constraint (curve_constraint.h), greater than 0 and less than
+    /// 1e6, and whether its multipliers are updated after each step. For comparison
+    /// only.
+    double boundary_penalty = 10;
+    bool update_boundary_multipliers = true;
+
+    /// Converged: the solver stops when its estimate of the error (conjugate_gradients.h) is at
+    /// most this fraction of the solution, both in the energy norm. Greater than 0, less than 1.
+    double tolerance = 1e-3;
+
+    /// Whether pinched unknowns are constrained (pinches.h). Without that, thin parts explode once
+    /// they have pinched. For comparison only.
+    bool constrain_pinches = true;
+};
+
 /// The parameters of a flow, with defaults for a scan. Their names in hosts, help and ranges are in
 /// parameter_table.h.
-struct FlowParameters {
+struct FlowParameters : StepParameters {
     /// Octree depth, 1 to kMaximumDepth: the octree's cube has 2^depth cells along each side. 0
     /// chooses the depth whose number of unknowns is nearest to the number of referenced vertices,
     /// or one or two more if the detail size needs them and the memory allows them.
@@ -95,20 +120,6 @@ struct FlowParameters {
     /// Number of semi-implicit steps, 1 to kMaximumIterations.
     int iterations = 3;
 
-    /// Order m of a step, 1 to kMaximumOrder. With h = (D + δS)⁻¹ δS, which is nearly 0 for waves
-    /// much longer than √δ and nearly 1 for much shorter ones, a step takes x to x - hᵐ x. Order 1
-    /// is equation 2. A greater order takes one more solve each, and keeps long waves better.
-    int order = 1;
-
-    FlowKind flow = FlowKind::MeanCurvature;
-    BoundaryCondition boundary = BoundaryCondition::Locked;
-
-    /// Locked: the penalty η of the constraint (curve_constraint.h), greater than 0 and less than
-    /// 1e6, and whether its multipliers are updated after each step. For comparison
-    /// only.
-    double boundary_penalty = 10;
-    bool update_boundary_multipliers = true;
-
     /// Volume needs consistently oriented triangles. The volume between the initial surface and the
     /// present one stays zero, so the surface may be open or constrained. Area, and Volume in a
     /// conformalized flow, allow no constrained vertices; the latter needs a closed surface.
@@ -125,18 +136,10 @@ struct FlowParameters {
 
     Solver solver = Solver::Converged;
 
-    /// Converged: the solver stops when its estimate of the error (conjugate_gradients.h) is at
-    /// most this fraction of the solution, both in the energy norm. Greater than 0, less than 1.
-    double tolerance = 1e-3;
-
     /// Weight κ of the stabilisation (stabilization.h), 0 to kMaximumStabilization; 0 is the
     /// paper's system. If unset, it is kDefaultStabilization for the Converged solver, which needs
     /// it, and 0 for the other.
     std::optional<double> stabilization;
-
-    /// Whether pinched unknowns are constrained (pinches.h). Without that, thin parts explode once
-    /// they have pinched. For comparison only.
-    bool constrain_pinches = true;
 
     /// OneWCycle: number of W-cycles per step, 1 to 1000; the paper uses one.
     int cycles = 1;

@@ -23,10 +23,10 @@ struct ClassOf<Value Class::*> {
 template <auto member>
 using Owner = typename ClassOf<decltype(member)>::Type;
 
-/// A row without its texts, for a member that is a bool, a number or an enumeration.
-template <auto member>
-ParameterOf<Owner<member>> access(Parameter::Type type, Range range) {
-    using P = Owner<member>;
+/// A row without its texts, for a member that is a bool, a number or an enumeration. `P` has the
+/// member, or inherits it.
+template <auto member, class P = Owner<member>>
+ParameterOf<P> access(Parameter::Type type, Range range) {
     using Value = std::decay_t<decltype(std::declval<P>().*member)>;
     using Stored = std::conditional_t<std::is_enum_v<Value>, int, Value>;
     ParameterOf<P> row;
@@ -44,20 +44,20 @@ ParameterOf<Owner<member>> toggle() {
     return access<member>(Parameter::Type::Switch, {0, 1, ""});
 }
 
-template <auto member>
-ParameterOf<Owner<member>> integer(int smallest, int largest, const char* advice = "") {
-    return access<member>(Parameter::Type::Integer, {double(smallest), double(largest), advice});
+template <auto member, class P = Owner<member>>
+ParameterOf<P> integer(int smallest, int largest, const char* advice = "") {
+    return access<member, P>(Parameter::Type::Integer, {double(smallest), double(largest), advice});
 }
 
 /// An enumeration, whose enumerators count from 0.
-template <auto member>
-ParameterOf<Owner<member>> choice(std::vector<NamedChoice> choices) {
+template <auto member, class P = Owner<member>>
+ParameterOf<P> choice(std::vector<NamedChoice> choices) {
     Range range = {0, static_cast<double>(choices.size() - 1), ":"};
     for (const auto& [label, name] : choices) {
         range.advice += ' ' + (label.empty() ? name : label) + ',';
     }
     range.advice.pop_back();
-    ParameterOf<Owner<member>> row = access<member>(Parameter::Type::Choice, range);
+    ParameterOf<P> row = access<member, P>(Parameter::Type::Choice, range);
     row.choices = std::move(choices);
     return row;
 }

@@ -86,7 +86,7 @@ const std::vector<ParameterOf<P>>& parameter_table() {
               "The detail size follows the local edge length, as noise of scans often does."),
         named(integer<&P::iterations>(1, kMaximumIterations), "iterations", "Smoothing steps",
               "Steps in which the detail is removed, 1 to 1000000. More are more accurate."),
-        named(integer<&P::order>(1, kMaximumOrder), "order", "Order (1 to 4)",
+        named(integer<&P::order, P>(1, kMaximumOrder), "order", "Order (1 to 4)",
               "1 is the flow itself, 4 keeps larger shapes best. Each order more takes another "
               "solve."),
         named(choice<&P::preserve>({{"None", "none"}, {"Area", "area"}, {"Volume", "volume"}}),
@@ -94,7 +94,7 @@ const std::vector<ParameterOf<P>>& parameter_table() {
               "Each connected part keeps its area or volume. Area needs a surface of which no "
               "vertex is held."),
         named(
-            choice<&P::boundary>(
+            choice<&P::boundary, P>(
                 {{"Locked", "locked"}, {"Locked cells (paper)", "locked-cells"}, {"Free", "free"}}),
             "boundary", "Boundary",
             "Locked holds the rim's vertices. Locked cells holds all that is in their grid cells. "
@@ -116,7 +116,7 @@ const std::vector<ParameterOf<P>>& parameter_table() {
               "Octree depth (expert)",
               "The grid has 2^depth cells a side, 1 to 12. One more takes 4 times the time and "
               "memory. 0 is automatic."),
-        named(choice<&P::flow>(
+        named(choice<&P::flow, P>(
                   {{"Mean curvature", "mean-curvature"}, {"Conformalized", "conformalized"}}),
               "flow", "Flow (expert)",
               "By mean curvature, thin parts pinch. By the conformalized flow, a closed surface "
@@ -124,7 +124,7 @@ const std::vector<ParameterOf<P>>& parameter_table() {
         named(method(), "method", "Method (expert)",
               "By Shared cells, close parts stick together. By Paper, too, and each step is one "
               "W-cycle: only to compare."),
-        named(access<&P::tolerance>(Type::Real, {0, 1, ", such as 1e-3", true}), "tolerance", "",
+        named(access<&P::tolerance, P>(Type::Real, {0, 1, ", such as 1e-3", true}), "tolerance", "",
               "Except with method paper: a step is solved when the error estimate, relative to the "
               "step in the energy norm, is at most this number; greater than 0, less than 1. A "
               "smaller "

@@ -129,15 +129,9 @@ Plan plan_of(Domain domain, ClippedSurface surface, double mean_edge,
              const FlowParameters& parameters) {
     auto densities = triangle_densities(domain, parameters.local_detail_size, mean_edge);
     const StepPlan steps = {
+        parameters,
         asked_size(parameters, domain.mesh(), mean_edge, surface.grid),
-        parameters.order,
-        parameters.flow,
-        parameters.boundary,
-        parameters.boundary_penalty,
-        parameters.update_boundary_multipliers,
-        parameters.constrain_pinches,
         stabilization_of(parameters),
-        parameters.tolerance,
         parameters.solver == Solver::OneWCycle ? parameters.cycles : 0,
         parameters.quality == Quality::MeanCurvature,
         parameters.preserve != Preserve::None &&

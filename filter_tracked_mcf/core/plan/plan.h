@@ -24,18 +24,10 @@ inline StepSize in_cells(double cells, const Grid& grid) {
     return {cells, cells * (grid.cell_size * grid.cell_size)};
 }
 
-/// How the steps of a flow are made. Members without a comment are those of
-/// FlowParameters of the same names.
-struct StepPlan {
+/// How the steps of a flow are made.
+struct StepPlan : StepParameters {
     StepSize size;  ///< δ as it was asked for
-    int order;
-    FlowKind flow;
-    BoundaryCondition boundary;
-    double boundary_penalty;
-    bool update_boundary_multipliers;
-    bool constrain_pinches;
     double stabilization;
-    double tolerance;
     int cycles;             ///< of the paper's solver; 0 for the one that converges
     bool takes_velocities;  ///< FlowState::velocity
     bool takes_responses;   ///< Stepper::pressure_response
