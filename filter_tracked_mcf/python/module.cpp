@@ -97,7 +97,7 @@ TriangleMesh mesh_of(nb::handle vertices, nb::handle faces) {
 }
 
 /// What an argument with a number for each face or vertex must be.
-struct Column {
+struct ArrayKind {
     const char* kinds;   ///< of NumPy's types
     const char* type;    ///< to which the numbers are converted
     const char* wanted;  ///< in words
@@ -106,17 +106,17 @@ struct Column {
 /// Copies the numbers of an input of `count` faces or vertices. Returns an empty vector for None.
 template <class Number>
 std::vector<Number> numbers_of(const nb::kwargs& arguments, const Input& input,
-                               const Column& column, std::size_t count) {
+                               const ArrayKind& kind, std::size_t count) {
     const nb::object given = arguments[input.name.c_str()];
     if (given.is_none()) return {};
     const nb::object array = numpy().attr("asarray")(given);
-    if (!has_kind(array, column.kinds) || !array.attr("shape").equal(nb::make_tuple(count))) {
+    if (!has_kind(array, kind.kinds) || !array.attr("shape").equal(nb::make_tuple(count))) {
         throw InvalidParameter(description(input.name.c_str(), array) + "; give an array of " +
-                               column.wanted + ", one for each of the " + std::to_string(count) +
+                               kind.wanted + ", one for each of the " + std::to_string(count) +
                                (input.of_faces ? " faces." : " vertices."));
     }
     const auto numbers = nb::cast<nb::ndarray<const Number, nb::ndim<1>, nb::c_contig>>(
-        numpy().attr("ascontiguousarray")(array, column.type));
+        numpy().attr("ascontiguousarray")(array, kind.type));
     return {numbers.data(), numbers.data() + count};
 }
 

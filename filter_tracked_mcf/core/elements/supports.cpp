@@ -10,35 +10,35 @@ namespace {
 
 constexpr float kNegligible = 1e-8F;
 
-/// The contributions of one element to the functions of its cell.
-struct Share {
+/// The integrals of the squares of a cell's functions over one element, and its area.
+struct ElementSupport {
     float mass[8] = {};
     float area = 0;
 };
 
-Share share_of(const TrackedElements& elements, std::int64_t element) {
-    Share share;
+ElementSupport support_of(const TrackedElements& elements, std::int64_t element) {
+    ElementSupport support;
     for (std::int64_t i = elements.sample_begin[element]; i < elements.sample_begin[element + 1];
          ++i) {
         const float weight = elements.samples.weight(i);
         const CornerValues values = bspline_values(elements.samples.local(i));
         for (int corner = 0; corner < 8; ++corner) {
-            share.mass[corner] += weight * static_cast<float>(values[corner] * values[corner]);
+            support.mass[corner] += weight * static_cast<float>(values[corner] * values[corner]);
         }
-        share.area += weight;
+        support.area += weight;
     }
-    return share;
+    return support;
 }
 
 }  // namespace
 
 Supports measure_supports(const TrackedElements& elements) {
     const Level& finest = elements.finest();
-    std::vector<Share> shares(finest.cells.size());
+    std::vector<ElementSupport> of_elements(finest.cells.size());
     parallel_for_chunks(finest.element_count(), [&](std::int64_t begin, std::int64_t end) {
         Pacer pacer;
         for (std::int64_t element = begin; element < end; ++element) {
-            shares[element] = share_of(elements, element);
+            of_elements[element] = support_of(elements, element);
             pacer.did(elements.sample_begin[element + 1] - elements.sample_begin[element]);
         }
     });
@@ -47,8 +47,8 @@ Supports measure_supports(const TrackedElements& elements) {
     for (std::int32_t element = 0; element < finest.element_count(); ++element) {
         for (int corner = 0; corner < 8; ++corner) {
             const std::int32_t unknown = finest.unknowns[element][corner];
-            supports.mass[unknown] += shares[element].mass[corner];
-            supports.area[unknown] += shares[element].area;
+            supports.mass[unknown] += of_elements[element].mass[corner];
+            supports.area[unknown] += of_elements[element].area;
         }
     }
     return supports;

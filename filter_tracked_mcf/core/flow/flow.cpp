@@ -78,15 +78,15 @@ bool Flow::step() {
     const Care careful = {std::min(tolerance, kCarefulTolerance), true};
     StepReport report;
     StepResult next = advance(1, {tolerance}, report);
-    if (is(next, Stop::Vanished)) {
+    if (has_stopped(next, Stop::Vanished)) {
         end_before_last_step(Stop::Vanished);
         return false;
     }
-    for (const int parts : {1, 4, 16}) {
-        if (!is(next, Stop::StepFailed)) break;
+    for (const int substeps : {1, 4, 16}) {
+        if (!has_stopped(next, Stop::StepFailed)) break;
         stepper_.forget_solutions();
         StepReport again;
-        next = advance(parts, careful, again);
+        next = advance(substeps, careful, again);
         replace_attempt(report, again);
     }
     if (preserver_ && std::holds_alternative<FlowState>(next)) {
@@ -101,13 +101,13 @@ bool Flow::step() {
     return true;
 }
 
-StepResult Flow::advance(int parts, const Care& care, StepReport& report) {
-    const StepSize size = 1.0 / parts * stepper_.size();
+StepResult Flow::advance(int substeps, const Care& care, StepReport& report) {
+    const StepSize size = 1.0 / substeps * stepper_.size();
     StepResult result = Stop::NothingMoves;
     const FlowState* from = &state_;
-    for (int part = 0; part < parts && from != nullptr; ++part) {
+    for (int substep = 0; substep < substeps && from != nullptr; ++substep) {
         StepResult next = stepper_.advance(*from, size, care, report);
-        if (part > 0 && is(next, Stop::NothingMoves)) break;
+        if (substep > 0 && has_stopped(next, Stop::NothingMoves)) break;
         result = std::move(next);
         from = std::get_if<FlowState>(&result);
     }

@@ -25,7 +25,7 @@ public:
     Flow& operator=(const Flow&) = delete;
 
     /// Makes one step (Stepper::advance) and restores what is preserved. A step that fails is
-    /// retried with more care, in one part, 4 or 16 parts.
+    /// retried with more care, whole or in 4 or 16 substeps.
     ///
     /// Returns false and keeps the state if there is no such step; report().stop then says why. If
     /// the previous step has left almost no area, takes the flow back to before that step.
@@ -54,8 +54,8 @@ public:
 
 private:
     void fill_report(const Plan& plan);
-    /// Makes a step in parts of the same size.
-    StepResult advance(int parts, const Care& care, StepReport& report);
+    /// Makes a step in substeps of the same size.
+    StepResult advance(int substeps, const Care& care, StepReport& report);
 
     Stepper stepper_;
     std::optional<Preserver> preserver_;

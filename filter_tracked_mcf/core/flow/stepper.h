@@ -33,7 +33,7 @@ struct Care {
 /// The state after a step, or why there is none.
 using StepResult = std::variant<FlowState, Stop>;
 
-inline bool is(const StepResult& result, Stop reason) {
+inline bool has_stopped(const StepResult& result, Stop reason) {
     const Stop* const stop = std::get_if<Stop>(&result);
     return stop != nullptr && *stop == reason;
 }
