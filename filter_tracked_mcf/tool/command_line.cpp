@@ -186,7 +186,7 @@ void add_parameter(CLI::App& app, CommandLineOf<Parameters>& line,
             };
             app.add_option_function<std::string>(option, take, help)
                 ->type_name(CLI::detail::join(names, "|"))
-                ->check(CLI::IsMember(names).description(""))
+                ->transform(CLI::IsMember(names, CLI::ignore_case).description(""))
                 ->default_str(names.at(static_cast<std::size_t>(std::get<int>(value))));
     }
 }
@@ -289,6 +289,10 @@ void check_paths(const CommandLine& line, bool has_quality) {
         throw InvalidParameter("--report would overwrite the mesh " + path.u8string() +
                                "; give it another name.");
     }
+    if (format_of(line.report)) {
+        throw InvalidParameter("--report would write JSON to " + line.report.u8string() +
+                               ", which has the name of a mesh; give it another one.");
+    }
 }
 
 /// Returns how many letters must be inserted, removed or replaced to turn one word into the other.
@@ -358,8 +362,13 @@ CommandLineOf<Parameters> parse_command_line(std::vector<std::string> arguments)
         line.answer = app.version() + "\n";
         return line;
     } catch (const CLI::ParseError& error) {
-        throw InvalidParameter(std::string(error.what()) + "." + suggestion(app) + " Run " +
-                               Texts::kCommand + " --help.");
+        // CLI11 lists unexpected words backwards.
+        const bool has_extras =
+            error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError);
+        const std::string what =
+            has_extras ? "not expected: " + CLI::detail::join(app.remaining(), " ") : error.what();
+        throw InvalidParameter(what + "." + suggestion(app) + " Run " + Texts::kCommand +
+                               " --help.");
     }
     check_paths(line, line.parameters.quality != Quality::None);
     return line;

@@ -544,10 +544,12 @@ class Fair(WithFolder):
             self.assertEqual((report["patches"], report["vertices"]), (1, self.hole.sum()))
 
     def test_wrong_selections_are_refused(self):
-        for selected, words in ((None, "nothing around"), (numpy.zeros(len(FACES), bool), "No face is selected"),
+        for selected, words in ((numpy.ones(len(FACES), bool), "nothing around"), (numpy.zeros(len(FACES), bool), "No face is selected"),
                                 (numpy.arange(len(FACES)) == 0, "no inner vertices")):
             with self.assertRaisesRegex(InvalidMesh, words):
                 tracked_mcf.fair(VERTICES, FACES, selected=selected)
+        with self.assertRaisesRegex(InvalidParameter, "give the faces that fill the hole"):
+            tracked_mcf.fair(VERTICES, FACES)
         with self.assertRaisesRegex(InvalidParameter, "give one of 'position', 'tangent', 'curvature'"):
             tracked_mcf.fair(VERTICES, FACES, selected=self.selected, continuity="c1")
 

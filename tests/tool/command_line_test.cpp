@@ -86,7 +86,7 @@ TEST(CommandLine, EveryOptionIsTaken) {
                              "--selected",
                              "my quality",
                              "--preserve",
-                             "volume",
+                             "Volume",
                              "--method",
                              "paper",
                              "--tolerance",
@@ -235,6 +235,10 @@ TEST(CommandLine, TheReportMustNotReplaceAMesh) {
                 HasSubstr("--report would overwrite the mesh b.ply"));
     EXPECT_THAT(complaint({"a.ply", "b.ply", "--report", "a.ply"}),
                 HasSubstr("--report would overwrite the mesh a.ply"));
+    EXPECT_THAT(complaint({"a.ply", "b.ply", "--report", "c.ply"}),
+                HasSubstr("--report would write JSON to c.ply"));
+    EXPECT_THAT(complaint({"a.ply", "b.ply", "c.ply", "d.ply"}),
+                HasSubstr("not expected: c.ply d.ply."));
 }
 
 TEST(CommandLine, HelpNamesEveryOptionAndExplainsTheSharedParameters) {
