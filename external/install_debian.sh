@@ -36,7 +36,7 @@ packages_of() {
             meshlab "$(libraries_recommended_by meshlab)" \
             python3-matplotlib python3-vtk9 python3-numpy xvfb xauth ;;
         benchmark) echo "$(packages_of program)" libgtest-dev libgmock-dev libboost-dev \
-            libcgal-dev libhypre-dev python3 ;;
+            libcgal-dev libhypre-dev python3-numpy ;;
         pymeshlab) echo python3-venv python3-numpy python3-matplotlib ;;
         gravomg) echo python3-venv ;;
         windows) echo "$(packages_of program)" g++-mingw-w64-x86-64-posix googletest python3 wine wine64 ;;

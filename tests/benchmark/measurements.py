@@ -20,6 +20,9 @@ TRIAD = "triad"
 WHOLE_JOBS = ("flow, default parameters", "flow, one thread", "flow, ten steps of 1e-5",
               "remove noise, default parameters", "remove noise, one thread",
               "MeshLab's Taubin", "MeshLab's Laplacian")
+# Those that are compared by size.
+NOISE_JOBS = (WHOLE_JOBS[3], WHOLE_JOBS[5])
+RELIEF = "relief"
 
 
 @dataclasses.dataclass(frozen=True)

@@ -3,7 +3,7 @@
 
 import machine
 from measurements import (BASELINE_INSTRUCTIONS, CGAL, IC, MIC, OTHER_BINARY, OURS, REBUILT, TRIAD,
-                          WHOLE_JOBS)
+                          NOISE_JOBS, RELIEF, WHOLE_JOBS)
 
 PROTOTYPE_NANOSECONDS = 41  # for the assembly of a sample
 
@@ -71,6 +71,7 @@ class Page:
                   "cmake --build build -j --target tracked_mcf tracked_mcf_benchmark\n" + self._command + "\n```\n")
         self._machine()
         self._whole_jobs()
+        self._sizes()
         return "\n".join(self._lines)
 
     # Measurements.
@@ -392,6 +393,18 @@ class Page:
                              digits(self._of.median("peak_memory_bytes", **case) / 1e6, "MB")])
         self._table(["mesh", "job", *("alone" if busy == 0 else f"beside {busy}" for busy in loads), "memory"],
                     rows)
+
+    def _sizes(self):
+        self._title("Noise removal by size", "Squares with waves, and with noise of 0.2 edges, alone on the machine.")
+        rows = []
+        for job in NOISE_JOBS:
+            for mesh in [mesh for mesh in self._of.meshes(peer=job) if mesh.startswith(RELIEF)]:
+                case = {"peer": job, "mesh": mesh}
+                vertices = 1000 * int(mesh.split()[1])
+                rows.append([mesh.removeprefix(f"{RELIEF}, "), job, self._seconds(**case),
+                             digits(1e6 * self._of.median("whole_job_cpu_seconds", **case) / vertices),
+                             digits(self._of.median("peak_memory_bytes", **case) / 1e6, "MB")])
+        self._table(["vertices", "job", "seconds", "processor µs a vertex", "memory"], rows)
 
     def _seconds(self, **case):
         return ", ".join(digits(self._of.median(f"whole_job_{kind}seconds", **case)) for kind in ("", "cpu_"))

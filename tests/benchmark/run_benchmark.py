@@ -14,8 +14,10 @@ import pathlib
 import shutil
 import sys
 
+import numpy
+
 from measurements import (BASELINE_INSTRUCTIONS, CGAL, IC, MIC, OTHER_BINARY, OURS, REBUILT, TRIAD,
-                          WHOLE_JOBS, Case, Measurements)
+                          NOISE_JOBS, RELIEF, WHOLE_JOBS, Case, Measurements)
 from results_page import Page
 
 TOP = pathlib.Path(__file__).resolve().parents[2]
@@ -24,6 +26,7 @@ MIDDLE = 5e-4
 STEPS = 10  # the default of a flow
 NOISE = 0.2  # in mean edge lengths
 LARGE_SCAN = "bunny_scan_871k"
+RELIEF_SIDES = (100, 316, 1000, 3162)  # in vertices
 PYMESHLAB_FILTERS = ("apply_coord_taubin_smoothing", "apply_coord_laplacian_smoothing")
 
 
@@ -52,7 +55,7 @@ def options():
                         "-march=native")
     parser.add_argument("--whole-jobs", action="store_true",
                         help="only jobs from file to file, alone and beside endless loops, for whole_jobs.md; "
-                        "takes five minutes")
+                        "takes ten minutes")
     parser.add_argument("--page-only", action="store_true",
                         help="make the page from the measurements of the last run")
     return parser.parse_args()
@@ -197,10 +200,16 @@ class Benchmark:
                                   ("remove-noise",), ("remove-noise", "--threads", 1))]
         if python.exists():
             commands += [(python, ("pymeshlab", name)) for name in PYMESHLAB_FILTERS]
-        return [Case(job, name, words=(script, *words, mesh, self._output / f"job{mesh.suffix}"),
-                     program=program, busy=busy)
-                for mesh, name in self._job_meshes() for busy in (0, 1, os.cpu_count())
-                for job, (program, words) in zip(WHOLE_JOBS, commands)]
+        jobs = dict(zip(WHOLE_JOBS, commands))
+
+        def cases(mesh, name, names, loads):
+            return [Case(job, name, words=(script, *jobs[job][1], mesh, self._output / f"job{mesh.suffix}"),
+                         program=jobs[job][0], busy=busy) for busy in loads for job in names if job in jobs]
+        loads = (0, 1, os.cpu_count())
+        of_files = [case for mesh, name in self._job_meshes() for case in cases(mesh, name, WHOLE_JOBS, loads)]
+        return of_files + [case for side in RELIEF_SIDES[:2 if self._arguments.quick else None]
+                           for case in cases(relief(side, self._output), f"{RELIEF}, {side * side // 1000} k",
+                                             NOISE_JOBS, (0,))]
 
     def _job_meshes(self):
         """Returns files and names."""
@@ -224,6 +233,26 @@ class Benchmark:
             packed = self._arguments.meshes / f"{LARGE_SCAN}.ply.xz"
             meshes.append((unpacked(packed, self._output), LARGE_SCAN, (9,)))
         return meshes
+
+
+def relief(side, folder):
+    """Writes a square with waves, and with noise of 0.2 edges, of side² vertices. Returns its file."""
+    path = folder / f"relief_{side}.ply"
+    if path.exists():
+        return path
+    x, y = numpy.indices((side, side)).reshape(2, -1)
+    z = side / 30 * numpy.sin(20 / side * x) + numpy.random.default_rng(1).normal(scale=NOISE, size=side * side)
+    corner = numpy.arange(side * side).reshape(side, side)[:-1, :-1].reshape(-1, 1)
+    faces = numpy.empty(2 * corner.size, dtype=[("count", "u1"), ("corners", "<i4", 3)])
+    faces["count"] = 3
+    faces["corners"] = numpy.vstack([corner + [0, side, side + 1], corner + [0, side + 1, 1]])
+    with open(path, "wb") as file:
+        file.write(f"ply\nformat binary_little_endian 1.0\nelement vertex {side * side}\n"
+                   "property float x\nproperty float y\nproperty float z\n"
+                   f"element face {faces.size}\nproperty list uchar int vertex_indices\nend_header\n".encode())
+        file.write(numpy.stack([x, y, z], axis=1).astype("<f4").tobytes())
+        file.write(faces.tobytes())
+    return path
 
 
 def unpacked(packed, folder):
