@@ -116,6 +116,7 @@ class Benchmark:
     def run(self, measurements):
         if self._arguments.whole_jobs:
             measurements.run(self._whole_jobs(), self._repetitions)
+            measurements.run(self._sizes(), self._repetitions)
             return
         triads = [Case(TRIAD, threads=n, words=("triad", "--threads", n)) for n in (1, 2)]
         measurements.run(triads + self._compared(), self._repetitions)
@@ -192,6 +193,17 @@ class Benchmark:
 
     def _whole_jobs(self):
         """Returns jobs from file to file, on an idle machine and beside endless loops."""
+        return [case for mesh, name in self._job_meshes() for busy in (0, 1, os.cpu_count())
+                for case in self._jobs(mesh, name, WHOLE_JOBS, busy)]
+
+    def _sizes(self):
+        """Returns jobs that remove noise, on meshes of different sizes."""
+        return [case for side in RELIEF_SIDES[:2 if self._arguments.quick else None]
+                for case in self._jobs(relief(side, self._output), f"{RELIEF}, {side * side // 1000} k",
+                                       NOISE_JOBS, 0)]
+
+    def _jobs(self, mesh, name, jobs, busy):
+        """Returns the jobs of these names, but those of PyMeshLab only if it is there."""
         script = pathlib.Path(__file__).parent / "whole_job.py"
         tool = self._arguments.build / "filter_tracked_mcf" / "tool" / "tracked_mcf"
         python = self._arguments.build / "pymeshlab" / "bin" / "python"
@@ -200,16 +212,9 @@ class Benchmark:
                                   ("remove-noise",), ("remove-noise", "--threads", 1))]
         if python.exists():
             commands += [(python, ("pymeshlab", name)) for name in PYMESHLAB_FILTERS]
-        jobs = dict(zip(WHOLE_JOBS, commands))
-
-        def cases(mesh, name, names, loads):
-            return [Case(job, name, words=(script, *jobs[job][1], mesh, self._output / f"job{mesh.suffix}"),
-                         program=jobs[job][0], busy=busy) for busy in loads for job in names if job in jobs]
-        loads = (0, 1, os.cpu_count())
-        of_files = [case for mesh, name in self._job_meshes() for case in cases(mesh, name, WHOLE_JOBS, loads)]
-        return of_files + [case for side in RELIEF_SIDES[:2 if self._arguments.quick else None]
-                           for case in cases(relief(side, self._output), f"{RELIEF}, {side * side // 1000} k",
-                                             NOISE_JOBS, (0,))]
+        return [Case(job, name, words=(script, *words, mesh, self._output / f"job{mesh.suffix}"),
+                     program=program, busy=busy)
+                for job, (program, words) in zip(WHOLE_JOBS, commands) if job in jobs]
 
     def _job_meshes(self):
         """Returns files and names."""

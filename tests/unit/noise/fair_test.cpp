@@ -284,7 +284,7 @@ TEST(Fair, TakesSeamsWhereMoreThanTwoFacesMeet) {
 }
 
 TEST(Fair, StaysNearTheMembraneInRoughSurroundings) {
-    TriangleMesh rough = shapes::geodesic_sphere(30);
+    TriangleMesh rough = shapes::geodesic_sphere(16);
     for (std::size_t i = 0; i < rough.positions.size(); ++i) {
         rough.positions[i] *= 1 + 0.2 * std::sin(1e4 * static_cast<double>(i));
     }
