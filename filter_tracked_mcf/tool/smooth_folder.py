@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Does on a Dask cluster what smooth_folder.sh does on one machine: smooth_folder.py SCHEDULER INPUT OUTPUT [OPTION]...
+"""Does on a Dask cluster what smooth_folder.sh does on one machine:
+smooth_folder.py SCHEDULER INPUT OUTPUT [remove-noise] [OPTION]...
 
 SCHEDULER is the address of Dask's scheduler. The workers need the program tracked_mcf in the PATH, and both folders under the
 paths that they have here. Each thread of a worker runs one program, which may have an equal share of the worker's memory.
@@ -15,8 +16,9 @@ def smooth(mesh, target, *options):
     """Returns the program's messages. Raises RuntimeError with them if it fails."""
     worker = distributed.get_worker()
     memory = (worker.memory_manager.memory_limit or 0) // worker.state.nthreads or "unlimited"
-    command = ["prlimit", f"--data={memory}", "tracked_mcf", mesh, target, "--quiet", "--threads", "1", *options]
-    done = subprocess.run(command, stderr=subprocess.PIPE, text=True)
+    command, options = (options[:1], options[1:]) if "remove-noise" in options[:1] else ((), options)
+    done = subprocess.run(["prlimit", f"--data={memory}", "tracked_mcf", *command, mesh, target, "--quiet", "--threads", "1",
+                           *options], stderr=subprocess.PIPE, text=True)
     if done.returncode != 0:
         raise RuntimeError(f"{done.stderr.rstrip()} (failed, exit code {done.returncode})")
     return done.stderr.rstrip()

@@ -21,7 +21,7 @@ say "Installing what is missing"
 "$root/external/meshlab_source.sh" "$build/meshlab-source"
 
 say "Building"
-cmake -S "$root" -B "$build" -DTRACKED_MCF_TESTS=OFF
+cmake -S "$root" -B "$build" -DTRACKED_MCF_TOOL=ON -DTRACKED_MCF_PLUGIN=ON -DTRACKED_MCF_TESTS=OFF
 cmake --build "$build" --parallel "$(nproc)"
 
 say "Smoothing in meshlabserver"

@@ -220,7 +220,9 @@ def write_list_of_pages(folder):
     claims = [line for lines in pages.values() for line in lines if line.startswith(CLAIM)]
     links = [link(folder, name, lines) for name, lines in pages.items()]
     (folder / "README.md").write_text("\n".join(
-        ["# Results of the experiments", "", *links, "", "The paper's claims:", "", *claims, ""]),
+        ["# Results of the experiments", "",
+         "`tests/experiments/reproduce_paper.sh` builds and runs all scripts of `paper`; [how to run one](../README.md). FOLDER has "
+         "[these meshes](meshes.md); without `--meshes`, those of Debian's libcgal-demo are taken.", "", *links, "", "The paper's claims:", "", *claims, ""]),
         encoding="utf-8")
 
 

@@ -68,10 +68,10 @@ class Folder(unittest.TestCase):
                                           memory_limit=megabytes * 500000) as cluster:
                 yield [sys.executable, SCRIPT, cluster.scheduler_address]
 
-    def smooth(self, *options, program=None, megabytes=2000, output=None):
+    def smooth(self, *options, command=(), program=None, megabytes=2000, output=None):
         """Returns the exit code and the messages."""
-        with self.workers(program or PROGRAM, megabytes) as command:
-            done = subprocess.run([*command, self.meshes, output or self.output, *OPTIONS, *options],
+        with self.workers(program or PROGRAM, megabytes) as script:
+            done = subprocess.run([*script, self.meshes, output or self.output, *command, *OPTIONS, *options],
                                   stderr=subprocess.PIPE, text=True, timeout=100)
         return done.returncode, done.stderr
 
@@ -101,6 +101,15 @@ class Folder(unittest.TestCase):
         for name, (_, data) in second.items():
             subprocess.run([PROGRAM, self.meshes / name, self.folder / "expected.off", "--quiet", *OPTIONS], check=True)
             self.assertEqual(data, (self.folder / "expected.off").read_bytes())
+
+    def test_removes_noise(self):
+        code, messages = self.smooth(command=["remove-noise"])
+        self.assertEqual(code, 0, messages)
+        for name, (_, data) in self.outputs().items():
+            subprocess.run([PROGRAM, "remove-noise", self.meshes / name, self.folder / "expected.off", "--quiet", *OPTIONS],
+                           check=True)
+            self.assertEqual(data, (self.folder / "expected.off").read_bytes())
+        self.assertEqual(len(self.outputs()), 3)
 
     def test_each_worker_has_its_share_of_the_memory(self):
         """A flow at depth 10 needs more than 2 GB."""
