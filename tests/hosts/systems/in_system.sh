@@ -4,7 +4,7 @@
 # in_system.sh [-r FOLDER]... SYSTEM COMMAND...
 #
 # The command sees the project's sources and the folders of -r, both read-only, and the current
-# directory, all at their usual paths. It gets the proxies from the environment.
+# directory, all at their usual paths. It gets proxies from the environment, and trusts the certificates of this machine.
 # Mounts and remaining processes end with the command.
 set -euo pipefail
 
@@ -27,8 +27,8 @@ shift
 mount -t proc proc "$system/proc"
 mount --rbind /dev "$system/dev"
 mount -t tmpfs tmpfs "$system/tmp"
-for file in /etc/resolv.conf /etc/hosts; do
-    mount --bind "$(realpath "$file")" "$system$file"
+for file in /etc/resolv.conf /etc/hosts /etc/ssl/certs/ca-certificates.crt; do
+    [ ! -e "$file" ] || mount --bind "$(realpath "$file")" "$system$file"
 done
 for folder in "${readable[@]}"; do
     mkdir -p "$system$folder"
@@ -38,7 +38,7 @@ mkdir -p "$system$here"
 mount --bind "$here" "$system$here"
 
 environment=(HOME=/root USER=root LANG=C.UTF-8 PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin)
-for name in TERM http_proxy https_proxy no_proxy; do
+for name in TERM http_proxy https_proxy no_proxy PIP_CERT PIP_INDEX_URL; do
     [ -z "${!name:-}" ] || environment+=("$name=${!name}")
 done
 # Not exec: this shell is process 1 here and must reap orphans.

@@ -45,7 +45,7 @@ inside bash -c 'apt-get -q update && apt-get -q install -y --no-install-recommen
 mkdir blocks
 awk '/^```(sh|python)$/ { file = sprintf("blocks/%02d.%s", ++count, $1 ~ /sh/ ? "sh" : "py"); print "# " FILENAME > file; next }
     /^```$/ { file = "" } file { print > file }' "${pages[@]}"
-sed -i -E "/$lines_left_out/d; s/run_benchmark\.py/& --quick/" blocks/*
+sed -i -E "\\;$lines_left_out;d; s/run_benchmark\.py/& --quick/" blocks/*
 for block in $(grep -LE -- "$blocks_left_out" blocks/*); do
     echo "== $(cat "$block")"
     # The user is root, who needs no sudo. A block finds what the ones before have installed.
