@@ -14,7 +14,7 @@ from experiment import CONVERGED, Experiment, geometric_mean, label
 
 SHARED_OPEN_SCANS = ["demosthenes_8k.ply", "laurana50k.ply", "stanford_bunny.ply",
                      "mannequin_11k.ply"]
-CGAL_OPEN_SCANS = ["mannequin-devil.off", "lion-head.off", "bear.off"]
+CGAL_OPEN_SCANS = ["mannequin-devil.off", "lion-head.off"]
 EXACT = f"{CONVERGED},locked"
 PAPERS = f"{CONVERGED},locked-cells"
 NAMES = {EXACT: "boundary", PAPERS: "cells"}
