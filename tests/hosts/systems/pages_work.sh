@@ -4,14 +4,14 @@
 # pages_work.sh FOLDER
 #
 # Left out is what needs a cluster, a browser or hours, what is built in other folders than build, and what other tests
-# run: the gallery, filter scripts, and the plugin in PyMeshLab. Exits with 77 if this machine cannot install another
+# run: the gallery, filter scripts, the plugin in PyMeshLab, and the contributor's guide. Exits with 77 if this machine cannot install another
 # Debian.
 set -euo pipefail
 
 here=$(dirname "$(realpath "$0")")
 root=$(realpath "$here/../../..") folder=$(realpath -m "$1")
 pages=(README.md filter_tracked_mcf/{package,plugin,python,tool}/README.md filter_tracked_mcf/tool/folder.md
-    tests/{experiments,benchmark}/README.md .github/CONTRIBUTING.md)
+    tests/{experiments,benchmark}/README.md)
 lines_left_out='^jupyter lab|figure_2|tests/run\.sh'
 blocks_left_out='SCHEDULER|load_plugin|xvfb-run|-B build[-/]'
 
