@@ -4,8 +4,8 @@
 # pages_work.sh FOLDER
 #
 # Left out is what needs a cluster, a browser or hours, what is built in other folders than build, and what other tests
-# run: the gallery, filter scripts, the plugin in PyMeshLab, and the contributor's guide. Exits with 77 if this machine cannot install another
-# Debian.
+# run: the gallery, filter scripts, the plugin in PyMeshLab, and the contributor's guide. Exits with 77 if this machine
+# cannot install another Debian.
 set -euo pipefail
 
 here=$(dirname "$(realpath "$0")")
