@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Geometry>
+#include <string>
+#include <vector>
+
+#include "filter_tracked_mcf/core/flow_report.h"
+#include "tests/zoo/zoo_case.h"
+
+namespace tracked_mcf::zoo {
+
+/// What running a case gave.
+struct Run {
+    TriangleMesh mesh;
+    FlowReport report;
+    std::string refusal;  ///< message of an exception of errors.h
+    std::string foreign;  ///< message of any other exception
+    double cpu_seconds = 0;
+    bool made() const { return refusal.empty() && foreign.empty(); }
+};
+
+/// Runs the filter of a case.
+Run run(const Case& run_case, int threads = 1);
+
+/// Returns, per vertex, whether a selected triangle uses it.
+std::vector<bool> vertices_of(const TriangleMesh& mesh, const Selection& selection);
+
+/// Returns the bounding box of some vertices.
+Eigen::AlignedBox3d box_of(const TriangleMesh& mesh, const std::vector<bool>& vertices);
+
+/// Returns whether conjugate gradients solve the system as they say. With little stabilisation, it
+/// is nearly singular. Beside a large one, single precision loses the rest of the system.
+bool is_well_posed(const FlowParameters& parameters);
+
+/// Returns a number as messages give it.
+std::string number(double value);
+
+}  // namespace tracked_mcf::zoo
