@@ -87,6 +87,7 @@ public:
     Trials(const Sample& sample, const NoiseWishes& wishes)
         : sample_(sample),
           wishes_(wishes),
+          box_(confinement(sample.surface.positions)),
           smoothing_(sample.surface),
           unit_length_(wishes.crease > 0
                            ? std::max(1.0, wishes.detail_size / kDetailOfNormalLengths) /
@@ -149,9 +150,8 @@ private:
     }
 
     void step(const StepSettings& settings, Twins& twins) {
-        const Eigen::AlignedBox3d box = confinement(untreated_.plain);
-        smoothing_.step(settings, box, twins.plain);
-        smoothing_.step(settings, box, twins.perturbed);
+        smoothing_.step(settings, box_, twins.plain);
+        smoothing_.step(settings, box_, twins.perturbed);
     }
 
     Effect effect_of(const Twins& twins) const {
@@ -254,13 +254,14 @@ private:
         Treatment treatment = smooth.treatment;
         treatment.sharpening = sharpening;
         Twins twins = smooth.twins;
-        sharpen(sample_.surface, sharpening, twins.plain);
-        sharpen(sample_.surface, sharpening, twins.perturbed);
+        sharpen(sample_.surface, sharpening, box_, twins.plain);
+        sharpen(sample_.surface, sharpening, box_, twins.perturbed);
         judge(treatment, twins);
     }
 
     const Sample& sample_;
     const NoiseWishes wishes_;
+    const Eigen::AlignedBox3d box_;
     Smoothing smoothing_;
     double unit_length_;  ///< s at which the least crease is as wide as an edge
     double noise_;

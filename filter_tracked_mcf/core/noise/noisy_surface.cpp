@@ -130,6 +130,12 @@ float fidelity_of(double strength) {
     return static_cast<float>(1 / (square * square));
 }
 
+/// Returns the nearest multiple of 2^exponent: a sum without its last bits, which depend on the
+/// order of what was added.
+double rounded(double sum, int exponent) {
+    return std::ldexp(std::nearbyint(std::ldexp(sum, -exponent)), exponent);
+}
+
 /// Returns the mean length of the sides of triangles, 0 if there are none.
 double mean_side(const std::vector<Eigen::Vector3d>& positions,
                  const RawVector<Triangle>& triangles) {
@@ -153,17 +159,22 @@ SurfaceOfMesh surface_of(const Domain& domain) {
         for (const std::int32_t vertex : t) used[vertex] = 1;
     }
     SurfaceOfMesh result{{{{}, 0}, {}, {}}, numbers_of(used), 0};
-    result.edge = mean_side(mesh.positions, triangles);
+    const double mean = mean_side(mesh.positions, triangles);
+    result.edge = rounded(mean, std::ilogb(mean) - 40);
     NoisySurface& surface = result.surface;
-    std::int32_t origin = -1;  // keeps coordinates small where a mesh is far from 0
+    Eigen::AlignedBox3d box;
+    for (std::size_t i = 0; i < used.size(); ++i) {
+        if (used[i] != 0) box.extend(mesh.positions[i]);
+    }
+    const Eigen::Vector3d origin =
+        box.center();  // keeps coordinates small where a mesh is far from 0
     for (std::size_t i = 0; i < used.size(); ++i) {
         if (used[i] == 0) continue;
-        if (origin < 0) origin = static_cast<std::int32_t>(i);
         const auto vertex = static_cast<std::int32_t>(i);
         const bool fixed = domain.constrained_vertices()[i] != 0;
         const double strength = std::max(domain.strength(vertex), kLeastStrength);
         surface.fidelity.push_back(fixed ? 0 : fidelity_of(strength));
-        surface.positions.emplace_back((mesh.positions[i] - mesh.positions[origin]) / result.edge);
+        surface.positions.emplace_back((mesh.positions[i] - origin) / result.edge);
     }
     const auto count = static_cast<std::int32_t>(surface.positions.size());
     surface.stars = Stars(renumbered(triangles, result.vertices), count);
@@ -183,23 +194,26 @@ Eigen::AlignedBox3d confinement(const Positions& positions) {
 
 namespace {
 
-/// A vertex and its squared distance from the mean of all.
+/// A vertex, its squared distance from the mean of all, and its coordinates.
 struct Ranked {
-    double square;
+    double square, x, y, z;
     std::int32_t vertex;
 };
 
+/// Many vertices of a symmetric surface are at the same distance.
 bool operator<(const Ranked& a, const Ranked& b) {
-    return std::tie(a.square, a.vertex) < std::tie(b.square, b.vertex);
+    return std::tie(a.square, a.x, a.y, a.z) < std::tie(b.square, b.x, b.y, b.z);
 }
 
 std::vector<Ranked> ranked(const Positions& positions) {
     Eigen::Vector3d mean = Eigen::Vector3d::Zero();
     for (const Eigen::Vector3d& position : positions) mean += position;
     mean /= static_cast<double>(positions.size());
+    for (double& coordinate : mean) coordinate = rounded(coordinate, -30);
     std::vector<Ranked> vertices(positions.size());
     parallel_for_rows(static_cast<std::int64_t>(vertices.size()), [&](std::int32_t i) {
-        vertices[i] = {(positions[i] - mean).squaredNorm(), i};
+        const Eigen::Vector3d& p = positions[i];
+        vertices[i] = {(p - mean).squaredNorm(), p.x(), p.y(), p.z(), i};
     });
     return vertices;
 }

@@ -11,7 +11,8 @@
 
 namespace tracked_mcf {
 
-/// Positions of a surface's vertices, in edges: mean lengths of its sides.
+/// Positions of a surface's vertices, in edges: mean lengths of its sides. The middle of their box
+/// is 0.
 using Positions = std::vector<Eigen::Vector3d>;
 
 /// One vector per vertex. The fourth component is 0, and makes arithmetic four wide.
@@ -32,14 +33,14 @@ struct NoisySurface {
 struct SurfaceOfMesh {
     NoisySurface surface;
     std::vector<std::int32_t> vertices;  ///< of the mesh: the surface's vertex, or -1
-    double edge = 0;                     ///< mean length, mesh units
+    double edge = 0;  ///< mean length, mesh units, to 40 bits: the same in any order of triangles
 };
 
 /// Returns the surface of a domain. A triangle of it must have an area.
 SurfaceOfMesh surface_of(const Domain& domain);
 
-/// Returns the box that no step may leave: that of the positions, a tenth of its diagonal larger on
-/// each side.
+/// Returns the box that no vertex may leave: that of the positions, a tenth of its diagonal larger
+/// on each side.
 Eigen::AlignedBox3d confinement(const Positions& positions);
 
 /// Part of a surface, without the strengths of its vertices.
@@ -52,7 +53,8 @@ struct Sample {
 
 /// Returns patches that are spread over the surface and have about so many vertices together; all
 /// of a surface that is not much larger. Neither the patches nor the signs depend on the order of
-/// the vertices or, but for rounding, on the surface's place in space, unless it has symmetries.
+/// the vertices or, but for rounding, on the surface's place in space; if it has symmetries, the
+/// signs turn with it only by chance.
 Sample sample_of(const NoisySurface& surface, std::int32_t vertex_count);
 
 }  // namespace tracked_mcf

@@ -81,7 +81,7 @@ void treat(NoisySurface& surface, double edge, const NoiseParameters& parameters
     }
     if (treatment.sharpening.iterations > 0) {
         enter_phase(0.9, "Sharpening the creases");
-        sharpen(surface, treatment.sharpening, surface.positions);
+        sharpen(surface, treatment.sharpening, box, surface.positions);
     }
     report.noise = parameters.noise > 0 ? parameters.noise : edge * treatment.noise;
     report.detail_size = edge * detail_size_of(treatment);

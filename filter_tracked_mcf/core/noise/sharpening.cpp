@@ -52,8 +52,10 @@ void average_alike(const Stars& stars, float inverse_square, const Vectors& norm
     });
 }
 
-/// Moves each vertex towards the planes through its triangles' centroids with these normals.
-void fit(const NoisySurface& surface, const Vectors& normals, Positions& positions) {
+/// Returns each vertex moved towards the planes through its triangles' centroids with these
+/// normals.
+Positions fitted_to(const Vectors& normals, const NoisySurface& surface,
+                    const Positions& positions) {
     const Stars& stars = surface.stars;
     Positions fitted(positions.size());
     parallel_for_rows(stars.count(), [&](std::int32_t vertex) {
@@ -69,19 +71,25 @@ void fit(const NoisySurface& surface, const Vectors& normals, Positions& positio
             static_cast<double>(stars.corner_begin[vertex + 1] - stars.corner_begin[vertex]);
         fitted[vertex] += sum / (triangles * double{surface.fidelity[vertex]});
     });
-    positions.swap(fitted);
+    return fitted;
 }
 
 }  // namespace
 
-void sharpen(const NoisySurface& surface, const Sharpening& sharpening, Positions& positions) {
+void sharpen(const NoisySurface& surface, const Sharpening& sharpening,
+             const Eigen::AlignedBox3d& box, Positions& positions) {
     Vectors normals = normals_of(surface.stars, positions), averages;
     const auto inverse_square = static_cast<float>(1 / (sharpening.width * sharpening.width));
     for (int i = 0; i < sharpening.iterations; ++i) {
         average_alike(surface.stars, inverse_square, normals, averages);
         normals.swap(averages);
     }
-    for (int i = 0; i < kFits; ++i) fit(surface, normals, positions);
+    for (int i = 0; i < kFits; ++i) {
+        Positions fitted = fitted_to(normals, surface, positions);
+        const auto leaves = [&](std::int64_t vertex) { return !box.contains(fitted[vertex]); };
+        if (parallel_count(surface.stars.count(), leaves) > 0) break;
+        positions.swap(fitted);
+    }
 }
 
 }  // namespace tracked_mcf

@@ -15,7 +15,9 @@ struct Sharpening {
 /// normals of neighbouring triangles, those alike by the width with most weight (Zheng, Fu, Au and
 /// Tai, "Bilateral Normal Filtering for Mesh Denoising", 2011), and moves the vertices to fit them
 /// (Sun, Rosin, Martin and Langbein, "Fast and Effective Feature-Preserving Mesh Denoising", 2007).
-/// `surface` has the stars and the fidelities.
-void sharpen(const NoisySurface& surface, const Sharpening& sharpening, Positions& positions);
+/// `surface` has the stars and the fidelities. The vertices stop before one of them would leave
+/// `box`.
+void sharpen(const NoisySurface& surface, const Sharpening& sharpening,
+             const Eigen::AlignedBox3d& box, Positions& positions);
 
 }  // namespace tracked_mcf

@@ -9,6 +9,7 @@
 #include <set>
 #include <utility>
 
+#include "filter_tracked_mcf/core/noise/sharpening.h"
 #include "tests/support/shapes.h"
 
 namespace tracked_mcf {
@@ -42,26 +43,44 @@ TEST(Sample, IsPatchesOfALargeSurfaceAndAllOfASmallOne) {
 }
 
 TEST(Sample, DoesNotDependOnTheOrderOfVertices) {
-    TriangleMesh mesh = uneven_sphere(), reversed = mesh;
-    std::reverse(reversed.positions.begin(), reversed.positions.end());
-    const auto last = static_cast<std::int32_t>(mesh.positions.size()) - 1;
-    for (Triangle& t : reversed.triangles) {
-        for (std::int32_t& vertex : t) vertex = last - vertex;
-    }
-    // Positions are relative to those of the first vertex.
-    const auto signs_at = [](const TriangleMesh& of, const Eigen::Vector3d& origin) {
-        const SurfaceOfMesh result = surface_of(Domain(of, BoundaryCondition::Free));
-        const Sample sample = sample_of(result.surface, kSampled);
+    const auto signs_at = [](const TriangleMesh& mesh) {
+        const Sample sample = sample_of(surface_of_mesh(mesh), kSampled);
         std::set<std::pair<Point, float>> found;
         for (std::size_t i = 0; i < sample.signs.size(); ++i) {
-            const Eigen::Vector3d at =
-                (result.edge * sample.surface.positions[i] + origin).array() * 1e6;
-            found.insert(
-                {{std::round(at[0]), std::round(at[1]), std::round(at[2])}, sample.signs[i]});
+            const Eigen::Vector3d& at = sample.surface.positions[i];
+            found.insert({{at[0], at[1], at[2]}, sample.signs[i]});
         }
         return found;
     };
-    EXPECT_TRUE(signs_at(mesh, mesh.positions[0]) == signs_at(reversed, reversed.positions[0]));
+    // Many vertices of the last two have the same distance from the middle.
+    for (const TriangleMesh& mesh :
+         {uneven_sphere(), shapes::geodesic_sphere(40), shapes::box(30, {1, 2, 3})}) {
+        TriangleMesh reversed = mesh;
+        std::reverse(reversed.positions.begin(), reversed.positions.end());
+        const auto last = static_cast<std::int32_t>(mesh.positions.size()) - 1;
+        for (Triangle& t : reversed.triangles) {
+            for (std::int32_t& vertex : t) vertex = last - vertex;
+        }
+        EXPECT_TRUE(signs_at(mesh) == signs_at(reversed));
+    }
+}
+
+TEST(Sharpening, StopsBeforeAVertexLeavesTheBox) {
+    TriangleMesh roof = shapes::square(20);  // with a round ridge, which rises
+    for (Eigen::Vector3d& p : roof.positions) p.z() = -std::hypot(p.x() - 0.5, 0.05);
+    const NoisySurface surface = surface_of_mesh(roof);
+    Eigen::AlignedBox3d box;
+    for (const Eigen::Vector3d& position : surface.positions) box.extend(position);
+    const auto sharpened_within = [&](const Eigen::AlignedBox3d& within) {
+        Positions positions = surface.positions;
+        sharpen(surface, {0.5, 15}, within, positions);
+        return positions;
+    };
+    const Positions confined = sharpened_within(box);
+    const auto is_inside = [&](const Eigen::Vector3d& position) { return box.contains(position); };
+    EXPECT_TRUE(std::all_of(confined.begin(), confined.end(), is_inside));
+    const Positions free = sharpened_within(confinement(surface.positions));
+    EXPECT_FALSE(std::all_of(free.begin(), free.end(), is_inside));
 }
 
 }  // namespace
