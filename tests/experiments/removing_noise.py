@@ -106,18 +106,18 @@ def measure(experiment, scan, noise, vertices):
     row = {"noisy": result(scan, vertices, 0), OURS: ours(experiment, scan, vertices)}
     if noise == "0":
         return row
-    kept = kept_peers(experiment, scan, noise)
-    if kept and not (noise == "0.2" and scan.name in DRAWN):
-        return {**row, **kept}
     families = taubin_families(scan, vertices)
-    row[TAUBIN] = best(scan, families)
-    row[TAUBIN_DEFAULT] = result(scan, *families[0][STEPS.index(10)]())
-    if kept:
-        return {**kept, **row}  # the picture needs the vertices of Taubin's filter
+    measured = {TAUBIN: lambda: best(scan, families),
+                TAUBIN_DEFAULT: lambda: result(scan, *families[0][STEPS.index(10)]())}
     if noise in WITH_ALL_PEERS:
         if len(numpy.unique(scan.faces)) == len(scan.vertices):  # others make the filter fail
-            row[TWO_STEP] = best(scan, two_step_families(scan, vertices))
-        row[BILATERAL] = best(scan, bilateral_families(scan, vertices))
+            measured[TWO_STEP] = lambda: best(scan, two_step_families(scan, vertices))
+        measured[BILATERAL] = lambda: best(scan, bilateral_families(scan, vertices))
+    kept = kept_peers(experiment, scan, noise)
+    if noise == "0.2" and scan.name in DRAWN:
+        kept.pop(TAUBIN, None)  # the picture needs the vertices
+    for name, result_of in measured.items():
+        row[name] = kept[name] if name in kept else result_of()
     return row
 
 
