@@ -9,8 +9,6 @@ include("${CMAKE_CURRENT_LIST_DIR}/version.cmake")
 set(CMAKE_AUTOMOC OFF)
 set(CMAKE_AUTOUIC OFF)
 set(CMAKE_AUTORCC OFF)
-# Different sources of ours use the same names inside.
-set(CMAKE_UNITY_BUILD OFF)
 
 set(MESHLAB_SDK_RELEASE ${MESHLAB_VERSION})
 foreach(name sdk common_for_plugins)

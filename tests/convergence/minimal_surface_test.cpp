@@ -25,7 +25,7 @@ constexpr auto kLocked = BoundaryCondition::Locked;
 constexpr auto kLockedCells = BoundaryCondition::LockedCells;
 constexpr auto kFree = BoundaryCondition::Free;
 
-constexpr int kSteps = 40;
+constexpr int kStepsToMinimiser = 40;
 constexpr double kLongStep = 4;
 constexpr std::array<int, 4> kDepths = {4, 5, 6, 7};
 
@@ -40,7 +40,7 @@ TriangleMesh flowed(TriangleMesh mesh, const Grid& grid, BoundaryCondition bound
     parameters.boundary = boundary;
     parameters.step_size = step_size;
     Flow flow(plan_of(mesh, parameters, grid));
-    for (int step = 0; step < kSteps; ++step) EXPECT_TRUE(flow.step());
+    for (int step = 0; step < kStepsToMinimiser; ++step) EXPECT_TRUE(flow.step());
     flow.move_vertices(mesh.positions);
     return mesh;
 }

@@ -232,6 +232,11 @@ TriangleMesh merged(TriangleMesh first, const TriangleMesh& second) {
     return first;
 }
 
+TriangleMesh inside_out(TriangleMesh mesh) {
+    for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
+    return mesh;
+}
+
 TriangleMesh soup(const TriangleMesh& mesh) {
     TriangleMesh loose;
     for (const Triangle& triangle : mesh.triangles) {

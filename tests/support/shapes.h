@@ -39,6 +39,9 @@ TriangleMesh transformed(TriangleMesh mesh, const Eigen::Affine3d& transformatio
 /// Joins two meshes into one.
 TriangleMesh merged(TriangleMesh first, const TriangleMesh& second);
 
+/// Turns every triangle over.
+TriangleMesh inside_out(TriangleMesh mesh);
+
 /// Gives every triangle three vertices of its own.
 TriangleMesh soup(const TriangleMesh& mesh);
 

@@ -15,15 +15,6 @@ TriangleMesh read_obj(const std::string& content) {
     return MeshFile(folder / "in.obj").triangle_mesh();
 }
 
-std::string written_with_x_doubled(const std::string& content) {
-    const TemporaryFolder folder;
-    write_file(folder / "in.obj", content);
-    MeshFile file(folder / "in.obj");
-    TriangleMesh mesh = file.triangle_mesh();
-    for (auto& p : mesh.positions) p.x() *= 2;
-    return written(file, mesh, "out.obj");
-}
-
 TEST(Obj, EverythingButPositionsStaysToTheLetter) {
     const std::string content =
         "# made by hand\r\n"
@@ -42,7 +33,7 @@ TEST(Obj, EverythingButPositionsStaysToTheLetter) {
     std::string expected = content;
     expected.replace(expected.find("1.50"), 4, "3");
     expected.replace(expected.find("0.25"), 4, "0.5");
-    EXPECT_EQ(written_with_x_doubled(content), expected);
+    EXPECT_EQ(written_with_x_doubled(content, "obj"), expected);
 }
 
 TEST(Obj, FacesWithTheFirstVertexAreRead) {
@@ -75,7 +66,7 @@ TEST(Obj, DigitsOfDoublesAreReadAndWritten) {
     const TriangleMesh mesh = read_obj(content);
     EXPECT_EQ(mesh.positions[0].x(), tiny);
     EXPECT_EQ(mesh.positions[1].x(), far);
-    const TriangleMesh doubled = read_obj(written_with_x_doubled(content));
+    const TriangleMesh doubled = read_obj(written_with_x_doubled(content, "obj"));
     EXPECT_EQ(doubled.positions[0].x(), 2 * tiny);
     EXPECT_EQ(doubled.positions[1].x(), 2 * far);
 }
@@ -87,7 +78,7 @@ TEST(Obj, NormalsAreThoseOfTheNewShapeAndCreasesStaySharp) {
         "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
         "vn 9 9 9\nvn 9 9 9\nvn 9 9 9\nvn 0 0.6 0.8\n"
         "f 1//1 2//1 3//3\nf 1//2 3//3 4//2\n";
-    const std::string written = written_with_x_doubled(content);
+    const std::string written = written_with_x_doubled(content, "obj");
     const std::string begin = "v 0 0 0\nv 2 0 0\nv 0 1 0\nv 0 0 1\nvn 0 0 1\nvn 1 0 0\nvn 0.44721";
     EXPECT_EQ(written.substr(0, begin.size()), begin);
     EXPECT_NE(written.find(" 0 0.894427190"), std::string::npos);
@@ -98,7 +89,7 @@ TEST(Obj, LinesAreTextWhateverTheirIndices) {
     const std::string content = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nl 1 0\nl 1 2/3 -9 99 x\n";
     std::string expected = content;
     expected.replace(expected.find("1 0 0"), 1, "2");
-    EXPECT_EQ(written_with_x_doubled(content), expected);
+    EXPECT_EQ(written_with_x_doubled(content, "obj"), expected);
 }
 
 }  // namespace

@@ -10,15 +10,6 @@
 namespace tracked_mcf {
 namespace {
 
-std::string written_with_x_doubled(const std::string& content) {
-    const TemporaryFolder folder;
-    write_file(folder / "in.off", content);
-    MeshFile file(folder / "in.off");
-    TriangleMesh mesh = file.triangle_mesh();
-    for (auto& p : mesh.positions) p.x() *= 2;
-    return written(file, mesh, "out.off");
-}
-
 TEST(Off, PolygonsColoursAndCommentsStayToTheLetter) {
     const std::string content =
         "OFF 5 3 0\n# a comment\n0 0 0\n1.50 0 0\n\n1 1 0\n0 1 0\n0.5 0.5 1e-3\n"
@@ -27,14 +18,15 @@ TEST(Off, PolygonsColoursAndCommentsStayToTheLetter) {
     expected.replace(expected.find("1.50"), 4, "3");
     expected.replace(expected.find("1 1 0"), 1, "2");
     expected.replace(expected.find("0.5 0.5 1e-3"), 12, "1 0.5 0.001");
-    EXPECT_EQ(written_with_x_doubled(content), expected);
+    EXPECT_EQ(written_with_x_doubled(content, "off"), expected);
 }
 
 TEST(Off, AttributesOfVerticesStayAndNormalsAreThoseOfTheNewShape) {
     EXPECT_EQ(written_with_x_doubled("STCNOFF\n3 1 0\n"
                                      "0 0 0 9 9 9 255 0 0 0.5 0.25\n"
                                      "1 0 0 9 9 9 0 255 0 1 0\n"
-                                     "0 1 0 9 9 9 0 0 255 0 1\n3 0 1 2\n"),
+                                     "0 1 0 9 9 9 0 0 255 0 1\n3 0 1 2\n",
+                                     "off"),
               "STCNOFF\n3 1 0\n"
               "0 0 0 0 0 1 255 0 0 0.5 0.25\n"
               "2 0 0 0 0 1 0 255 0 1 0\n"
@@ -42,7 +34,7 @@ TEST(Off, AttributesOfVerticesStayAndNormalsAreThoseOfTheNewShape) {
 }
 
 TEST(Off, NumbersMayBeSpreadOverLines) {
-    EXPECT_EQ(written_with_x_doubled("OFF\n3 1 0\n0 0\n0 1 0 0\n0\n1 0\n3 0 1 2\n"),
+    EXPECT_EQ(written_with_x_doubled("OFF\n3 1 0\n0 0\n0 1 0 0\n0\n1 0\n3 0 1 2\n", "off"),
               "OFF\n3 1 0\n0 0\n0 2 0 0\n0\n1 0\n3 0 1 2\n");
 }
 

@@ -10,7 +10,7 @@ namespace tracked_mcf {
 namespace {
 
 /// Reads `content`, multiplies x of every vertex by 2, and returns what is written, in doubles.
-std::string written_with_x_doubled(const std::string& content) {
+std::string written_in_doubles(const std::string& content) {
     const TemporaryFolder folder;
     write_file(folder / "in.ply", content);
     MeshFile file(folder / "in.ply");
@@ -40,18 +40,18 @@ std::string reversed(std::string bytes) {
 TEST(Ply, EveryEncodingIsRead) {
     const std::string ascii =
         "ply\nformat ascii 1.0\n" + kPlain + "0 0 0\n1 0 0\n0 1 0.5\n3 0 1 2\n";
-    EXPECT_EQ(written_with_x_doubled(ascii), kPlainInDoubles + kPlainBody);
+    EXPECT_EQ(written_in_doubles(ascii), kPlainInDoubles + kPlainBody);
 
     const std::string little = "ply\nformat binary_little_endian 1.0\n" + kPlain +
                                packed(0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 1.f, .5f) +
                                packed(std::uint8_t{3}, 0, 1, 2);
-    EXPECT_EQ(written_with_x_doubled(little), kPlainInDoubles + kPlainBody);
+    EXPECT_EQ(written_in_doubles(little), kPlainInDoubles + kPlainBody);
 
     std::string big = "ply\nformat binary_big_endian 1.0\n" + kPlain;
     for (const float f : {0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 1.f, .5f}) big += reversed(packed(f));
     big += '\3';
     for (const int i : {0, 1, 2}) big += reversed(packed(i));
-    EXPECT_EQ(written_with_x_doubled(big), kPlainInDoubles + kPlainBody);
+    EXPECT_EQ(written_in_doubles(big), kPlainInDoubles + kPlainBody);
 }
 
 TEST(Ply, CoordinatesAndNormalsKeepTheirType) {
@@ -96,7 +96,7 @@ TEST(Ply, BigEndianDoublesAreRead) {
     for (const double d : {0., 0., 0., 1., 0., 0., 0., 1., .5}) big += reversed(packed(d));
     big += '\3';
     for (const int i : {0, 1, 2}) big += reversed(packed(i));
-    EXPECT_EQ(written_with_x_doubled(big), kPlainInDoubles + kPlainBody);
+    EXPECT_EQ(written_in_doubles(big), kPlainInDoubles + kPlainBody);
 }
 
 TEST(Ply, EveryPropertyElementAndCommentIsKept) {
@@ -132,7 +132,7 @@ TEST(Ply, EveryPropertyElementAndCommentIsKept) {
         "element vertex 4\nproperty double x\nproperty double y\nproperty double z\n" +
         properties_after + vertex(0., 0., 0., 1) + vertex(2., 0., 0., 2) + vertex(0., 1., 0., 3) +
         vertex(2., 1., .5, 4) + faces_and_more;
-    EXPECT_EQ(written_with_x_doubled(content), expected);
+    EXPECT_EQ(written_in_doubles(content), expected);
 }
 
 TEST(Ply, AListNamedLikeACoordinateIsKeptBesideIt) {
@@ -147,11 +147,10 @@ TEST(Ply, AListNamedLikeACoordinateIsKeptBesideIt) {
         return packed(zero, zero, zero) + empty_list + packed(x, zero, zero) + long_list +
                packed(zero, one, zero) + empty_list;
     };
-    EXPECT_EQ(
-        written_with_x_doubled(head + "property float x\nproperty float y\nproperty float z\n" +
-                               rest + lists(0.f, 1.f, 1.f) + face),
-        head + "property double x\nproperty double y\nproperty double z\n" + rest +
-            lists(0., 2., 1.) + face);
+    EXPECT_EQ(written_in_doubles(head + "property float x\nproperty float y\nproperty float z\n" +
+                                 rest + lists(0.f, 1.f, 1.f) + face),
+              head + "property double x\nproperty double y\nproperty double z\n" + rest +
+                  lists(0., 2., 1.) + face);
 }
 
 TEST(Ply, PolygonsStayWhole) {
@@ -166,7 +165,7 @@ TEST(Ply, PolygonsStayWhole) {
     const std::string expected =
         head + "property double x\nproperty double y\nproperty double z\n" + rest +
         packed(0., 0., 0., 2., 0., 0., 2., 1., 0., 0., 1., 0., -2., .5, 0.) + faces;
-    EXPECT_EQ(written_with_x_doubled(content), expected);
+    EXPECT_EQ(written_in_doubles(content), expected);
 
     const TemporaryFolder folder;
     write_file(folder / "in.ply", content);
@@ -224,7 +223,7 @@ TEST(Ply, NormalsAreThoseOfTheNewShape) {
         packed(0., 1., 0., x, 0., z) + packed(0., 0., 1., 1., 0., 0.) +
         packed(10., 5., 5., 0., double{.6f}, double{.8f}) +
         packed(std::uint8_t{3}, 0, 1, 2, 0., 0., 1.) + packed(std::uint8_t{3}, 0, 2, 3, 1., 0., 0.);
-    const std::string written = written_with_x_doubled(content);
+    const std::string written = written_in_doubles(content);
     ASSERT_EQ(written.size(), expected.size());
     const std::size_t header = expected.find("end_header\n") + 11;
     EXPECT_EQ(written.substr(0, header), expected.substr(0, header));

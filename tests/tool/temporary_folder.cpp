@@ -49,6 +49,15 @@ std::string written(const MeshFile& file, const TriangleMesh& mesh, const std::s
     return out.str();
 }
 
+std::string written_with_x_doubled(const std::string& content, const std::string& extension) {
+    const TemporaryFolder folder;
+    write_file(folder / ("in." + extension), content);
+    MeshFile file(folder / ("in." + extension));
+    TriangleMesh mesh = file.triangle_mesh();
+    for (auto& p : mesh.positions) p.x() *= 2;
+    return written(file, mesh, "out." + extension);
+}
+
 void write_text(OutputFile& output, const std::string& text) {
     output.write([&](std::ostream& out) { out << text; });
 }

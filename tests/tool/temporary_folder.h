@@ -33,6 +33,9 @@ void write_file(const std::filesystem::path& path, const std::string& content);
 /// `name`.
 std::string written(const MeshFile& file, const TriangleMesh& mesh, const std::string& name);
 
+/// Returns what is written for a file with this content and extension if every x is doubled.
+std::string written_with_x_doubled(const std::string& content, const std::string& extension);
+
 /// Writes `text`, and does not commit it.
 void write_text(OutputFile& output, const std::string& text);
 

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <limits>
 #include <random>
 #include <stdexcept>
 #include <vector>
@@ -15,15 +14,13 @@
 #include "filter_tracked_mcf/core/mesh/measures.h"
 #include "filter_tracked_mcf/core/parallel/progress_meter.h"
 #include "filter_tracked_mcf/core/solver/conjugate_gradients.h"
+#include "tests/support/not_finite.h"
 #include "tests/support/shapes.h"
 #include "tests/support/surface_distance.h"
 #include "tests/unit/flows.h"
 
 namespace tracked_mcf {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 TEST(Evolve, ThePapersSolverSamplesEachSplitTriangle) {
     TriangleMesh mesh = shapes::bumpy_sphere(20);

@@ -3,16 +3,12 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
-
 #include "filter_tracked_mcf/core/errors.h"
+#include "tests/support/not_finite.h"
 #include "tests/support/shapes.h"
 
 namespace tracked_mcf {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 TEST(Validate, AcceptsASphere) {
     EXPECT_NO_THROW(validate(shapes::geodesic_sphere(2)));

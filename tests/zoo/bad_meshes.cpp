@@ -4,10 +4,10 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <set>
 #include <utility>
 
+#include "tests/support/not_finite.h"
 #include "tests/support/shapes.h"
 
 namespace tracked_mcf::zoo {
@@ -161,9 +161,6 @@ TriangleMesh glued(Random& random) {
     });
     return mesh;
 }
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 TriangleMesh unreferenced(Random& random) {
     TriangleMesh mesh = plain(random);

@@ -28,7 +28,7 @@ bool is_selected(const Selection& selection, std::size_t triangle) {
     return selection.empty() || selection[triangle] != 0;
 }
 
-Eigen::AlignedBox3d box_of(const TriangleMesh& mesh, const Selection& selection) {
+Eigen::AlignedBox3d box_of_selected(const TriangleMesh& mesh, const Selection& selection) {
     Eigen::AlignedBox3d box;
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
         if (!is_selected(selection, i)) continue;
@@ -140,7 +140,7 @@ std::string exact(double value) {
 }  // namespace
 
 double fragments_at(const TriangleMesh& mesh, const Selection& selection, int depth) {
-    const double side = box_of(mesh, selection).sizes().maxCoeff();
+    const double side = box_of_selected(mesh, selection).sizes().maxCoeff();
     if (!(side > 0) || !std::isfinite(side)) return 0;
     const double cells_per_unit = std::ldexp(1.0, depth) / (1.1 * side);
     double fragments = 0;
@@ -177,8 +177,8 @@ Case case_of(std::uint64_t seed, std::int64_t number) {
     made.kind = kind.name;
     made.mesh = kind.make(random);
     if (random.chance(0.1)) made.inputs.selection = random_selection(made.mesh, random);
-    made.parameters =
-        random_parameters(box_of(made.mesh, made.inputs.selection).sizes().maxCoeff(), random);
+    made.parameters = random_parameters(
+        box_of_selected(made.mesh, made.inputs.selection).sizes().maxCoeff(), random);
     limit_work(made, kMostFragments);
     if (random.chance(0.1)) made.inputs.strength = random_strength(made.mesh, random);
     return made;
@@ -187,7 +187,7 @@ Case case_of(std::uint64_t seed, std::int64_t number) {
 Case noise_case_of(std::uint64_t seed, std::int64_t number) {
     Case made = case_of(seed, number);
     Random random(seed, ~static_cast<std::uint64_t>(number));
-    const double side = box_of(made.mesh, made.inputs.selection).sizes().maxCoeff();
+    const double side = box_of_selected(made.mesh, made.inputs.selection).sizes().maxCoeff();
     const auto length = [&](double probability) {
         const double drawn = side * random.log_between(1e-6, 1e2);
         return random.chance(probability) && std::isfinite(drawn) ? drawn : 0.0;
@@ -205,7 +205,7 @@ Case noise_case_of(std::uint64_t seed, std::int64_t number) {
 Case fair_case_of(std::uint64_t seed, std::int64_t number) {
     Case made = case_of(seed, number);
     Random random(seed, ~static_cast<std::uint64_t>(number));
-    const double side = box_of(made.mesh, {}).sizes().maxCoeff();
+    const double side = box_of_selected(made.mesh, {}).sizes().maxCoeff();
     if (made.inputs.selection.empty())
         made.inputs.selection = random_patch(made.mesh, side, random);
     made.inputs.strength.clear();

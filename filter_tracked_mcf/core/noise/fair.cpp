@@ -40,7 +40,7 @@ constexpr double kRough = 3;
 /// Conjugate gradients stop at this residual, relative to the first one. The next iteration in the
 /// metric of the result removes what is left.
 constexpr double kTolerance = 1e-3;
-constexpr int kMostSteps = 2000;
+constexpr int kIterationLimit = 2000;
 
 /// Bytes for each vertex and each triangle of the mesh, and for each vertex that moves.
 constexpr double kBytesPerVertex = 60, kBytesPerTriangle = 90, kBytesPerMoving = 1200;
@@ -201,7 +201,7 @@ private:
         Points residual = -product(continuity, positions_), moved = Points::Zero(count, 3);
         Points direction = Points::Zero(positions_.rows(), 3);
         double square = 0, limit = 0;
-        for (int i = 0; i < kMostSteps; ++i) {
+        for (int i = 0; i < kIterationLimit; ++i) {
             poll_progress();
             const Points solved = precondition(continuity, residual);
             const double before = square;

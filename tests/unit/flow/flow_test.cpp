@@ -10,14 +10,13 @@
 #include "filter_tracked_mcf/core/evolve.h"
 #include "filter_tracked_mcf/core/mesh/measures.h"
 #include "filter_tracked_mcf/core/mesh/mesh_topology.h"
+#include "tests/support/not_finite.h"
 #include "tests/support/plans.h"
 #include "tests/support/shapes.h"
 #include "tests/unit/flows.h"
 
 namespace tracked_mcf {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 // A flow has references to its own members.
 static_assert(!std::is_copy_constructible_v<Flow> && !std::is_move_constructible_v<Flow>);

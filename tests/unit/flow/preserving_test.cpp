@@ -46,11 +46,6 @@ double box_volume(const TriangleMesh& mesh) {
     return box.volume();
 }
 
-TriangleMesh inside_out(TriangleMesh mesh) {
-    for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
-    return mesh;
-}
-
 /// Returns the first or the second of two meshes of the same number of vertices that were merged.
 TriangleMesh half_of(const TriangleMesh& mesh, int half) {
     TriangleMesh part{mesh.positions, {}};
@@ -126,7 +121,8 @@ TEST(PreservingVolume, OfCloseShellsKeepsEach) {
     // Both are in the same cells, and the inner one is turned inside out.
     const TriangleMesh sphere = shapes::bumpy_sphere(20);
     const TriangleMesh shells = shapes::merged(
-        sphere, inside_out(shapes::transformed(sphere, Eigen::Affine3d(Eigen::Scaling(0.97)))));
+        sphere,
+        shapes::inside_out(shapes::transformed(sphere, Eigen::Affine3d(Eigen::Scaling(0.97)))));
     const TriangleMesh after = evolved(shells, preserving(Preserve::Volume, 1e-4, 10));
     for (int half = 0; half < 2; ++half) {
         const double volume = enclosed_volume(half_of(shells, half));
@@ -246,7 +242,7 @@ TEST(PreservingVolume, TurningASurfaceInsideOutChangesNothing) {
     for (const TriangleMesh& mesh : {shapes::bumpy_sphere(15), bumpy_cap(15)}) {
         const FlowParameters p = preserving(Preserve::Volume);
         const TriangleMesh expected = evolved(mesh, p);
-        EXPECT_LT(distance(evolved(inside_out(mesh), p), expected), 1e-5);
+        EXPECT_LT(distance(evolved(shapes::inside_out(mesh), p), expected), 1e-5);
         EXPECT_GT(distance(expected, mesh), 1e-3);
     }
 }
@@ -385,7 +381,7 @@ TEST(PreservingVolume, KeepsAPinchingDumbbellWithinBounds) {
 TEST(PreservingVolume, VolumesThatCancelDoNotEnlargeTheMesh) {
     const TriangleMesh sphere = shapes::geodesic_sphere(10);
     const TriangleMesh both = shapes::merged(
-        sphere, inside_out(shapes::transformed(
+        sphere, shapes::inside_out(shapes::transformed(
                     sphere, Eigen::Affine3d(Eigen::Translation3d(3, 0, 0)) * Eigen::Scaling(0.9))));
     for (const FlowKind flow : {FlowKind::MeanCurvature, FlowKind::Conformalized}) {
         FlowParameters p = preserving(Preserve::Volume, 5e-3, 50);

@@ -34,11 +34,6 @@ TriangleMesh sphere() {
                                Eigen::Affine3d(Eigen::Scaling(kRadius)));
 }
 
-TriangleMesh inside_out(TriangleMesh mesh) {
-    for (Triangle& triangle : mesh.triangles) std::swap(triangle[0], triangle[1]);
-    return mesh;
-}
-
 std::vector<double> quality_of(TriangleMesh mesh, const FlowParameters& p,
                                const Selection& selection = {}) {
     return evolve(mesh, selection, p).quality;
@@ -80,13 +75,13 @@ TEST(Quality, DisplacementOfASphereIsTheChangeOfItsRadius) {
     const double change = radius - kRadius;
     const FlowParameters p = measuring(Quality::Displacement);
     expect_all_near(quality_of(sphere(), p), change, 0.05 * std::abs(change));
-    expect_all_near(quality_of(inside_out(sphere()), p), -change, 0.05 * std::abs(change));
+    expect_all_near(quality_of(shapes::inside_out(sphere()), p), -change, 0.05 * std::abs(change));
 }
 
 TEST(Quality, MeanCurvatureOfASphereIsOneOverItsRadius) {
     FlowParameters p = measuring(Quality::MeanCurvature);
     expect_all_near(quality_of(sphere(), p), 1 / kRadius, 0.05 / kRadius);
-    expect_all_near(quality_of(inside_out(sphere()), p), -1 / kRadius, 0.05 / kRadius);
+    expect_all_near(quality_of(shapes::inside_out(sphere()), p), -1 / kRadius, 0.05 / kRadius);
     p.order = 3;
     expect_all_near(quality_of(sphere(), p), 1 / kRadius, 0.05 / kRadius);
 }

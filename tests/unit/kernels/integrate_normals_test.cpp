@@ -23,14 +23,14 @@ Matrix83 to_matrix(const ElementVector& vector) {
 }
 
 /// ∫ B_I n in double: the cross product of two tangents' images is the normal times the area.
-struct Reference {
+struct NormalsReference {
     Matrix83 normals = Matrix83::Zero();
     double size = 0;  ///< the same sum with the absolute values of its terms
 };
 
-Reference reference_for(const Surface& surface, std::size_t element) {
+NormalsReference reference_for(const Surface& surface, std::size_t element) {
     const Matrix83 x = embedding_of(surface, element);
-    Reference reference;
+    NormalsReference reference;
     for_each_sample(
         surface, element,
         [&](const Eigen::Vector3d& normal, const Eigen::Vector3d& local, double weight) {
@@ -70,7 +70,7 @@ TEST_P(IntegrateNormals, EqualTheIntegralsInDouble) {
             SCOPED_TRACE("element " + std::to_string(element));
             // The kernel rounds each term to single precision. The tolerance is that of the right
             // sides in integrate_elements_test.cpp, 17 roundings.
-            const Reference expected = reference_for(surface, element);
+            const NormalsReference expected = reference_for(surface, element);
             EXPECT_LE((to_matrix(normals[element]) - expected.normals).norm(),
                       1e-6 * expected.size);
         }
@@ -93,12 +93,9 @@ TEST_P(IntegrateNormals, HaveTheSideOfTheTrianglesOwn) {
     }
 }
 
-std::string name_of_case(const testing::TestParamInfo<InstructionSet>& info) {
-    return std::string(name_of(info.param));
-}
-
 INSTANTIATE_TEST_SUITE_P(InstructionSets, IntegrateNormals,
-                         testing::ValuesIn(available_instruction_sets()), name_of_case);
+                         testing::ValuesIn(available_instruction_sets()),
+                         [](const auto& instance) { return std::string(name_of(instance.param)); });
 
 TEST(IntegratedNormals, SatisfyTheDivergenceTheorem) {
     // ∫ n = 0 and ∫ x·n = 3 V for a closed surface, here stretched by its displacement. The
