@@ -47,8 +47,6 @@ double stabilization_of(const FlowParameters& parameters) {
 
 void validate(const FlowParameters& parameters) {
     check_ranges(parameters);
-    // No host offers this one.
-    check_range("boundary_penalty", parameters.boundary_penalty, {0, 1e6, ", such as 10", true});
     if (parameters.quality == Quality::MeanCurvature &&
         parameters.flow != FlowKind::MeanCurvature) {
         throw InvalidParameter(

@@ -75,12 +75,6 @@ struct StepParameters {
     FlowKind flow = FlowKind::MeanCurvature;
     BoundaryCondition boundary = BoundaryCondition::Locked;
 
-    /// Locked: the penalty η of the constraint (curve_constraint.h), greater than 0 and less than
-    /// 1e6, and whether its multipliers are updated after each step. For comparison
-    /// only.
-    double boundary_penalty = 10;
-    bool update_boundary_multipliers = true;
-
     /// Converged: the solver stops when its estimate of the error (conjugate_gradients.h) is at
     /// most this fraction of the solution, both in the energy norm. Greater than 0, less than 1.
     double tolerance = 1e-3;

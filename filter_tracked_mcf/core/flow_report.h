@@ -16,10 +16,10 @@ struct StepReport {
     double residual_before = 0;
     double residual_after = 0;
     int solver_iterations = 0;  ///< iterations of conjugate gradients, or W-cycles, of all solves
-    /// Converged: the largest estimated error of a solve in the energy norm, relative to its
-    /// solution.
+    /// Of the solver that converges: the largest estimated error of a solve in the energy norm,
+    /// relative to its solution.
     double error_estimate = 0;
-    bool reached_tolerance = true;       ///< Converged: whether error_estimate <= tolerance
+    bool reached_tolerance = true;       ///< whether error_estimate <= tolerance
     double area = 0;                     ///< area before the step, mesh units²
     std::int64_t collapsed_samples = 0;  ///< samples ignored because their area has collapsed
 };
@@ -57,11 +57,12 @@ struct FlowReport {
     std::int64_t cells = 0;      ///< occupied cells of the finest level
     std::int64_t elements = 0;   ///< elements of the finest level
     std::int64_t unknowns = 0;   ///< unknowns of the finest level
-    std::int64_t constrained_unknowns = 0;  ///< of these, constrained by a boundary of locked cells
-    std::int64_t fragments = 0;             ///< non-empty intersections of triangles and cells
-    std::int64_t split_triangles = 0;       ///< triangles of the fragments' fans
-    std::int64_t samples = 0;               ///< quadrature points
-    double area_before = 0;                 ///< of the triangles that flow, mesh units²
+    std::int64_t constrained_unknowns =
+        0;                       ///< of these, those that a boundary of locked cells constrains
+    std::int64_t fragments = 0;  ///< non-empty intersections of triangles and cells
+    std::int64_t split_triangles = 0;  ///< triangles of the fragments' fans
+    std::int64_t samples = 0;          ///< quadrature points
+    double area_before = 0;            ///< of the triangles that flow, mesh units²
     double area_after = 0;
     /// Volume between the initial and the final surface, mesh units³. It is positive where the
     /// surface has moved along its normals. Of a closed surface, it is the change of the enclosed

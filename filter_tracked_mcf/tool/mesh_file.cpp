@@ -25,9 +25,9 @@ bool is_selecting(const std::string& name, double number) {
 
 using NumbersOf = FileDocument::NumbersOf;
 
-std::string names_of_numbers(const FileDocument& document, NumbersOf items) {
+std::string property_names(const FileDocument& document, NumbersOf items) {
     std::string list;
-    for (const std::string& name : document.names_of_numbers(items))
+    for (const std::string& name : document.property_names(items))
         list += (list.empty() ? "" : ", ") + name;
     return list.empty() ? "none" : list;
 }
@@ -47,8 +47,8 @@ Selection MeshFile::selection_by(const std::string& name) const {
     if (of_faces.empty() && of_vertices.empty()) {
         throw InvalidParameter(
             path_.u8string() + " has no number '" + name +
-            "' to select by; its faces have: " + names_of_numbers(*document_, NumbersOf::Faces) +
-            "; its vertices: " + names_of_numbers(*document_, NumbersOf::Vertices) + ".");
+            "' to select by; its faces have: " + property_names(*document_, NumbersOf::Faces) +
+            "; its vertices: " + property_names(*document_, NumbersOf::Vertices) + ".");
     }
     const auto is_selected = [&](std::size_t polygon) {
         if (!of_faces.empty()) return is_selecting(name, of_faces[polygon]);
@@ -72,9 +72,9 @@ Selection MeshFile::selection_by(const std::string& name) const {
 std::vector<double> MeshFile::numbers_by(const std::string& name) const {
     std::vector<double> numbers = document_->numbers(NumbersOf::Vertices, name);
     if (numbers.empty()) {
-        throw InvalidParameter(
-            "The vertices of " + path_.u8string() + " have no number '" + name +
-            "'; they have: " + names_of_numbers(*document_, NumbersOf::Vertices) + ".");
+        throw InvalidParameter("The vertices of " + path_.u8string() + " have no number '" + name +
+                               "'; they have: " + property_names(*document_, NumbersOf::Vertices) +
+                               ".");
     }
     return numbers;
 }

@@ -24,13 +24,9 @@ const std::map<std::string, Change> kWords = {
     {"separate", [](FlowParameters& p) { p.separate_sheets = true; }},
     {"glued", [](FlowParameters& p) { p.separate_sheets = false; }},
     {"free-pinches", [](FlowParameters& p) { p.constrain_pinches = false; }},
-    {"conformalized", [](FlowParameters& p) { p.flow = FlowKind::Conformalized; }},
     {"locked", [](FlowParameters& p) { p.boundary = BoundaryCondition::Locked; }},
     {"locked-cells", [](FlowParameters& p) { p.boundary = BoundaryCondition::LockedCells; }},
     {"free", [](FlowParameters& p) { p.boundary = BoundaryCondition::Free; }},
-    {"penalty-alone", [](FlowParameters& p) { p.update_boundary_multipliers = false; }},
-    {"preserve-area", [](FlowParameters& p) { p.preserve = Preserve::Area; }},
-    {"preserve-volume", [](FlowParameters& p) { p.preserve = Preserve::Volume; }},
 };
 
 Cubature cubature_of(double points) {
@@ -42,9 +38,7 @@ const std::map<std::string, ChangeTo> kWordsWithValue = {
     {"cubature", [](FlowParameters& p, double value) { p.cubature = cubature_of(value); }},
     {"kappa", [](FlowParameters& p, double value) { p.stabilization = value; }},
     {"tolerance", [](FlowParameters& p, double value) { p.tolerance = value; }},
-    {"order", [](FlowParameters& p, double value) { p.order = static_cast<int>(value); }},
     {"cycles", [](FlowParameters& p, double value) { p.cycles = static_cast<int>(value); }},
-    {"penalty", [](FlowParameters& p, double value) { p.boundary_penalty = value; }},
 };
 
 template <class Changes>

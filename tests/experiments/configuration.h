@@ -15,16 +15,11 @@ namespace tracked_mcf::experiments {
 ///   kappa=X        weight of the stabilisation
 ///   tolerance=X    tolerance of the converged solver
 ///   cycles=N       W-cycles of the paper's solver
-///   order=N        order of a step
 ///   cubature=N     quadrature points of a split triangle: 1, 3 or 12
 ///   separate       separate sheets
 ///   glued          sheets in one cell share functions
 ///   free-pinches   pinched functions are not constrained
-///   conformalized  the conformalized flow
 ///   locked, locked-cells, free    the boundary, unless the experiment sets it
-///   penalty=X      penalty of a locked boundary's constraint
-///   penalty-alone  the boundary's multipliers stay zero
-///   preserve-area, preserve-volume   see FlowParameters::preserve, in `stages` only
 ///
 /// Throws std::invalid_argument for any other word.
 FlowParameters parse_configuration(const std::string& words);

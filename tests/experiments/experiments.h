@@ -9,32 +9,11 @@ class App;
 /// on standard output. The scripts in this folder choose the cases and make tables and plots.
 namespace tracked_mcf::experiments {
 
-/// Compares separate with glued sheets where the mesh's edges lie in grid planes.
-void add_aligned(CLI::App& app);
-
 /// Measures the distance to the cotangent flow.
 void add_accuracy(CLI::App& app);
 
-/// Compares the surface beside a locked boundary with the cotangent flow.
-void add_boundary(CLI::App& app);
-
 /// Writes the finest cells that a patch carries with it.
 void add_cells(CLI::App& app);
-
-/// Measures the distance to a minimal surface that a locked boundary spans.
-void add_minimal(CLI::App& app);
-
-/// Removes the noise of a mesh.
-void add_noise(CLI::App& app);
-
-/// Measures pinched parts in long flows.
-void add_pinches(CLI::App& app);
-
-/// Flows disjoint pieces closer than a cell, together and alone.
-void add_pieces(CLI::App& app);
-
-/// Measures size and time of the set-up.
-void add_setup(CLI::App& app);
 
 /// Compares the radius of the unit sphere with the exact semi-implicit radius.
 void add_sphere(CLI::App& app);

@@ -12,14 +12,7 @@ int main(int argc, char** argv) {
     CLI::App app("Measures the flow. The scripts in tests/experiments call this.");
     app.require_subcommand(1);
     add_accuracy(app);
-    add_aligned(app);
-    add_boundary(app);
     add_cells(app);
-    add_minimal(app);
-    add_noise(app);
-    add_pieces(app);
-    add_pinches(app);
-    add_setup(app);
     add_sphere(app);
     add_stages(app);
     try {

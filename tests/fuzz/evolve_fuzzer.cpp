@@ -76,10 +76,8 @@ FlowParameters parameters_of(Bytes& bytes) {
     p.cycles = bytes.integer(0, 3);
     if (bytes.flag()) p.tolerance = bytes.number();
     if (bytes.flag()) p.stabilization = bytes.number();
-    if (bytes.flag()) p.boundary_penalty = bytes.number();
     p.local_detail_size = bytes.flag();
     p.constrain_pinches = bytes.flag();
-    p.update_boundary_multipliers = bytes.flag();
     return p;
 }
 

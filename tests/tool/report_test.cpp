@@ -231,19 +231,6 @@ TEST(Warnings, NameTheFirstStepThatRemovedMuchOfTheArea) {
     EXPECT_TRUE(warnings({}, report).empty()) << "the detail is all of the shape";
 }
 
-TEST(Warnings, SayThatTheFlowStopped) {
-    CommandLineOf<FlowParameters> line;
-    line.parameters.iterations = 10;
-    FlowReport report;
-    report.steps.resize(4);
-    report.stop = Stop::NothingMoves;
-    report.steps[0].reached_tolerance = false;
-    const std::vector<std::string> lines = warnings(line, report);
-    ASSERT_EQ(lines.size(), 2u);
-    EXPECT_EQ(lines[0],
-              "The flow stopped after step 4 of 10: everything that could move has pinched.");
-}
-
 TEST(Warnings, DoNotBlameTheGridIfNothingMoves) {
     FlowReport report;
     report.depth = 5;

@@ -25,10 +25,10 @@ public:
     Flow& operator=(const Flow&) = delete;
 
     /// Makes one step (Stepper::advance) and restores what is preserved. A step that fails is
-    /// retried with more care, whole or in 4 or 16 substeps.
+    /// retried with more care: whole, then in 4 substeps, then in 16.
     ///
-    /// Returns false and keeps the state if there is no such step; report().stop then says why. If
-    /// the previous step has left almost no area, takes the flow back to before that step.
+    /// Returns false and keeps the state if all of these fail; report().stop then says why. Where
+    /// the previous step has left almost no area, this step undoes it instead, and returns false.
     ///
     /// Throws what poll_progress() throws; the flow cannot be continued then.
     bool step();

@@ -60,7 +60,6 @@ std::vector<Preserver::Measures> Preserver::measure(
         const Eigen::Vector3d normal = twice_vector_area(corners[0], corners[1], corners[2]) / 2;
         component.area += normal.norm();
         component.volume += (corners[0] - near).dot(normal) / 3;
-        component.swept += swept_volume(corners_of(mesh_.positions, triangles_[i]), corners);
         for (const Eigen::Vector3d& corner : corners) {
             component.centroid += normal.norm() / 3 * (corner - near);
             component.box.extend(corner);

@@ -36,7 +36,6 @@ private:
     struct Measures {
         double area = 0;
         double volume = 0;         ///< enclosed, if the surface is closed
-        double swept = 0;          ///< between the initial and the present surface
         Eigen::Vector3d centroid;  ///< of the surface; undefined without area
         Eigen::AlignedBox3d box;
         Eigen::AlignedBox3d bounds;  ///< initial_: where the component must stay

@@ -42,7 +42,7 @@ Stepper::Stepper(TrackedElements elements, const StepPlan& plan)
       size_(in_cells(std::min(plan.size.in_cells, largest_step_size(elements_.densities)),
                      elements_.grid)),
       stabilization_(elements_),
-      curve_constraint_(elements_, plan.boundary_penalty),
+      curve_constraint_(elements_),
       confinement_(elements_, plan.order == 1 ? 0 : detail_size_for(size_.in_cells, 1, plan.order)),
       solutions_(plan.order) {
     enter_setup_phase(kPrepareSolver);
@@ -70,7 +70,7 @@ StepResult Stepper::advance(const FlowState& from, const StepSize& size, const C
     FlowState to;
     to.boxes = from.boxes;
     to.constrained = from.constrained;
-    to.multipliers = constrains_curve() && plan_.update_boundary_multipliers
+    to.multipliers = constrains_curve()
                          ? curve_constraint_.updated(from.multipliers, from.displacement)
                          : from.multipliers;
 

@@ -22,9 +22,10 @@ struct ElementRange {
     std::int32_t begin, end;
 };
 
-/// Computes y += factor * Σ_e R_eᵀ M_e R_e x over the elements e of the range. R_e selects an
-/// element's eight unknowns; M_e is its matrix, and `matrices` are those of all blocks of the
-/// level. x and y have four floats for each unknown, 16-byte aligned, of which the last is zero.
+/// Adds factor * R_eᵀ M_e R_e x for each element e of the range to its targets, in y or in the
+/// slots. R_e selects an element's eight unknowns; M_e is its matrix, and `matrices` are those of
+/// all blocks of the level. x and y have four floats for each unknown, 16-byte aligned; the fourth
+/// is zero.
 using AddElementProducts = void(const ElementRange& range, const MatrixBlock* matrices,
                                 float factor, const float* x, float* y);
 

@@ -22,8 +22,8 @@ struct Triangles {
     alignas(64) float entry[8][8][kBlockElements];
 };
 
-static HWY_INLINE bool is_unshared(std::uint32_t unshared, int i, int j) {
-    return ((unshared >> kCouplingIndices.bit[i][j]) & 1U) != 0;
+static HWY_INLINE bool is_without_place(std::uint32_t without_place, int i, int j) {
+    return ((without_place >> kCouplingIndices.bit[i][j]) & 1U) != 0;
 }
 
 /// Reads the lower triangle of the assembled matrix, restricted to the unknowns of one element.
@@ -39,11 +39,11 @@ void restrict(const CoupledElements& range, std::int32_t element, const MatrixBl
             triangles.entry[i][j][lane] = sum[kCouplingIndices.of[i][j]];
         }
     }
-    const std::uint32_t unshared = range.unshared[element];
-    if (unshared == 0) return;
+    const std::uint32_t without_place = range.without_place[element];
+    if (without_place == 0) return;
     for (int i = 0; i < 8; ++i) {
         for (int j = 0; j < i; ++j) {
-            if (!is_unshared(unshared, i, j)) continue;
+            if (!is_without_place(without_place, i, j)) continue;
             triangles.entry[i][j][lane] = own.entry[kEntryIndices.of[i][j]][lane];
         }
     }
@@ -123,7 +123,7 @@ void sum_couplings(const CoupledElements& range, const MatrixBlock* matrices,
                    Couplings* couplings) {
     for (std::int32_t element = range.begin; element < range.end; ++element) {
         const std::int32_t* const unknowns = range.unknowns + std::int64_t{8} * element;
-        const std::uint32_t unshared = range.unshared[element];
+        const std::uint32_t without_place = range.without_place[element];
         const MatrixBlock& block = matrices[element / kBlockElements];
         const int lane = element % kBlockElements;
         HWY_UNROLL(8)
@@ -131,7 +131,7 @@ void sum_couplings(const CoupledElements& range, const MatrixBlock* matrices,
             float* const sum = couplings[unknowns[i]].sum;
             HWY_UNROLL(8)
             for (int j = i; j < 8; ++j) {
-                if (unshared != 0 && is_unshared(unshared, i, j)) continue;
+                if (without_place != 0 && is_without_place(without_place, i, j)) continue;
                 sum[kCouplingIndices.of[i][j]] += block.entry[kEntryIndices.of[i][j]][lane];
             }
         }

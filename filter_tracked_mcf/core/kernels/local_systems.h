@@ -45,20 +45,20 @@ constexpr CouplingIndices kCouplingIndices = make_coupling_indices();
 /// Consecutive elements of a level with the unknowns that they couple.
 struct CoupledElements {
     const std::int32_t* unknowns;  ///< eight for each element of the level
-    /// For each element a mask of entries. Bit kCouplingIndices.bit[i][j] marks the entry (i, j) as
-    /// unshared: its place in Couplings belongs to another pair of unknowns, on another sheet.
-    const std::uint32_t* unshared;
+    /// For each element a mask of entries. Bit kCouplingIndices.bit[i][j] marks an entry (i, j)
+    /// without a place: that in Couplings belongs to another pair of unknowns, on another sheet.
+    const std::uint32_t* without_place;
     std::int32_t begin, end;
 };
 
-/// Adds the entries of the elements' matrices, except unshared ones, to the couplings of their
-/// unknowns.
+/// Adds the entries of the elements' matrices, except those without a place, to the couplings of
+/// their unknowns.
 using SumCouplings = void(const CoupledElements& range, const MatrixBlock* matrices,
                           Couplings* couplings);
 
 /// Sets the inverse of each element e to damping[e] * A_e⁻¹. A_e is the assembled matrix restricted
-/// to the element's unknowns, with the element's own value for unshared entries. Rows of A_e that
-/// are zero, or depend on the rows before them, are left out, and are zero in the inverse. The
+/// to the element's unknowns, with the element's own value for entries without a place. Rows of A_e
+/// that are zero, or depend on the rows before them, are left out, and are zero in the inverse. The
 /// range goes from a multiple of kBlockElements to another one, or to the number of elements.
 using InvertLocally = void(const CoupledElements& range, const MatrixBlock* matrices,
                            const Couplings* couplings, const float* damping, MatrixBlock* inverses);

@@ -7,8 +7,9 @@
 namespace tracked_mcf {
 
 /// Returns how many bytes this process can still allocate: the least of the machine's free memory
-/// with its swap space and, on Unix, the limits of the control groups (cgroup v2) and the process's
-/// own limits. At least 1, or 0 if the system does not report it.
+/// with its swap space and of what other limits leave. On Unix, these are the limits of the control
+/// groups (cgroup v2) and of the process; on Windows, the address space. At least 1, or 0 if the
+/// system does not report it.
 std::int64_t available_memory_bytes();
 
 /// Returns the same from Linux's files alone, whose paths follow `root`: a test's folder or "". Not

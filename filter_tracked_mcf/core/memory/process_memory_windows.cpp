@@ -24,7 +24,7 @@ std::int64_t available_memory_bytes() {
     MEMORYSTATUSEX status{};
     status.dwLength = sizeof status;
     if (GlobalMemoryStatusEx(&status) == 0) return 0;
-    // What this process may still commit, in memory and in the page file, and address.
+    // The memory and page file that this process may still commit, and its free address space.
     const DWORDLONG bytes = std::min(status.ullAvailPageFile, status.ullAvailVirtual);
     return std::max<std::int64_t>(1, static_cast<std::int64_t>(bytes));
 }

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <bitset>
 #include <numeric>
-#include <string>
 
 #include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/mesh/weld.h"

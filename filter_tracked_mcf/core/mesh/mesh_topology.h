@@ -20,8 +20,9 @@ struct MeshTopology {
     static constexpr std::int32_t kNoEdge = -1;
 
     std::vector<std::uint8_t> referenced;  ///< per vertex: 1 if a triangle has it, else 0
-    std::vector<std::int32_t> welded;      ///< per vertex, see weld_coincident_vertices
-    RawVector<Triangle> triangles;         ///< per triangle: its welded vertices
+    std::vector<std::int32_t>
+        welded;  ///< per vertex: its representative, see weld_coincident_vertices
+    RawVector<Triangle> triangles;  ///< per triangle: its welded vertices
     /// Per triangle: the edge along each side, or kNoEdge if the side joins a vertex to itself. Any
     /// number of triangles may share an edge.
     RawVector<std::array<std::int32_t, 3>> edges;

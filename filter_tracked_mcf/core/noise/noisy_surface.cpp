@@ -136,18 +136,6 @@ double rounded(double sum, int exponent) {
     return std::ldexp(std::nearbyint(std::ldexp(sum, -exponent)), exponent);
 }
 
-/// Returns the mean length of the sides of triangles, 0 if there are none.
-double mean_side(const std::vector<Eigen::Vector3d>& positions,
-                 const RawVector<Triangle>& triangles) {
-    if (triangles.empty()) return 0;
-    const auto perimeter = [&](std::int32_t i) {
-        const auto [a, b, c] = corners_of(positions, triangles[i]);
-        return (b - a).stableNorm() + (c - b).stableNorm() + (a - c).stableNorm();
-    };
-    const auto count = static_cast<std::int32_t>(triangles.size());
-    return sum_over_rows(count, perimeter) / (3.0 * count);
-}
-
 }  // namespace
 
 SurfaceOfMesh surface_of(const Domain& domain) {
@@ -159,7 +147,7 @@ SurfaceOfMesh surface_of(const Domain& domain) {
         for (const std::int32_t vertex : t) used[vertex] = 1;
     }
     SurfaceOfMesh result{{{{}, 0}, {}, {}}, numbers_of(used), 0};
-    const double mean = mean_side(mesh.positions, triangles);
+    const double mean = mean_edge_length(domain.surface());
     result.edge = rounded(mean, std::ilogb(mean) - 40);
     NoisySurface& surface = result.surface;
     Eigen::AlignedBox3d box;

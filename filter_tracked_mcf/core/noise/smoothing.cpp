@@ -7,9 +7,9 @@ namespace tracked_mcf {
 
 namespace {
 
-/// The squared sum of a star's normals is that of opposite ones if it is less than this share of
-/// the sum of their squares.
-constexpr double kCancelled = 1e-20;
+/// The normals of a star cancel each other if their squared sum is below this share of the sum of
+/// their squares.
+constexpr double kOppositeNormals = 1e-20;
 
 }  // namespace
 
@@ -26,7 +26,7 @@ const Vectors& Smoothing::smooth_normals(const Positions& positions, const StepS
             squares += area.squaredNorm();
         });
         // What is left where two sides of a sheet cancel is rounding.
-        if (!(sum.squaredNorm() > kCancelled * squares)) sum.setZero();
+        if (!(sum.squaredNorm() > kOppositeNormals * squares)) sum.setZero();
         vectors_[vertex] << sum.normalized().cast<float>(), 0;
     });
     normals_ = vectors_;

@@ -86,8 +86,8 @@ public:
     }
 
 private:
-    /// Light items between two polls: they take some microseconds, a poll about as long as ten of
-    /// them.
+    /// Light items between two polls. All of them take some microseconds; a poll takes as long as
+    /// about ten items.
     static constexpr std::int64_t kItemsPerPoll = 4096;
 
     std::int64_t left_ = kItemsPerPoll;

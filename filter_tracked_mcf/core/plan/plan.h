@@ -33,8 +33,8 @@ struct StepPlan : StepParameters {
     bool takes_responses;   ///< Stepper::pressure_response
 };
 
-/// All that follows from a mesh, inputs and parameters before any element is made:
-/// made once, and used up by the Flow. The other rooms take parts of it, never the parameters.
+/// All that follows from a mesh, inputs and parameters before any element is made. The Flow
+/// consumes it; what the Flow is made of takes its members, and never reads the parameters.
 struct Plan {
     Domain domain;  ///< its mesh must outlive the plan
     ClippedSurface surface;

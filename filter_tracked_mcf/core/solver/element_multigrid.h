@@ -89,7 +89,7 @@ private:
         ElementBricks bricks;
         ElementPartition partition;
         ElementSmoother smoother;
-        ElementTransfer transfer;  ///< from the next coarser level; unused at level 0
+        ElementTransfer transfer;  ///< to and from the next coarser level; unused at level 0
         const MatrixBlocks* matrices = nullptr;
         MatrixBlocks own_matrices;  ///< unused at the finest level
         std::vector<float> steps;   ///< of the smoother, on one side of the coarse correction

@@ -33,7 +33,7 @@ std::vector<float> damping_of(const Level& level) {
 /// Finds the entries without an index of their own in Couplings, see CoupledElements. An unknown
 /// may be coupled with two unknowns at the same corner, if two sheets of the surface in that
 /// corner's support connect outside it. The index belongs to the first of the two.
-std::vector<std::uint32_t> find_unshared(const Level& level, const ElementBricks& bricks) {
+std::vector<std::uint32_t> find_without_place(const Level& level, const ElementBricks& bricks) {
     constexpr std::int32_t none = -1;
     constexpr std::int64_t size = sizeof(Couplings) / sizeof(float);
     RawVector<std::int32_t> coupled_with(size * level.unknown_count());
@@ -56,13 +56,13 @@ std::vector<std::uint32_t> find_unshared(const Level& level, const ElementBricks
             });
         }
     });
-    std::vector<std::uint32_t> unshared(level.unknowns.size(), 0);
+    std::vector<std::uint32_t> without_place(level.unknowns.size(), 0);
     parallel_for_rows(level.element_count(), [&](std::int32_t element) {
         for_each_entry(element, [&](std::int32_t owner, std::int32_t unknown, int bit) {
-            if (owner != unknown) unshared[element] |= std::uint32_t{1} << bit;
+            if (owner != unknown) without_place[element] |= std::uint32_t{1} << bit;
         });
     });
-    return unshared;
+    return without_place;
 }
 
 }  // namespace
@@ -73,12 +73,12 @@ ElementSmoother::ElementSmoother(const Level& level, const ElementBricks& bricks
       bricks_(bricks),
       partition_(partition),
       damping_(damping_of(level)),
-      unshared_(find_unshared(level, bricks)),
+      without_place_(find_without_place(level, bricks)),
       inverses_(level.element_count()),
       free_unknowns_(level.unknown_count()) {}
 
 CoupledElements ElementSmoother::coupled(std::int32_t begin, std::int32_t end) const {
-    return {level_.unknowns.front().data(), unshared_.data(), begin, end};
+    return {level_.unknowns.front().data(), without_place_.data(), begin, end};
 }
 
 void ElementSmoother::refresh(const MatrixBlocks& matrices, std::vector<Couplings>& workspace) {

@@ -49,8 +49,8 @@ private:
     const Level& level_;
     const ElementBricks& bricks_;
     const ElementPartition& partition_;
-    std::vector<float> damping_;           ///< 1 / m_e for each element
-    std::vector<std::uint32_t> unshared_;  ///< for each element, see CoupledElements
+    std::vector<float> damping_;                ///< 1 / m_e for each element
+    std::vector<std::uint32_t> without_place_;  ///< for each element, see CoupledElements
     MatrixBlocks inverses_;
     std::vector<std::uint8_t> free_unknowns_;
 };

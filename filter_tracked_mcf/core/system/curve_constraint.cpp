@@ -8,6 +8,9 @@ namespace tracked_mcf {
 
 namespace {
 
+/// η, moderate because a constraint at every point of a curved boundary would lock its cells.
+constexpr double kPenalty = 10;
+
 Eigen::Vector3d displacement_at(const CurveSample& sample, const TrackedElements& elements,
                                 const Coefficients& displacement) {
     return evaluate_vertex(elements, displacement, {sample.element, sample.local.cast<double>()});
@@ -30,8 +33,7 @@ void add_at(const CornerValues& values, double weight, const Eigen::Vector3d& fo
 
 }  // namespace
 
-CurveConstraint::CurveConstraint(const TrackedElements& elements, double penalty)
-    : elements_(elements), penalty_(penalty) {
+CurveConstraint::CurveConstraint(const TrackedElements& elements) : elements_(elements) {
     const std::vector<CurveSample>& samples = elements.curve_samples;
     for (std::size_t begin = 0, end = 0; begin < samples.size(); begin = end) {
         while (end < samples.size() && samples[end].element == samples[begin].element) ++end;
@@ -48,9 +50,9 @@ void CurveConstraint::add(const Coefficients& displacement,
             const CurveSample& sample = elements_.curve_samples[k];
             const Eigen::Vector3d force =
                 sample.conormal.cast<double>() + multipliers[i] -
-                penalty_ * displacement_at(sample, elements_, displacement);
+                kPenalty * displacement_at(sample, elements_, displacement);
             add_at(bspline_values(sample.local.cast<double>()),
-                   sample.weight * step_size_in_cells * penalty_,
+                   sample.weight * step_size_in_cells * kPenalty,
                    sample.weight * step_size_in_cells * force, run.element, systems);
         }
     });
@@ -66,7 +68,7 @@ std::vector<Eigen::Vector3d> CurveConstraint::updated(std::vector<Eigen::Vector3
             sum += sample.weight * displacement_at(sample, elements_, displacement);
             length += sample.weight;
         }
-        multipliers[i] -= penalty_ * sum / length;
+        multipliers[i] -= kPenalty * sum / length;
     });
     return multipliers;
 }

@@ -25,9 +25,8 @@ namespace tracked_mcf {
 /// boundary would lock its cells. The remaining displacement is of second order in the cell size.
 class CurveConstraint {
 public:
-    /// Groups the samples of the constrained edges by element. `elements` must outlive this;
-    /// `penalty` is η.
-    CurveConstraint(const TrackedElements& elements, double penalty);
+    /// Groups the samples of the constrained edges by element. `elements` must outlive this.
+    explicit CurveConstraint(const TrackedElements& elements);
 
     /// Returns the multipliers λ at the start.
     std::vector<Eigen::Vector3d> zero_multipliers() const {
@@ -52,7 +51,6 @@ private:
     };
 
     const TrackedElements& elements_;
-    double penalty_;
     std::vector<Run> runs_;
 };
 

@@ -20,7 +20,7 @@ using Color = std::array<std::uint8_t, 4>;
 
 inline constexpr Color kWhite = {255, 255, 255, 255};
 
-/// Returns the colour with these three or four channels, of which `full` is the largest value.
+/// Returns the colour with these three or four channels. The value `full` becomes 255.
 Color make_color(const std::vector<double>& channels, double full);
 
 /// A mesh file, kept whole so that it can be written again with new positions and nothing else
@@ -47,14 +47,14 @@ public:
     /// Returns one colour per vertex, or none if the file has no colours of vertices.
     virtual std::vector<Color> vertex_colors() const { return {}; }
 
-    /// Of what a file may have numbers under names; only PLY files have any.
+    /// What may have properties: numbers under names, which only PLY files have.
     enum class NumbersOf { Vertices, Faces };
-    /// Returns the number `name` of each; empty if there is none.
+    /// Returns the property `name` of all vertices or faces; empty if the file has none such.
     virtual std::vector<double> numbers(NumbersOf /*items*/, const std::string& /*name*/) const {
         return {};
     }
-    /// Returns the names of the numbers.
-    virtual std::vector<std::string> names_of_numbers(NumbersOf /*items*/) const { return {}; }
+    /// Returns the names of the properties.
+    virtual std::vector<std::string> property_names(NumbersOf /*items*/) const { return {}; }
 
     /// Gives each vertex a number, which only PLY keeps: the property `quality`.
     void set_quality(std::vector<double> quality) { quality_ = std::move(quality); }
@@ -65,7 +65,7 @@ public:
     /// types.
     void write_doubles() { doubles_ = true; }
 
-    /// Returns whether write() rounds coordinates to floats.
+    /// Returns whether write() rounds the coordinates of a file of several precisions to floats.
     virtual bool writes_floats() const { return false; }
 
     /// Names what the file has besides positions, polygons and colours of vertices: what other

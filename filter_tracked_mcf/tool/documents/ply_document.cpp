@@ -218,7 +218,7 @@ std::vector<double> PlyDocument::numbers(NumbersOf items, const std::string& nam
     return element(items).numbers(name);
 }
 
-std::vector<std::string> PlyDocument::names_of_numbers(NumbersOf items) const {
+std::vector<std::string> PlyDocument::property_names(NumbersOf items) const {
     std::vector<std::string> names;
     for (const PlyProperty& property : element(items).properties) {
         if (!property.is_list()) names.push_back(property.name);

@@ -17,7 +17,7 @@ public:
     std::vector<std::string> extras() const override;
 
     std::vector<double> numbers(NumbersOf items, const std::string& name) const override;
-    std::vector<std::string> names_of_numbers(NumbersOf items) const override;
+    std::vector<std::string> property_names(NumbersOf items) const override;
 
     /// Writes a binary file in this machine's byte order, which must be little-endian.
     void write(std::ostream& out, const Points& positions) const override;

@@ -12,8 +12,10 @@
 namespace tracked_mcf {
 namespace {
 
-TrackedElements build(const TriangleMesh& mesh, int depth) {
-    return build_tracked_elements(mesh, enclosing_grid(mesh, depth), Cubature::ThreePoints);
+TrackedElements build(const TriangleMesh& mesh, int depth,
+                      BoundaryCondition boundary = BoundaryCondition::Locked) {
+    return build_tracked_elements(Domain(mesh, boundary), enclosing_grid(mesh, depth),
+                                  Cubature::ThreePoints);
 }
 
 double sampled_length(const TrackedElements& elements) {
@@ -51,6 +53,7 @@ TEST(CurveSamples, WeightsSumToTheLengthOfTheBoundary) {
         }
     }
     EXPECT_TRUE(build(shapes::geodesic_sphere(5), 4).curve_samples.empty());
+    EXPECT_TRUE(build(shapes::square(5), 4, BoundaryCondition::Free).curve_samples.empty());
 }
 
 TEST(CurveSamples, LieOnTheBoundaryWithOutwardUnitConormals) {

@@ -230,12 +230,12 @@ TEST_P(MatrixKernels, ALocalInverseWithoutSharedUnknownsIsTheElementsInverse) {
         damping.push_back(0.1F + elements_.number(elements_.random) / 20);
         for (int i = 0; i < 8; ++i) elements_.matrices.at(element, i, i) += 10;
     }
-    // Every other element has unshared entries, which changes nothing.
-    std::vector<std::uint32_t> unshared(RandomElements::kCount, 0);
-    for (std::size_t i = 0; i < unshared.size(); i += 2) unshared[i] = 0x0F5A5A5A;
+    // Every other element has entries without a place, which changes nothing.
+    std::vector<std::uint32_t> without_place(RandomElements::kCount, 0);
+    for (std::size_t i = 0; i < without_place.size(); i += 2) without_place[i] = 0x0F5A5A5A;
     std::vector<Couplings> couplings(elements_.unknowns.size(), Couplings{});
     MatrixBlocks inverses = unset(RandomElements::kCount);
-    const CoupledElements range = {elements_.unknowns.data(), unshared.data(), 0,
+    const CoupledElements range = {elements_.unknowns.data(), without_place.data(), 0,
                                    RandomElements::kCount};
     chosen().sum_couplings(range, elements_.matrices.blocks(), couplings.data());
     chosen().invert_locally(range, elements_.matrices.blocks(), couplings.data(), damping.data(),

@@ -31,27 +31,6 @@ TEST(Galerkin, CoarsenedMatricesAddUpToTheGalerkinProduct) {
     EXPECT_LT((assembled(coarse, coarsened(step)) - product).norm(), 1e-6 * product.norm());
 }
 
-TEST(Galerkin, AParentsMatrixIsTheSumOverItsChildren) {
-    const System system(shapes::bumpy_sphere(8), 4, 0.5F);
-    const Level& fine = system.elements.levels[4];
-    const std::int32_t parents = system.elements.levels[3].element_count();
-    const MatrixBlocks coarse = coarsened(system);
-
-    using Matrix8 = Eigen::Matrix<float, 8, 8, Eigen::RowMajor>;
-    std::vector<Matrix8> expected(static_cast<std::size_t>(parents), Matrix8::Zero());
-    for (std::int32_t child = 0; child < fine.element_count(); ++child) {
-        const Matrix8 p = refinement_weights(octant_of(fine.cells[child])).cast<float>();
-        const ElementMatrix of_child = system.systems.matrices.of(child);
-        const Eigen::Map<const Matrix8> k(of_child.entry[0]);
-        expected[fine.parents[child]] += p.transpose() * k * p;
-    }
-    for (std::int32_t parent = 0; parent < parents; ++parent) {
-        const ElementMatrix of_parent = coarse.of(parent);
-        const Eigen::Map<const Matrix8> sum(of_parent.entry[0]);
-        EXPECT_LT((sum - expected[parent]).norm(), 1e-6F * expected[parent].norm());
-    }
-}
-
 TEST(Galerkin, EliminationSetsExactlyTheConstrainedRowsAndColumnsToZero) {
     FirstStep step(two_shells(), 3, 0.5F, {});
     Dense expected = assembled(step);

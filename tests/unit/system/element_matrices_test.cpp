@@ -122,44 +122,6 @@ TEST(ElementMatrices, AreEquation4OfADeformedSurface) {
     expect_paper(elements, wobble(elements));
 }
 
-TEST(ElementMatrices, MetricOfTheInitialEmbeddingIsTheIdentity) {
-    // So mass and area are the plain integrals over the initial surface.
-    const TriangleMesh mesh = shapes::bumpy_sphere(10);
-    const TrackedElements elements = bumpy_elements();
-    const ElementSystems systems =
-        assemble(elements, Coefficients::Zero(elements.finest().unknown_count(), 3), kMass);
-    const double h2 = elements.grid.cell_size * elements.grid.cell_size;
-    EXPECT_NEAR(systems.area * h2, surface_area(mesh), 1e-6 * surface_area(mesh));
-    for (std::int32_t element = 0; element < elements.finest().element_count(); ++element) {
-        Matrix8 plain = Matrix8::Zero();
-        for (std::int64_t s = elements.sample_begin[element];
-             s < elements.sample_begin[element + 1]; ++s) {
-            const CornerValues values = bspline_values(elements.samples.local(s));
-            plain += elements.samples.weight(s) * values * values.transpose();
-        }
-        EXPECT_LT((to_matrix(systems.matrices, element) - plain).norm(), 1e-6 * plain.norm());
-    }
-}
-
-TEST(ElementMatrices, MassSumsToTheAreaUnderTheCurrentMetric) {
-    const TrackedElements elements = bumpy_elements();
-    const ElementSystems systems = assemble(elements, wobble(elements), kMass);
-    double sum = 0;
-    for (std::int64_t element = 0; element < systems.matrices.size(); ++element) {
-        sum += to_matrix(systems.matrices, element).sum();
-    }
-    EXPECT_NEAR(sum, systems.area, 1e-6 * systems.area);
-}
-
-TEST(ElementMatrices, StiffnessAnnihilatesConstants) {
-    const TrackedElements elements = bumpy_elements();
-    const ElementSystems stiffness = assemble(elements, wobble(elements), kStiffness);
-    for (std::int64_t element = 0; element < stiffness.matrices.size(); ++element) {
-        const Matrix8 matrix = to_matrix(stiffness.matrices, element);
-        EXPECT_LT((matrix * CornerValues::Ones()).norm(), 1e-5 * matrix.norm());
-    }
-}
-
 void expect_same(const ElementSystems& a, const ElementSystems& b, double scale) {
     for (std::int64_t element = 0; element < a.matrices.size(); ++element) {
         const Matrix8 expected = scale * to_matrix(a.matrices, element);
@@ -203,22 +165,6 @@ TEST(ElementMatrices, CollapsedSamplesContributeNothing) {
         for (std::int64_t element = 0; element < systems.matrices.size(); ++element) {
             EXPECT_EQ(to_matrix(systems.matrices, element).norm(), 0);
         }
-    }
-}
-
-TEST(ElementMatrices, FunctionsSumToOneAtEverySample) {
-    // Σ_J ∫ B_I B_J equals ∫ B_I for every I only if Σ_J B_J = 1 at every sample.
-    const TrackedElements elements = bumpy_elements();
-    const ElementSystems systems =
-        assemble(elements, Coefficients::Zero(elements.finest().unknown_count(), 3), kMass);
-    for (std::int32_t element = 0; element < elements.finest().element_count(); ++element) {
-        CornerValues integrals = CornerValues::Zero();
-        for (std::int64_t s = elements.sample_begin[element];
-             s < elements.sample_begin[element + 1]; ++s) {
-            integrals += elements.samples.weight(s) * bspline_values(elements.samples.local(s));
-        }
-        const CornerValues row_sums = to_matrix(systems.matrices, element).rowwise().sum();
-        EXPECT_LT((row_sums - integrals).norm(), 1e-6 * integrals.norm());
     }
 }
 
