@@ -8,7 +8,7 @@
 set -euo pipefail
 
 here=$(dirname "$(realpath "$0")")
-suite=$1 folder=$(realpath -m "$2") cgal_meshes=$3
+suite=$1 folder=$(realpath -m "$2") cgal_meshes=$(realpath "$3")
 "$here/lay_system.sh" "$suite" "$folder/system"
 
 mkdir -p "$folder/plugin"
