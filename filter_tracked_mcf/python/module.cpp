@@ -98,7 +98,7 @@ TriangleMesh mesh_of(nb::handle vertices, nb::handle faces) {
 
 /// What an argument with a number for each face or vertex must be.
 struct ArrayKind {
-    const char* kinds;   ///< dtype.kind: the letters of the accepted ones
+    const char* kinds;   ///< the values of dtype.kind that are accepted, one letter each
     const char* type;    ///< to which the numbers are converted
     const char* wanted;  ///< in words
 };

@@ -130,10 +130,13 @@ float fidelity_of(double strength) {
     return static_cast<float>(1 / (square * square));
 }
 
-/// Returns the nearest multiple of 2^exponent: a sum without its last bits, which depend on the
-/// order of what was added.
-double rounded(double sum, int exponent) {
-    return std::ldexp(std::nearbyint(std::ldexp(sum, -exponent)), exponent);
+/// Binary digits that a mean keeps, and its digits after the point in edges: the order of what is
+/// added changes only later ones.
+constexpr int kDigits = 40, kDigitsOfEdges = 30;
+
+/// Returns the nearest multiple of 2^exponent.
+double rounded(double number, int exponent) {
+    return std::ldexp(std::nearbyint(std::ldexp(number, -exponent)), exponent);
 }
 
 }  // namespace
@@ -148,14 +151,13 @@ SurfaceOfMesh surface_of(const Domain& domain) {
     }
     SurfaceOfMesh result{{{{}, 0}, {}, {}}, numbers_of(used), 0};
     const double mean = mean_edge_length(domain.surface());
-    result.edge = rounded(mean, std::ilogb(mean) - 40);
+    result.edge = rounded(mean, std::ilogb(mean) - kDigits);
     NoisySurface& surface = result.surface;
-    Eigen::AlignedBox3d box;
+    Eigen::AlignedBox3d box;  // its middle keeps coordinates small where a mesh is far from 0
     for (std::size_t i = 0; i < used.size(); ++i) {
         if (used[i] != 0) box.extend(mesh.positions[i]);
     }
-    const Eigen::Vector3d origin =
-        box.center();  // keeps coordinates small where a mesh is far from 0
+    const Eigen::Vector3d origin = box.center();
     for (std::size_t i = 0; i < used.size(); ++i) {
         if (used[i] == 0) continue;
         const auto vertex = static_cast<std::int32_t>(i);
@@ -188,7 +190,7 @@ struct Ranked {
     std::int32_t vertex;
 };
 
-/// Many vertices of a symmetric surface are at the same distance.
+/// Compares coordinates, too: many vertices of a symmetric surface are at the same distance.
 bool operator<(const Ranked& a, const Ranked& b) {
     return std::tie(a.square, a.x, a.y, a.z) < std::tie(b.square, b.x, b.y, b.z);
 }
@@ -197,7 +199,7 @@ std::vector<Ranked> ranked(const Positions& positions) {
     Eigen::Vector3d mean = Eigen::Vector3d::Zero();
     for (const Eigen::Vector3d& position : positions) mean += position;
     mean /= static_cast<double>(positions.size());
-    for (double& coordinate : mean) coordinate = rounded(coordinate, -30);
+    for (double& coordinate : mean) coordinate = rounded(coordinate, -kDigitsOfEdges);
     std::vector<Ranked> vertices(positions.size());
     parallel_for_rows(static_cast<std::int64_t>(vertices.size()), [&](std::int32_t i) {
         const Eigen::Vector3d& p = positions[i];

@@ -11,8 +11,7 @@
 
 namespace tracked_mcf {
 
-/// Positions of a surface's vertices, in edges: mean lengths of its sides. The middle of their box
-/// is 0.
+/// Positions of a surface's vertices, in edges: mean lengths of its sides.
 using Positions = std::vector<Eigen::Vector3d>;
 
 /// One vector per vertex. The fourth component is 0, and makes arithmetic four wide.
@@ -31,9 +30,9 @@ struct NoisySurface {
 
 /// A surface, and the way back from it to the mesh.
 struct SurfaceOfMesh {
-    NoisySurface surface;
+    NoisySurface surface;                ///< around the origin
     std::vector<std::int32_t> vertices;  ///< of the mesh: the surface's vertex, or -1
-    double edge = 0;  ///< mean length, mesh units, to 40 bits: the same in any order of triangles
+    double edge = 0;  ///< mean length, mesh units; rounded, so that it is the same in any order
 };
 
 /// Returns the surface of a domain. A triangle of it must have an area.
@@ -53,8 +52,8 @@ struct Sample {
 
 /// Returns patches that are spread over the surface and have about so many vertices together; all
 /// of a surface that is not much larger. Neither the patches nor the signs depend on the order of
-/// the vertices or, but for rounding, on the surface's place in space; if it has symmetries, the
-/// signs turn with it only by chance.
+/// the vertices. Nor do they depend on the surface's place in space, but for rounding. An exception
+/// are vertices at the same distance from the middle: their coordinates decide.
 Sample sample_of(const NoisySurface& surface, std::int32_t vertex_count);
 
 }  // namespace tracked_mcf

@@ -34,7 +34,7 @@ struct StepPlan : StepParameters {
 };
 
 /// All that follows from a mesh, inputs and parameters before any element is made. The Flow
-/// consumes it; what the Flow is made of takes its members, and never reads the parameters.
+/// consumes it. Its parts take members of the plan, and never read the parameters.
 struct Plan {
     Domain domain;  ///< its mesh must outlive the plan
     ClippedSurface surface;

@@ -8,7 +8,7 @@ namespace tracked_mcf {
 
 namespace {
 
-/// η, moderate because a constraint at every point of a curved boundary would lock its cells.
+/// The penalty η.
 constexpr double kPenalty = 10;
 
 Eigen::Vector3d displacement_at(const CurveSample& sample, const TrackedElements& elements,

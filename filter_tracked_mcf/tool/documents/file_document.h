@@ -49,7 +49,7 @@ public:
 
     /// What may have properties: numbers under names, which only PLY files have.
     enum class NumbersOf { Vertices, Faces };
-    /// Returns the property `name` of all vertices or faces; empty if the file has none such.
+    /// Returns the property `name` of all vertices or faces; empty if the file does not have it.
     virtual std::vector<double> numbers(NumbersOf /*items*/, const std::string& /*name*/) const {
         return {};
     }
@@ -65,7 +65,7 @@ public:
     /// types.
     void write_doubles() { doubles_ = true; }
 
-    /// Returns whether write() rounds the coordinates of a file of several precisions to floats.
+    /// Returns whether a PLY file keeps its coordinates as floats. Other formats have one type.
     virtual bool writes_floats() const { return false; }
 
     /// Names what the file has besides positions, polygons and colours of vertices: what other
