@@ -30,6 +30,9 @@ const std::vector<ParameterOf<NoiseParameters>>& parameter_table() {
                   Type::Length, {0, kFinite, ", in units of the mesh, where 0 is no bound"}),
               "largest_movement", "Move no vertex farther than",
               "A bound that no vertex exceeds. 0 is no bound."),
+        named(toggle<&P::along_normals>(), "along_normals", "Along normals only",
+              "For rasters and textures: no vertex slides along the surface. Otherwise it slides by "
+              "at most twice the noise."),
         named(choice<&P::boundary>({{"Locked", "locked"}, {"Free", "free"}}), "boundary",
               "Boundary",
               "Free: the rim of an open mesh is smoothed, too. Locked: its vertices stay, with "

@@ -28,6 +28,10 @@ struct NoiseParameters {
     /// Greater than 0: no vertex moves farther than this, mesh units. 0 is no bound.
     double largest_movement = 0;
 
+    /// Whether vertices move along the normals alone, as rasters and textures need it. Otherwise
+    /// they may also slide by twice the noise, which unfolds triangles that noise has folded.
+    bool along_normals = false;
+
     NoiseBoundary boundary = NoiseBoundary::Free;
 
     /// None or Displacement: what NoiseReport::quality holds.

@@ -254,8 +254,9 @@ private:
         Treatment treatment = smooth.treatment;
         treatment.sharpening = sharpening;
         Twins twins = smooth.twins;
-        sharpen(sample_.surface, sharpening, box_, twins.plain);
-        sharpen(sample_.surface, sharpening, box_, twins.perturbed);
+        const double no_limit = treatment.settings.sideways;
+        sharpen(sample_.surface, sharpening, no_limit, box_, twins.plain);
+        sharpen(sample_.surface, sharpening, no_limit, box_, twins.perturbed);
         judge(treatment, twins);
     }
 

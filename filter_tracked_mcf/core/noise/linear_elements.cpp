@@ -45,6 +45,22 @@ SquaredSides sides_along_surface(const Positions& positions, const Triangle& t,
     return squares;
 }
 
+/// Returns the flux through the sides of a triangle on the rim, with the test function of its
+/// corner. `weights` are half the cotangents at its corners.
+Eigen::Vector3f flux_of(const Stars& stars, std::uint32_t triangle, std::uint32_t corner,
+                        const std::array<float, 4>& weights, const Positions& positions) {
+    const Triangle& t = stars.triangles[triangle];
+    Eigen::Vector3f flux = Eigen::Vector3f::Zero();
+    for (const std::uint32_t side : {corner, (corner + 2) % 3}) {
+        if (stars.rim_sides[3 * std::size_t{triangle} + side] == 0) continue;
+        const std::uint32_t other = side == corner ? (corner + 1) % 3 : side;
+        const Eigen::Vector3d& inside = positions[t[3 - corner - other]];
+        flux += weights[other] * (positions[t[corner]] - inside).cast<float>() +
+                weights[corner] * (positions[t[other]] - inside).cast<float>();
+    }
+    return flux;
+}
+
 }  // namespace
 
 LinearElements::LinearElements(const NoisySurface& surface) : surface_(surface) {}
@@ -67,6 +83,8 @@ void LinearElements::assemble(const Vectors& normals, double normal_length,
         const float sum = squares.sum(), eight_areas = 2 * four_areas_of(squares);
         for (int k = 0; k < 3; ++k) triangles[i][k] = (sum - 2 * squares[k]) / eight_areas;
     });
+    const bool has_flux = positions != nullptr && !stars.on_rim.empty();
+    flux_.assign(has_flux ? static_cast<std::size_t>(stars.count()) : 0, Eigen::Vector4f::Zero());
     values_.resize(stars.neighbours.size());
     masses_.resize(static_cast<std::size_t>(stars.count()));
     diagonal_.resize(masses_.size());
@@ -85,6 +103,11 @@ void LinearElements::assemble(const Vectors& normals, double normal_length,
         }
         masses_[vertex] = mass;
         diagonal_[vertex] = std::accumulate(values_.begin() + begin, values_.begin() + end, 0.0F);
+        if (!has_flux || stars.on_rim[vertex] == 0) return;
+        for_each_corner(stars, vertex, [&](std::uint32_t triangle, std::uint32_t corner) {
+            flux_[vertex].head<3>() +=
+                flux_of(stars, triangle, corner, triangles[triangle], *positions);
+        });
     });
 }
 
@@ -158,7 +181,8 @@ int LinearElements::smooth(double step_size, const Vectors& b, Vectors& x) {
     return solve(multiply, limit, x);
 }
 
-int LinearElements::displace(double step_size, const Positions& positions, Vectors& d) {
+int LinearElements::displace(double step_size, const Positions& positions, const Vectors& normals,
+                             Vectors& d) {
     const Stars& stars = surface_.stars;
     const std::int32_t count = stars.count();
     const std::vector<float>& fidelity = surface_.fidelity;
@@ -177,6 +201,10 @@ int LinearElements::displace(double step_size, const Positions& positions, Vecto
             diagonal += values_[i] * values_[i] / masses_[neighbour];
         }
         inner_[row] << (step_size / masses_[row] * sum).cast<float>(), 0;
+        if (!flux_.empty()) {
+            const Eigen::Vector4f along = flux_[row].dot(normals[row]) * normals[row];
+            inner_[row] -= delta / masses_[row] * (flux_[row] - along);
+        }
         inverse_[row] =
             fidelity[row] > 0 ? 1 / (fidelity[row] * masses_[row] + delta * delta * diagonal) : 0;
     });

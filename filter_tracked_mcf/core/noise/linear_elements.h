@@ -14,13 +14,17 @@ namespace tracked_mcf {
 /// noisy surface itself are of no use: noise makes them longer, so the noisiest parts would be
 /// smoothed least. Only the stiffness for positions takes a part of the squared lengths along the
 /// surface, so that a vertex follows its near neighbours more than its far ones.
+///
+/// At the vertices of a rim, L X also holds the flux through the rim: the integral of the test
+/// function times the derivative of X along the conormal. For a flat sheet this is the conormal,
+/// which is no curvature, and which would shrink the sheet.
 class LinearElements {
 public:
     /// `surface` must outlive the elements.
     explicit LinearElements(const NoisySurface& surface);
 
     /// Takes the metric of normals N and the length s, in edges, and of `positions` if there are
-    /// any.
+    /// any, and the flux of these.
     void assemble(const Vectors& normals, double normal_length,
                   const Positions* positions = nullptr);
 
@@ -28,10 +32,11 @@ public:
     /// number of iterations.
     int smooth(double step_size, const Vectors& b, Vectors& x);
 
-    /// Finds the displacements d that solve (F M + δ² L M⁻¹ L) (X + d) = F M X, where F are
-    /// the fidelities and vertices without one stay: a wave with the eigenvalue k keeps
-    /// 1 / (1 + (δ k)²) where F is 1. Returns the number of iterations.
-    int displace(double step_size, const Positions& positions, Vectors& d);
+    /// Finds the displacements d that solve (F M + δ² L M⁻¹ L) d = -δ² L M⁻¹ (L X - f), where F are
+    /// the fidelities, f is the flux at right angles to `normals`, and vertices without a fidelity
+    /// stay: a wave with the eigenvalue k keeps 1 / (1 + (δ k)²) where F is 1. The elements must
+    /// have the metric of `positions`. Returns the number of iterations.
+    int displace(double step_size, const Positions& positions, const Vectors& normals, Vectors& d);
 
 private:
     Eigen::Vector4f stiffness(const Vectors& x, std::int32_t vertex) const;
@@ -42,6 +47,7 @@ private:
     const NoisySurface& surface_;
     RawVector<float> values_;             ///< per entry of Stars::neighbours: -L
     RawVector<float> masses_, diagonal_;  ///< of M and of L
+    Vectors flux_;                        ///< per vertex; empty without a rim
     RawVector<float> inverse_;            ///< the preconditioner: of a diagonal, or 0
     Vectors residual_, direction_, product_, inner_;
 };

@@ -281,9 +281,13 @@ Sample sample_of(const NoisySurface& surface, std::int32_t vertex_count) {
     const auto count = static_cast<std::int32_t>(star_sizes.size());
     sample.surface.stars = Stars(renumbered(stars.triangles, numbers), count);
     const std::vector<std::uint32_t>& begin = sample.surface.stars.corner_begin;
+    const auto is_whole = [&](std::int32_t i) { return begin[i + 1] - begin[i] == star_sizes[i]; };
     for (std::int32_t i = 0; i < count; ++i) {
-        const bool whole = begin[i + 1] - begin[i] == star_sizes[i];
-        sample.counts.push_back(whole && !sample.surface.is_fixed(i) ? 1 : 0);
+        const auto* const neighbours = sample.surface.stars.neighbours.data();
+        const auto* const places = &sample.surface.stars.neighbour_begin[i];
+        const bool is_inside =
+            is_whole(i) && std::all_of(neighbours + places[0], neighbours + places[1], is_whole);
+        sample.counts.push_back(is_inside && !sample.surface.is_fixed(i) ? 1 : 0);
     }
     sample.signs = random_signs(sample.surface.positions);
     return sample;

@@ -45,7 +45,8 @@ Eigen::AlignedBox3d confinement(const Positions& positions);
 /// Part of a surface, without the strengths of its vertices.
 struct Sample {
     NoisySurface surface;
-    /// Per vertex: whether the sample has all of its star, and it may move.
+    /// Per vertex: whether the sample has all of its star and of its neighbours' stars, and it may
+    /// move. Beside the border of a sample, a treatment does less than inside.
     std::vector<std::uint8_t> counts;
     std::vector<float> signs;  ///< per vertex: 1 or -1, at random
 };

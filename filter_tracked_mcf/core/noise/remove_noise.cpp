@@ -25,6 +25,10 @@ constexpr std::int32_t kSample = 4000;
 /// Bytes for each vertex and each triangle, beside the mesh.
 constexpr double kBytesPerVertex = 260, kBytesPerTriangle = 90;
 
+/// How far vertices may move sideways, relative to the noise. Most noise that is the same in all
+/// directions needs no more.
+constexpr double kSideways = 2;
+
 /// A step that would take a vertex away is made with a quarter of its size, at most so many times.
 constexpr int kMostShorter = 8;
 
@@ -42,12 +46,13 @@ double crease_of(double angle) {
 }
 
 /// Returns the share of the area in triangles whose vertices' normals differ by a crease.
-double crease_share(const NoisySurface& surface, const Vectors& normals, double crease) {
+double crease_share(const Stars& stars, const Positions& positions, const Vectors& normals,
+                    double crease) {
     const auto least = static_cast<float>(crease * crease);
     double all = 0, sharp = 0;
-    for (const Triangle& t : surface.stars.triangles) {
+    for (const Triangle& t : stars.triangles) {
         const Eigen::Vector4f &a = normals[t[0]], &b = normals[t[1]], &c = normals[t[2]];
-        const auto [p, q, r] = corners_of(surface.positions, t);
+        const auto [p, q, r] = corners_of(positions, t);
         const double area = twice_vector_area(p, q, r).norm();
         const float turn =
             std::max({(a - b).squaredNorm(), (b - c).squaredNorm(), (c - a).squaredNorm()});
@@ -57,9 +62,10 @@ double crease_share(const NoisySurface& surface, const Vectors& normals, double 
     return all > 0 ? sharp / all : 0;
 }
 
-/// Moves the surface's vertices as the parameters ask, and reports how.
-void treat(NoisySurface& surface, double edge, const NoiseParameters& parameters,
-           NoiseReport& report) {
+/// Returns the positions of the surface's vertices after they have moved as the parameters ask, and
+/// reports how.
+Positions treated(const NoisySurface& surface, double edge, const NoiseParameters& parameters,
+                  NoiseReport& report) {
     const double crease = crease_of(parameters.crease_angle);
     enter_phase(0.3, "Measuring the noise");
     const Treatment treatment =
@@ -68,26 +74,29 @@ void treat(NoisySurface& surface, double edge, const NoiseParameters& parameters
     Smoothing smoothing(surface);
     const Eigen::AlignedBox3d box = confinement(surface.positions);
     StepSettings settings = treatment.settings;
+    settings.sideways = parameters.along_normals ? 0 : kSideways * treatment.noise;
+    Positions positions = surface.positions;
     for (int step = 0; step < treatment.steps; ++step) {
         enter_phase(0.45 + 0.45 * step / treatment.steps,
                     "Step " + std::to_string(step + 1) + " of " + std::to_string(treatment.steps));
         for (int tries = 0; tries <= kMostShorter; ++tries) {
-            if (smoothing.step(settings, box, surface.positions)) break;
+            if (smoothing.step(settings, box, positions)) break;
             settings.step_size /= 4;
         }
     }
     if (crease > 0 && treatment.steps > 0) {
-        report.crease_share = crease_share(surface, smoothing.normals(), crease);
+        report.crease_share = crease_share(surface.stars, positions, smoothing.normals(), crease);
     }
     if (treatment.sharpening.iterations > 0) {
         enter_phase(0.9, "Sharpening the creases");
-        sharpen(surface, treatment.sharpening, box, surface.positions);
+        sharpen(surface, treatment.sharpening, settings.sideways, box, positions);
     }
     report.noise = parameters.noise > 0 ? parameters.noise : edge * treatment.noise;
     report.detail_size = edge * detail_size_of(treatment);
     report.steps = treatment.steps;
     report.sharpenings = treatment.sharpening.iterations;
     report.iterations = smoothing.iterations();
+    return positions;
 }
 
 /// Returns the largest distance to which floats may be rounded around a point. Rounding itself and
@@ -112,17 +121,16 @@ Eigen::Vector3d bounded(const Eigen::Vector3d& from, const Eigen::Vector3d& move
     return to;
 }
 
-/// Returns the mesh's positions after its surface has moved. Vertices that do not move keep their
-/// bits.
-std::vector<Eigen::Vector3d> moved_positions(const TriangleMesh& mesh, const SurfaceOfMesh& moved,
-                                             const Positions& before, double bound,
+/// Returns the mesh's positions after its surface has moved to `to`. Vertices that do not move keep
+/// their bits.
+std::vector<Eigen::Vector3d> moved_positions(const TriangleMesh& mesh, const SurfaceOfMesh& from,
+                                             const Positions& to, double bound,
                                              NoiseReport& report) {
     std::vector<Eigen::Vector3d> after = mesh.positions;
     for (std::size_t i = 0; i < after.size(); ++i) {
-        const std::int32_t vertex = moved.vertices[i];
-        if (vertex < 0 || moved.surface.is_fixed(vertex)) continue;
-        const Eigen::Vector3d movement =
-            moved.edge * (moved.surface.positions[vertex] - before[vertex]);
+        const std::int32_t vertex = from.vertices[i];
+        if (vertex < 0 || from.surface.is_fixed(vertex)) continue;
+        const Eigen::Vector3d movement = from.edge * (to[vertex] - from.surface.positions[vertex]);
         after[i] += movement;
         if (bound == 0) continue;
         const double margin = mesh.single_precision ? float_rounding(after[i]) : 0;
@@ -193,15 +201,15 @@ NoiseReport remove_noise(TriangleMesh& mesh, const Inputs& inputs,
                                      ? BoundaryCondition::Free
                                      : BoundaryCondition::Locked);
     const Selection moving = domain->selection();
-    SurfaceOfMesh moved = read_surface(*domain, report);
+    const SurfaceOfMesh from = read_surface(*domain, report);
     domain.reset();
-    const Positions before = moved.surface.positions;
+    Positions to = from.surface.positions;
     if (report.constrained_vertices < report.vertices) {
-        treat(moved.surface, moved.edge, parameters, report);
+        to = treated(from.surface, from.edge, parameters, report);
     }
     enter_phase(0.95, "Moving the vertices");
     std::vector<Eigen::Vector3d> after =
-        moved_positions(mesh, moved, before, parameters.largest_movement, report);
+        moved_positions(mesh, from, to, parameters.largest_movement, report);
     measure_change(mesh, after, moving, report);
     if (parameters.quality == Quality::Displacement)
         report.quality = displacements_along_normals(mesh, after, moving);

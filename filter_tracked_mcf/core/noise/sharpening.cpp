@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 
 #include "filter_tracked_mcf/core/mesh/measures.h"
 
@@ -74,9 +75,23 @@ Positions fitted_to(const Vectors& normals, const NoisySurface& surface,
     return fitted;
 }
 
+/// Returns the normals of the vertices: the mean of those of their triangles, weighted by area.
+Vectors means_over_stars(const Stars& stars, const Vectors& normals) {
+    Vectors means(static_cast<std::size_t>(stars.count()));
+    parallel_for_rows(stars.count(), [&](std::int32_t vertex) {
+        Eigen::Vector4f sum = Eigen::Vector4f::Zero();
+        for_each_corner(stars, vertex, [&](std::uint32_t triangle, std::uint32_t /*corner*/) {
+            sum += normals[triangle][3] * normals[triangle];
+        });
+        sum[3] = 0;
+        means[vertex] = sum.normalized();
+    });
+    return means;
+}
+
 }  // namespace
 
-void sharpen(const NoisySurface& surface, const Sharpening& sharpening,
+void sharpen(const NoisySurface& surface, const Sharpening& sharpening, double sideways,
              const Eigen::AlignedBox3d& box, Positions& positions) {
     Vectors normals = normals_of(surface.stars, positions), averages;
     const auto inverse_square = static_cast<float>(1 / (sharpening.width * sharpening.width));
@@ -90,6 +105,8 @@ void sharpen(const NoisySurface& surface, const Sharpening& sharpening,
         if (parallel_count(surface.stars.count(), leaves) > 0) break;
         positions.swap(fitted);
     }
+    if (std::isinf(sideways)) return;
+    limit_sideways(surface, means_over_stars(surface.stars, normals), sideways, positions);
 }
 
 }  // namespace tracked_mcf

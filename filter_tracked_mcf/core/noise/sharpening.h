@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "filter_tracked_mcf/core/noise/noisy_surface.h"
+#include "filter_tracked_mcf/core/noise/smoothing.h"
 
 namespace tracked_mcf {
 
@@ -15,9 +15,9 @@ struct Sharpening {
 /// normals of neighbouring triangles, those alike by the width with most weight (Zheng, Fu, Au and
 /// Tai, "Bilateral Normal Filtering for Mesh Denoising", 2011), and moves the vertices to fit them
 /// (Sun, Rosin, Martin and Langbein, "Fast and Effective Feature-Preserving Mesh Denoising", 2007).
-/// `surface` has the stars and the fidelities. The vertices stop before one of them would leave
-/// `box`.
-void sharpen(const NoisySurface& surface, const Sharpening& sharpening,
+/// Vertices start at the surface's positions, and are as far from these as StepSettings::sideways
+/// allows. They stop before one of them would leave `box`.
+void sharpen(const NoisySurface& surface, const Sharpening& sharpening, double sideways,
              const Eigen::AlignedBox3d& box, Positions& positions);
 
 }  // namespace tracked_mcf

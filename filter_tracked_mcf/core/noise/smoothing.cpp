@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "filter_tracked_mcf/core/noise/smoothing.h"
 
+#include <cmath>
+
 #include "filter_tracked_mcf/core/mesh/measures.h"
 
 namespace tracked_mcf {
@@ -11,7 +13,35 @@ namespace {
 /// their squares.
 constexpr double kOppositeNormals = 1e-20;
 
+/// A vertex may go so many times as far sideways if its star was folded, in order to unfold it.
+constexpr double kFolded = 2;
+
+/// Returns whether a triangle of a vertex's star, before it has moved, has its back to a normal.
+bool is_folded(const NoisySurface& surface, std::int32_t vertex, const Eigen::Vector3d& normal) {
+    bool folded = false;
+    for_each_corner(surface.stars, vertex, [&](std::uint32_t triangle, std::uint32_t /*corner*/) {
+        const auto [a, b, c] = corners_of(surface.positions, surface.stars.triangles[triangle]);
+        folded |= twice_vector_area(a, b, c).dot(normal) < 0;
+    });
+    return folded;
+}
+
 }  // namespace
+
+void limit_sideways(const NoisySurface& surface, const Vectors& normals, double sideways,
+                    Positions& positions) {
+    if (std::isinf(sideways)) return;
+    const std::vector<std::uint8_t>& on_rim = surface.stars.on_rim;
+    parallel_for_rows(surface.stars.count(), [&](std::int32_t vertex) {
+        const Eigen::Vector3d normal = normals[vertex].head<3>().cast<double>();
+        const Eigen::Vector3d moved = positions[vertex] - surface.positions[vertex];
+        const Eigen::Vector3d aside = moved - moved.dot(normal) * normal;
+        double most = on_rim.empty() || on_rim[vertex] == 0 ? sideways : 0;
+        const double length = aside.norm();
+        if (length > most && is_folded(surface, vertex, normal)) most *= kFolded;
+        if (length > most) positions[vertex] -= (1 - most / length) * aside;
+    });
+}
 
 const Vectors& Smoothing::smooth_normals(const Positions& positions, const StepSettings& settings) {
     const Stars& stars = surface_.stars;
@@ -39,10 +69,28 @@ const Vectors& Smoothing::smooth_normals(const Positions& positions, const StepS
     return normals_;
 }
 
+/// Returns the normals of the vertices' tangent planes: the smooth normals, but on a rim the means
+/// over the stars of the vertex and its neighbours on the rim. Smooth normals are those of places
+/// farther inside.
+const Vectors& Smoothing::normals_of_planes() {
+    const Stars& stars = surface_.stars;
+    if (stars.on_rim.empty()) return normals_;
+    planes_ = normals_;
+    parallel_for_rows(stars.count(), [&](std::int32_t vertex) {
+        if (stars.on_rim[vertex] == 0) return;
+        Eigen::Vector4f sum = vectors_[vertex];
+        for_each_rim_neighbour(stars, vertex,
+                               [&](std::int32_t neighbour) { sum += vectors_[neighbour]; });
+        planes_[vertex] = sum.normalized();
+    });
+    return planes_;
+}
+
 bool Smoothing::step(const StepSettings& settings, const Eigen::AlignedBox3d& box,
                      Positions& positions) {
     elements_.assemble(smooth_normals(positions, settings), settings.normal_length, &positions);
-    iterations_ += elements_.displace(settings.step_size, positions, vectors_);
+    const Vectors& planes = normals_of_planes();
+    iterations_ += elements_.displace(settings.step_size, positions, planes, vectors_);
     const auto moved = [&](std::int32_t vertex) -> Eigen::Vector3d {
         return positions[vertex] + vectors_[vertex].head<3>().cast<double>();
     };
@@ -52,6 +100,7 @@ bool Smoothing::step(const StepSettings& settings, const Eigen::AlignedBox3d& bo
     if (parallel_count(surface_.stars.count(), leaves) > 0) return false;
     parallel_for_rows(surface_.stars.count(),
                       [&](std::int32_t vertex) { positions[vertex] = moved(vertex); });
+    limit_sideways(surface_, planes, settings.sideways, positions);
     return true;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <limits>
 
 #include "filter_tracked_mcf/core/noise/linear_elements.h"
 
@@ -12,12 +13,21 @@ struct StepSettings {
     double normal_length = 0;     ///< s of the metric (linear_elements.h)
     double step_size = 0;         ///< δ for positions, a squared length
     double normal_step_size = 0;  ///< δ for normals
+    /// How far a vertex may be from its start at right angles to its normal. If there is a limit, a
+    /// vertex on a rim only moves along its normal.
+    double sideways = std::numeric_limits<double>::infinity();
 };
 
-/// Smooths surfaces that differ from one another only in their positions.
+/// Takes vertices back that are farther from their start, the surface's positions, than
+/// StepSettings::sideways allows.
+void limit_sideways(const NoisySurface& surface, const Vectors& normals, double sideways,
+                    Positions& positions);
+
+/// Smooths surfaces that differ from one another only in their positions. Vertices start at the
+/// positions of the given surface.
 class Smoothing {
 public:
-    /// `surface` must outlive the smoothing; its positions are not used.
+    /// `surface` must outlive the smoothing.
     explicit Smoothing(const NoisySurface& surface) : surface_(surface), elements_(surface) {}
 
     /// Returns unit normals of the vertices, or zeros where there are none: N solves
@@ -25,9 +35,10 @@ public:
     /// twice, the second time in the metric of (X, s N). Valid until the next call.
     const Vectors& smooth_normals(const Positions& positions, const StepSettings& settings);
 
-    /// Makes a step: smooths the normals, and then the positions in their metric. Returns false and
-    /// makes none if it would take a vertex out of `box`: an equation of fourth order has no
-    /// maximum principle, so a few vertices beside ones that stay may fly away.
+    /// Makes a step: smooths the normals, then the positions in their metric, and limits how far
+    /// these are sideways. Returns false and makes none if it would take a vertex out of `box`: an
+    /// equation of fourth order has no maximum principle, so a few vertices beside ones that stay
+    /// may fly away.
     bool step(const StepSettings& settings, const Eigen::AlignedBox3d& box, Positions& positions);
 
     /// Returns the normals of the latest call above.
@@ -36,9 +47,12 @@ public:
     int iterations() const { return iterations_; }
 
 private:
+    const Vectors& normals_of_planes();
+
     const NoisySurface& surface_;
     LinearElements elements_;
     Vectors normals_;
+    Vectors planes_;   ///< see normals_of_planes(); empty without a rim
     Vectors vectors_;  ///< mean normals, and then displacements
     int iterations_ = 0;
 };

@@ -11,6 +11,7 @@ Stars::Stars(RawVector<Triangle> surface_triangles, std::int32_t vertex_count)
     : triangles(std::move(surface_triangles)) {
     find_corners(vertex_count);
     find_neighbours();
+    find_rim();
 }
 
 // A counting sort.
@@ -63,6 +64,31 @@ void Stars::find_neighbours() {
                     std::lower_bound(row.begin(), row.end(), t[(corners[i] % 3 + k + 1) % 3]);
                 places[i][k] = first + static_cast<std::uint32_t>(place - row.begin());
             }
+        }
+    });
+}
+
+void Stars::find_rim() {
+    RawVector<std::uint8_t> triangles_of(neighbours.size());  // per edge: their number, at most 2
+    parallel_for_rows(count(), [&](std::int32_t vertex) {
+        for (auto i = neighbour_begin[vertex]; i < neighbour_begin[vertex + 1]; ++i) {
+            triangles_of[i] = 0;
+        }
+        for (auto i = corner_begin[vertex]; i < corner_begin[vertex + 1]; ++i) {
+            for (const std::uint32_t place : places[i]) {
+                if (triangles_of[place] < 2) ++triangles_of[place];
+            }
+        }
+    });
+    const auto is_single = [&](std::int64_t i) { return triangles_of[i] == 1; };
+    if (parallel_count(static_cast<std::int64_t>(triangles_of.size()), is_single) == 0) return;
+    rim_sides.resize(corners.size());
+    on_rim.resize(static_cast<std::size_t>(count()));
+    parallel_for_rows(count(), [&](std::int32_t vertex) {
+        for (auto i = corner_begin[vertex]; i < corner_begin[vertex + 1]; ++i) {
+            const bool begins = is_single(places[i][0]);
+            rim_sides[corners[i]] = begins ? 1 : 0;
+            if (begins || is_single(places[i][1])) on_rim[vertex] = 1;
         }
     });
 }

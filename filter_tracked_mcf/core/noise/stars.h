@@ -26,10 +26,15 @@ struct Stars {
     /// Per entry of `corners`: the places in `neighbours` of the triangle's next and previous
     /// corner.
     RawVector<std::array<std::uint32_t, 2>> places;
+    /// Per 3 × triangle + corner: whether the side that begins there is on the rim, which is where
+    /// no other triangle has it. Empty if the surface has no rim.
+    std::vector<std::uint8_t> rim_sides;
+    std::vector<std::uint8_t> on_rim;  ///< per vertex: whether it has such a side; or empty
 
 private:
     void find_corners(std::int32_t vertex_count);
     void find_neighbours();
+    void find_rim();
 };
 
 /// Calls visit(triangle, corner) for each triangle of a vertex's star, and the vertex's corner.
@@ -38,6 +43,18 @@ void for_each_corner(const Stars& stars, std::int32_t vertex, const Visit& visit
     for (std::uint32_t i = stars.corner_begin[vertex]; i < stars.corner_begin[vertex + 1]; ++i) {
         visit(stars.corners[i] / 3, stars.corners[i] % 3);
     }
+}
+
+/// Calls visit(neighbour) for each side on the rim that joins a vertex to a neighbour, if there is
+/// a rim.
+template <class Visit>
+void for_each_rim_neighbour(const Stars& stars, std::int32_t vertex, const Visit& visit) {
+    for_each_corner(stars, vertex, [&](std::uint32_t triangle, std::uint32_t corner) {
+        const std::uint32_t next = (corner + 1) % 3, previous = (corner + 2) % 3;
+        const std::uint8_t* const on_rim = &stars.rim_sides[3 * std::size_t{triangle}];
+        if (on_rim[corner] != 0) visit(stars.triangles[triangle][next]);
+        if (on_rim[previous] != 0) visit(stars.triangles[triangle][previous]);
+    });
 }
 
 /// Returns the sum of body(row) over the rows, in an order that does not depend on the threads.

@@ -32,7 +32,7 @@ std::vector<double> smoothed(const NoisySurface& surface, double step_size,
     LinearElements elements(surface);
     elements.assemble(upright(surface), 5);
     Vectors d;
-    elements.displace(step_size, positions, d);
+    elements.displace(step_size, positions, upright(surface), d);
     std::vector<double> result = heights;
     for (std::size_t i = 0; i < heights.size(); ++i) result[i] += double{d[i][2]};
     return result;
@@ -126,13 +126,31 @@ TEST(LinearElements, SmoothMoreAlongShortSides) {
         LinearElements elements(surface);
         elements.assemble(upright(surface), 5, with_positions ? &positions : nullptr);
         Vectors d;
-        elements.displace(0.3, positions, d);
+        elements.displace(0.3, positions, upright(surface), d);
         double squares = 0;
         for (const Eigen::Vector4f& vector : d) squares += double{vector[2] * vector[2]};
         return std::sqrt(squares);
     };
     EXPECT_GT(moved(0, true), 2 * moved(1, true));
     EXPECT_NEAR(moved(0, false), moved(1, false), 1e-3 * moved(0, false));
+}
+
+TEST(LinearElements, LeaveAFlatSheetAsItIs) {
+    // A sheared square, turned.
+    NoisySurface surface = square();
+    const Eigen::AngleAxisd turn(1, Eigen::Vector3d(1, 2, 3).normalized());
+    for (Eigen::Vector3d& p : surface.positions) {
+        p = turn * Eigen::Vector3d(p[0] + 0.3 * p[1], p[1], p[2]);
+    }
+    Vectors normals = upright(surface);
+    for (Eigen::Vector4f& normal : normals) {
+        normal.head<3>() = (turn * Eigen::Vector3d::UnitZ()).cast<float>();
+    }
+    LinearElements elements(surface);
+    elements.assemble(normals, 0, &surface.positions);
+    Vectors d;
+    elements.displace(2, surface.positions, normals, d);
+    for (const Eigen::Vector4f& vector : d) EXPECT_LT(vector.norm(), 1e-4);
 }
 
 TEST(LinearElements, KeepConstantNormals) {
@@ -162,7 +180,7 @@ TEST(LinearElements, DoNotSmoothAcrossACrease) {
         LinearElements elements(surface);
         elements.assemble(normals, normal_length);
         Vectors d;
-        elements.displace(1, positions, d);
+        elements.displace(1, positions, normals, d);
         double squares = 0;
         for (const Eigen::Vector4f& vector : d) squares += double{vector[2] * vector[2]};
         return std::sqrt(squares);

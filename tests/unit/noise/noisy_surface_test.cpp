@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <set>
 #include <utility>
 
@@ -73,7 +74,7 @@ TEST(Sharpening, StopsBeforeAVertexLeavesTheBox) {
     for (const Eigen::Vector3d& position : surface.positions) box.extend(position);
     const auto sharpened_within = [&](const Eigen::AlignedBox3d& within) {
         Positions positions = surface.positions;
-        sharpen(surface, {0.5, 15}, within, positions);
+        sharpen(surface, {0.5, 15}, std::numeric_limits<double>::infinity(), within, positions);
         return positions;
     };
     const Positions confined = sharpened_within(box);

@@ -14,23 +14,10 @@
 #include "tests/support/shapes.h"
 #include "tests/support/surface_distance.h"
 #include "tests/unit/flows.h"
+#include "tests/unit/noise/noisy.h"
 
 namespace tracked_mcf {
 namespace {
-
-/// Moves the vertices along their normals by normal noise of this deviation, in mean edges.
-TriangleMesh with_noise(TriangleMesh mesh, double deviation) {
-    std::mt19937 random(1);
-    std::normal_distribution<double> normal(0, deviation * mean_edge_length(mesh));
-    std::vector<Eigen::Vector3d> normals(mesh.positions.size(), Eigen::Vector3d::Zero());
-    for (const Triangle& t : mesh.triangles) {
-        for (const std::int32_t vertex : t) normals[vertex] += twice_vector_area(mesh, t);
-    }
-    for (std::size_t i = 0; i < normals.size(); ++i) {
-        mesh.positions[i] += normal(random) * normals[i].stableNormalized();
-    }
-    return mesh;
-}
 
 /// Returns the RMS distance of the vertices to the clean surface, along its normals.
 double error(const TriangleMesh& mesh, const TriangleMesh& clean) {
@@ -41,15 +28,6 @@ double error(const TriangleMesh& mesh, const TriangleMesh& clean) {
     double squares = 0;
     for (const double height : along_normals(differences, clean)) squares += height * height;
     return std::sqrt(squares / static_cast<double>(differences.size()));
-}
-
-TriangleMesh denoised(TriangleMesh mesh, const NoiseParameters& parameters = {}) {
-    remove_noise(mesh, {}, parameters);
-    return mesh;
-}
-
-NoiseReport report_of(TriangleMesh mesh, const NoiseParameters& parameters = {}) {
-    return remove_noise(mesh, {}, parameters);
 }
 
 TriangleMesh cube() {
