@@ -33,7 +33,7 @@ const std::vector<ParameterOf<NoiseParameters>>& parameter_table() {
         named(toggle<&P::along_normals>(), "along_normals", "Along normals only",
               "For rasters and textures: no vertex slides along the surface. Otherwise it slides by "
               "at most twice the noise."),
-        named(choice<&P::boundary>({{"Locked", "locked"}, {"Free", "free"}}), "boundary",
+        named(choice<&P::boundary>({{"Locked", "locked"}, {"Free", "free"}, {"Smooth the rim", "smooth"}}), "boundary",
               "Boundary",
               "Free: the rim of an open mesh is smoothed, too. Locked: its vertices stay, with "
               "their noise."),

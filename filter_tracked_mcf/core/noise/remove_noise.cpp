@@ -12,6 +12,7 @@
 #include "filter_tracked_mcf/core/memory/process_memory.h"
 #include "filter_tracked_mcf/core/mesh/measures.h"
 #include "filter_tracked_mcf/core/noise/cross_validation.h"
+#include "filter_tracked_mcf/core/noise/rim.h"
 #include "filter_tracked_mcf/core/noise/sharpening.h"
 #include "filter_tracked_mcf/core/parallel/stopwatch.h"
 
@@ -91,6 +92,7 @@ Positions treated(const NoisySurface& surface, double edge, const NoiseParameter
         enter_phase(0.9, "Sharpening the creases");
         sharpen(surface, treatment.sharpening, settings.sideways, box, positions);
     }
+    if (parameters.boundary == NoiseBoundary::Smooth) smooth_rim(surface, crease, positions);
     report.noise = parameters.noise > 0 ? parameters.noise : edge * treatment.noise;
     report.detail_size = edge * detail_size_of(treatment);
     report.steps = treatment.steps;
@@ -197,9 +199,9 @@ NoiseReport remove_noise(TriangleMesh& mesh, const Inputs& inputs,
     NoiseReport report;
     enter_phase(0.01, "Finding the edges");
     std::optional<Domain> domain(std::in_place, mesh, inputs,
-                                 parameters.boundary == NoiseBoundary::Free
-                                     ? BoundaryCondition::Free
-                                     : BoundaryCondition::Locked);
+                                 parameters.boundary == NoiseBoundary::Locked
+                                     ? BoundaryCondition::Locked
+                                     : BoundaryCondition::Free);
     const Selection moving = domain->selection();
     const SurfaceOfMesh from = read_surface(*domain, report);
     domain.reset();

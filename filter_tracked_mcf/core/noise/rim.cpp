@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "filter_tracked_mcf/core/noise/rim.h"
+
+#include <Eigen/Sparse>
+#include <cmath>
+#include <vector>
+
+namespace tracked_mcf {
+
+namespace {
+
+using Matrix = Eigen::SparseMatrix<double>;
+using Points = Eigen::Matrix<double, Eigen::Dynamic, 3>;
+
+/// δ for positions and for tangents, in squared edges.
+constexpr double kStepSize = 2.4, kTangentStepSize = 6;
+/// The length s of the metric, relative to that at which the least corner is as wide as an edge.
+constexpr double kTangentLength = 2.6;
+
+/// The curves of a rim, whose vertices have numbers of their own.
+struct Curves {
+    std::vector<std::int32_t> vertices;  ///< of the surface
+    std::vector<std::int32_t> next;      ///< per vertex: the next one, or -1
+    std::vector<std::uint8_t> stays;     ///< per vertex
+    std::vector<double> fidelity;        ///< per vertex
+};
+
+/// Lists the curves. Where more than two sides meet, or two sides begin, the vertex stays.
+Curves curves_of(const NoisySurface& surface) {
+    const Stars& stars = surface.stars;
+    Curves curves;
+    std::vector<std::int32_t> numbers(stars.on_rim.size(), -1);
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        if (stars.on_rim[i] == 0) continue;
+        numbers[i] = static_cast<std::int32_t>(curves.vertices.size());
+        curves.vertices.push_back(static_cast<std::int32_t>(i));
+        curves.stays.push_back(surface.fidelity[i] == 0 ? 1 : 0);
+        curves.fidelity.push_back(double{surface.fidelity[i]});
+    }
+    curves.next.assign(curves.vertices.size(), -1);
+    std::vector<std::uint8_t> ends(curves.vertices.size(), 0);
+    for (std::size_t i = 0; i < stars.rim_sides.size(); ++i) {
+        if (stars.rim_sides[i] == 0) continue;
+        const Triangle& t = stars.triangles[i / 3];
+        const std::int32_t from = numbers[t[i % 3]], to = numbers[t[(i + 1) % 3]];
+        if (curves.next[from] >= 0) curves.stays[from] = 1;
+        if (ends[to] != 0) curves.stays[to] = 1;
+        curves.next[from] = to;
+        ends[to] = 1;
+    }
+    for (std::size_t i = 0; i < ends.size(); ++i) {
+        if (ends[i] == 0 || curves.next[i] < 0) curves.stays[i] = 1;
+    }
+    return curves;
+}
+
+/// Mass and stiffness of linear elements on the curves.
+struct CurveElements {
+    Eigen::VectorXd masses;
+    Matrix stiffness;
+};
+
+CurveElements elements_of(const Curves& curves, const Points& tangents, double tangent_length) {
+    const auto count = static_cast<Eigen::Index>(curves.next.size());
+    CurveElements elements{Eigen::VectorXd::Zero(count), Matrix(count, count)};
+    std::vector<Eigen::Triplet<double>> entries;
+    for (Eigen::Index i = 0; i < count; ++i) {
+        const Eigen::Index j = curves.next[static_cast<std::size_t>(i)];
+        if (j < 0) continue;
+        const double turn = tangent_length * (tangents.row(j) - tangents.row(i)).norm();
+        const double length = std::hypot(1, turn);
+        elements.masses[i] += length / 2;
+        elements.masses[j] += length / 2;
+        for (const auto& [row, column, sign] :
+             {std::tuple{i, i, 1}, {j, j, 1}, {i, j, -1}, {j, i, -1}}) {
+            entries.emplace_back(static_cast<int>(row), static_cast<int>(column), sign / length);
+        }
+    }
+    elements.stiffness.setFromTriplets(entries.begin(), entries.end());
+    return elements;
+}
+
+/// Returns the solution of (diagonal + matrix) x = b.
+Points solution(const Eigen::VectorXd& diagonal, Matrix matrix, const Points& b) {
+    matrix.diagonal() += diagonal;
+    return Eigen::SimplicialLDLT<Matrix>(matrix).solve(b);
+}
+
+/// Returns unit tangents of the curves, smoothed as normals are.
+Points smooth_tangents(const Curves& curves, const Points& positions, double tangent_length) {
+    Points mean = Points::Zero(positions.rows(), 3);
+    for (Eigen::Index i = 0; i < positions.rows(); ++i) {
+        const Eigen::Index j = curves.next[static_cast<std::size_t>(i)];
+        if (j < 0) continue;
+        mean.row(i) += positions.row(j) - positions.row(i);
+        mean.row(j) += positions.row(j) - positions.row(i);
+    }
+    mean.rowwise().normalize();
+    Points tangents = mean;
+    for (const double length : {0.0, tangent_length}) {
+        const CurveElements elements = elements_of(curves, tangents, length);
+        tangents = solution(elements.masses, kTangentStepSize * elements.stiffness,
+                            elements.masses.asDiagonal() * mean);
+        tangents.rowwise().normalize();
+    }
+    return tangents;
+}
+
+}  // namespace
+
+void smooth_rim(const NoisySurface& surface, double crease, Positions& positions) {
+    if (surface.stars.on_rim.empty()) return;
+    const Curves curves = curves_of(surface);
+    const auto count = static_cast<Eigen::Index>(curves.vertices.size());
+    Points x(count, 3);
+    for (Eigen::Index i = 0; i < count; ++i) {
+        x.row(i) = positions[curves.vertices[static_cast<std::size_t>(i)]].transpose();
+    }
+    const double tangent_length = crease > 0 ? kTangentLength / crease : 0;
+    const CurveElements elements =
+        elements_of(curves, smooth_tangents(curves, x, tangent_length), tangent_length);
+    const Eigen::VectorXd inverse = kStepSize * kStepSize * elements.masses.cwiseInverse();
+    Matrix bending = elements.stiffness * inverse.asDiagonal() * elements.stiffness;
+    Points force = -(bending * x);
+    Eigen::VectorXd fidelities(count);
+    for (Eigen::Index i = 0; i < count; ++i) {
+        const auto vertex = static_cast<std::size_t>(i);
+        fidelities[i] = elements.masses[i] * curves.fidelity[vertex];
+        if (curves.stays[vertex] == 0) continue;
+        fidelities[i] = 1;
+        force.row(i).setZero();
+    }
+    bending.prune([&](Eigen::Index row, Eigen::Index column, double /*value*/) {
+        return curves.stays[static_cast<std::size_t>(row)] == 0 &&
+               curves.stays[static_cast<std::size_t>(column)] == 0;
+    });
+    const Points d = solution(fidelities, bending, force);
+    for (Eigen::Index i = 0; i < count; ++i) {
+        positions[curves.vertices[static_cast<std::size_t>(i)]] += d.row(i).transpose();
+    }
+}
+
+}  // namespace tracked_mcf
