@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "filter_tracked_mcf/core/crack_report.h"
 #include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/fair_parameters.h"
 #include "filter_tracked_mcf/core/progress.h"
@@ -15,6 +16,7 @@ namespace tracked_mcf {
 struct FairReport {
     std::int64_t vertices = 0;   ///< that may move, coincident ones once
     std::int64_t triangles = 0;  ///< that are selected
+    CrackReport cracks;
     std::int64_t patches = 0;
     /// Of these, patches that have less continuity than was asked for, because more would have
     /// taken them far away from the membrane.

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "filter_tracked_mcf/core/crack_report.h"
+
 namespace tracked_mcf {
 
 /// Measurements of one semi-implicit step.
@@ -44,6 +46,7 @@ struct FlowReport {
     bool has_strengths = false;             ///< whether vertices have strengths
     std::int64_t degenerate_triangles = 0;  ///< triangles of zero area, which were ignored
     std::int64_t boundary_edges = 0;
+    CrackReport cracks;
     /// Handles of all components of a closed surface under a conformalized flow, else 0.
     std::int64_t genus = 0;
     std::int64_t constrained_vertices = 0;  ///< referenced vertices that keep their bits

@@ -4,12 +4,23 @@
 #include <cstdint>
 #include <vector>
 
+#include "filter_tracked_mcf/core/crack_report.h"
 #include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/noise_parameters.h"
 #include "filter_tracked_mcf/core/progress.h"
 #include "filter_tracked_mcf/core/triangle_mesh.h"
 
 namespace tracked_mcf {
+
+/// Why no noise was removed. A rim is smoothed nevertheless if NoiseParameters::boundary asks for
+/// it.
+enum class NoiseStop {
+    None,            ///< it was
+    NothingMoves,    ///< all vertices are constrained
+    TooFewVertices,  ///< fewer than 100 may move: too few to measure noise
+    TooManyCreases,  ///< creases cross more than half of the area: noise cannot be told from them
+    NoNoise          ///< treatments take little of what might be noise, so it is detail
+};
 
 /// What remove_noise() has measured and done.
 struct NoiseReport {
@@ -18,13 +29,20 @@ struct NoiseReport {
     std::int64_t degenerate_triangles = 0;  ///< of these, with zero area
     std::int64_t boundary_edges = 0;
     std::int64_t constrained_vertices = 0;  ///< of the vertices above that keep their bits
+    CrackReport cracks;
 
+    NoiseStop stop = NoiseStop::None;
     double noise = 0;         ///< standard deviation along the normals, mesh units
     double crease_share = 0;  ///< share of the area in triangles that a crease crosses
     double detail_size = 0;   ///< see NoiseParameters::detail_size; 0 if there was nothing to do
     int steps = 0;
     int sharpenings = 0;  ///< iterations of the bilateral filter after the steps; 0 if it was worse
     int iterations = 0;   ///< of conjugate gradients, all steps
+
+    /// Where there is no noise from vertex to vertex, what may be noise nevertheless, in mesh
+    /// units: the height of stairs, as of voxels, slices or whole numbers, and the width and the
+    /// standard deviation of lumps or waves. 0: there are none.
+    double stairs = 0, lump_width = 0, lump_height = 0;
 
     double rms_displacement = 0;  ///< of the vertices above, mesh units
     double largest_displacement = 0;
@@ -33,6 +51,10 @@ struct NoiseReport {
     /// Volume between the initial and the final surface, mesh units³, see FlowReport.
     double volume_change = 0;
     double volume_before = 0;  ///< see FlowReport
+    /// Connected parts that have lost more than 3 % of their area or changed their volume by as
+    /// much, not counting the area that noise adds; and the largest such shares of a part.
+    std::int64_t shrunken_parts = 0;
+    double lost_area = 0, lost_volume = 0;
     bool oriented_consistently = true;
     /// Per vertex of the mesh: how far it has moved along the normal of the result, mesh units.
     /// Empty unless NoiseParameters::quality asks for it.

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "filter_tracked_mcf/parameters/fair_warnings.h"
 
+#include "filter_tracked_mcf/parameters/open_cracks.h"
+
 namespace tracked_mcf {
 
 std::vector<std::string> warnings_of(const FairParameters& parameters, const FairReport& report,
                                      const std::string& /*advice*/) {
-    std::vector<std::string> warnings;
+    std::vector<std::string> warnings = open_cracks(report.cracks);
     const auto of_all = [&](std::int64_t count) {
         return std::to_string(count) + " of " + std::to_string(report.patches) +
                (report.patches == 1 ? " patch" : " patches");

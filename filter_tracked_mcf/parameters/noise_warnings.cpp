@@ -1,21 +1,93 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "filter_tracked_mcf/parameters/noise_warnings.h"
 
+#include <cmath>
+#include <sstream>
+
+#include "filter_tracked_mcf/parameters/open_cracks.h"
+
 namespace tracked_mcf {
+
+namespace {
+
+std::string rounded(double number) {
+    std::ostringstream text;
+    text.precision(2);
+    text << number;
+    return text.str();
+}
+
+/// Begins a sentence that says why no noise was removed. A rim may have moved.
+std::string nothing(const NoiseReport& report) {
+    return report.largest_displacement > 0 ? "No noise was removed: " : "Nothing has moved: ";
+}
+
+/// Says which flow removes noise of this width. Its detail size is three times as long.
+std::string flow_for(double width, const NoiseReport& report) {
+    return "Take Mean Curvature Flow, with a detail size of " + rounded(3 * width) +
+           (report.boundary_edges > 0 ? " and order 2." : ", order 2 and the volume preserved.");
+}
+
+/// Says what there may be instead of noise from vertex to vertex.
+std::string no_noise(const NoiseReport& report) {
+    const std::string text = nothing(report) + "there is no noise from vertex to vertex";
+    if (report.stairs > 0) {
+        return text + ", but stairs " + rounded(report.stairs) +
+               " high, as of slices, voxels or whole numbers. " + flow_for(report.stairs, report);
+    }
+    if (report.lump_width > 0) {
+        return text + ", but perhaps in lumps or waves, about " + rounded(report.lump_width) +
+               " wide and " + rounded(report.lump_height) + " high. If that is not detail, " +
+               flow_for(report.lump_width, report);
+    }
+    return text +
+           ". Noise in lumps or waves cannot be told from detail. If there is some, take Mean "
+           "Curvature Flow, with a detail size of three times its width and order 2.";
+}
+
+std::string stop_text(const NoiseReport& report) {
+    switch (report.stop) {
+        case NoiseStop::None:
+            return {};
+        case NoiseStop::NothingMoves:
+            return nothing(report) +
+                   "all of the surface is constrained. Free the boundary, or "
+                   "select more.";
+        case NoiseStop::TooFewVertices:
+            return nothing(report) +
+                   "fewer than 100 vertices can move, too few to measure noise. "
+                   "Give the noise or a detail size, or refine the mesh.";
+        case NoiseStop::TooManyCreases:
+            return nothing(report) + "creases cross " + rounded(100 * report.crease_share) +
+                   " % of the area, so noise cannot be told from the shape. Give the noise or a "
+                   "detail size, or a larger crease angle.";
+        case NoiseStop::NoNoise:
+            return no_noise(report);
+    }
+    return {};
+}
+
+/// Empty unless a part of the surface has lost more than noise.
+std::string loss(const NoiseReport& report) {
+    if (report.shrunken_parts == 0) return {};
+    const bool one = report.shrunken_parts == 1;
+    return (one ? "A part of the surface has"
+                : std::to_string(report.shrunken_parts) + " parts of the surface have") +
+           " lost more than noise: up to " + rounded(100 * report.lost_area) +
+           " % of the area, and its volume has changed by up to " +
+           rounded(100 * report.lost_volume) +
+           " %. Look at the result; a smaller detail size or a largest movement limits it.";
+}
+
+}  // namespace
 
 std::vector<std::string> warnings_of(const NoiseParameters& /*parameters*/,
                                      const NoiseReport& report, const std::string& /*advice*/) {
-    if (report.constrained_vertices == report.vertices) {
-        return {
-            "Nothing has moved: all of the surface is constrained. Free the boundary, or select "
-            "more."};
+    std::vector<std::string> warnings = open_cracks(report.cracks);
+    for (const std::string& warning : {stop_text(report), loss(report)}) {
+        if (!warning.empty()) warnings.push_back(warning);
     }
-    if (report.steps == 0) {
-        return {
-            "Nothing has moved: the surface has no noise. To smooth it nevertheless, give a detail "
-            "size."};
-    }
-    return {};
+    return warnings;
 }
 
 }  // namespace tracked_mcf

@@ -62,6 +62,16 @@ ReportValue stop_name(Stop stop) {
     return {std::string(name())};
 }
 
+ReportValue stop_name(NoiseStop stop) {
+    const auto name = [stop]() -> const char* {
+        if (stop == NoiseStop::NothingMoves) return "nothing moves";
+        if (stop == NoiseStop::TooFewVertices) return "too few vertices";
+        if (stop == NoiseStop::TooManyCreases) return "too many creases";
+        return stop == NoiseStop::NoNoise ? "no noise" : "none";
+    };
+    return {std::string(name())};
+}
+
 ReportValue step_values(const StepReport& step, Solver solver) {
     const bool no_tolerance = solver != Solver::Converged;
     return {ReportObject{{"assemble_seconds", {step.assemble_seconds}},
@@ -87,6 +97,8 @@ ReportObject report_values(const FlowParameters& parameters, const ReportObject&
             {"triangles", {report.triangles}},
             {"degenerate_triangles", {report.degenerate_triangles}},
             {"boundary_edges", {report.boundary_edges}},
+            {"joined_vertices", {report.cracks.joined_vertices}},
+            {"open_pairs", {report.cracks.open_pairs}},
             {"constrained_vertices", {report.constrained_vertices}},
             {"detail_size", {report.detail_size}},
             {"step_size", {report.step_size}},
@@ -123,8 +135,14 @@ ReportObject report_values(const NoiseParameters& parameters, const ReportObject
             {"triangles", {report.triangles}},
             {"degenerate_triangles", {report.degenerate_triangles}},
             {"boundary_edges", {report.boundary_edges}},
+            {"joined_vertices", {report.cracks.joined_vertices}},
+            {"open_pairs", {report.cracks.open_pairs}},
             {"constrained_vertices", {report.constrained_vertices}},
+            {"stop", stop_name(report.stop)},
             {"noise", {report.noise}},
+            {"stairs", {report.stairs}},
+            {"lump_width", {report.lump_width}},
+            {"lump_height", {report.lump_height}},
             {"crease_share", {report.crease_share}},
             {"detail_size", {report.detail_size}},
             {"steps", integer(report.steps)},
@@ -139,6 +157,9 @@ ReportObject report_values(const NoiseParameters& parameters, const ReportObject
             {"largest_displacement", {report.largest_displacement}},
             {"rms_displacement", {report.rms_displacement}},
             {"bounded_vertices", {report.bounded_vertices}},
+            {"shrunken_parts", {report.shrunken_parts}},
+            {"lost_area", {report.lost_area}},
+            {"lost_volume", {report.lost_volume}},
             {"seconds", {report.seconds}},
             {"warnings", {texts(warnings)}},
             {"peak_memory_bytes", {report.peak_memory_bytes}}};
@@ -149,6 +170,8 @@ ReportObject report_values(const FairParameters& parameters, const ReportObject&
     return {{"parameters", {parameter_values(parameters, inputs)}},
             {"vertices", {report.vertices}},
             {"triangles", {report.triangles}},
+            {"joined_vertices", {report.cracks.joined_vertices}},
+            {"open_pairs", {report.cracks.open_pairs}},
             {"patches", {report.patches}},
             {"flatter_patches", {report.flatter_patches}},
             {"rough_patches", {report.rough_patches}},

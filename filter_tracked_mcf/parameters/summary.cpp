@@ -62,9 +62,16 @@ std::string movement_and_volume(const Report& report) {
     return text + "Volume: " + relative_change(report.volume_before, report.volume_change) + ".";
 }
 
+std::string closed_cracks(const CrackReport& cracks) {
+    if (cracks.joined_vertices == 0) return {};
+    return "\nCracks were closed: " + vertices(cracks.joined_vertices) +
+           (cracks.joined_vertices == 1 ? " counts" : " count") +
+           " as one with another that is nearer than 1e-6 of the diagonal.";
+}
+
 template <class Report>
 std::string bystanders(const Report& report) {
-    std::string text;
+    std::string text = closed_cracks(report.cracks);
     if (report.constrained_vertices > 0)
         text += "\n" + vertices(report.constrained_vertices) + " kept their positions.";
     if (report.degenerate_triangles > 0) {
@@ -106,9 +113,14 @@ std::string summary(const FlowParameters& parameters, const FlowReport& report) 
     return text + bystanders(report);
 }
 
-std::string summary(const NoiseParameters& /*parameters*/, const NoiseReport& report) {
-    std::string text = "Removed noise from " + vertices(report.vertices) + " in " +
-                       digits(report.seconds, 2) + " s.";
+std::string summary(const NoiseParameters& parameters, const NoiseReport& report) {
+    const bool is_smooth = parameters.boundary == NoiseBoundary::Smooth &&
+                           report.boundary_edges > 0 && report.largest_displacement > 0;
+    std::string text = (report.steps > 0 ? "Removed noise from "
+                        : is_smooth      ? "Smoothed the rim of "
+                                         : "Found no noise to remove from ") +
+                       vertices(report.vertices) + " in " + digits(report.seconds, 2) + " s.";
+    if (report.steps > 0 && is_smooth) text += " The rim was smoothed, too.";
     if (report.steps > 0) {
         text += "\nThe noise along the normals was about " + digits(report.noise, 3) + ".";
         if (report.crease_share > 0) {
@@ -119,8 +131,8 @@ std::string summary(const NoiseParameters& /*parameters*/, const NoiseReport& re
             text += std::string(report.crease_share > 0 ? "\nElsewhere, detail" : "\nDetail") +
                     " smaller than " + digits(report.detail_size, 3) + " was removed.";
         }
-        text += movement_and_volume(report);
     }
+    if (report.largest_displacement > 0) text += movement_and_volume(report);
     if (report.bounded_vertices > 0) {
         text += "\n" + vertices(report.bounded_vertices) +
                 " moved as far as the largest movement allows.";
@@ -134,7 +146,8 @@ std::string summary(const FairParameters& /*parameters*/, const FairReport& repo
            " s.\nMean radius of curvature: " + digits(1 / report.patch_curvature, 3) +
            " in the patches, " + digits(1 / report.seam_curvature, 3) +
            " around them.\nThe patches rise by up to " + digits(100 * report.height, 3) +
-           " % of the size of their hole above its membrane." + movement(report);
+           " % of the size of their hole above its membrane." + movement(report) +
+           closed_cracks(report.cracks);
 }
 
 std::string solver_details(const FlowParameters& parameters, const FlowReport& report) {

@@ -54,6 +54,7 @@ void Flow::fill_report(const Plan& plan) {
     report_.degenerate_triangles = elements.degenerate_triangle_count;
     report_.oriented_consistently = domain.topology().is_oriented_consistently();
     report_.boundary_edges = domain.boundary_edge_count();
+    report_.cracks = domain.topology().cracks;
     report_.constrained_vertices = elements.constrained_vertex_count;
     report_.depth = elements.grid.depth;
     report_.cell_size = elements.grid.cell_size;

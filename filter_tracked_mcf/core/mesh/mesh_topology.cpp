@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "filter_tracked_mcf/core/errors.h"
+#include "filter_tracked_mcf/core/mesh/cracks.h"
 #include "filter_tracked_mcf/core/mesh/weld.h"
 #include "filter_tracked_mcf/core/parallel/disjoint_sets.h"
 #include "filter_tracked_mcf/core/parallel/marks.h"
@@ -154,6 +155,7 @@ MeshTopology topology_of(const TriangleMesh& mesh) {
         }
     });
     find_edges(topology);
+    topology.cracks = close_cracks(mesh, topology);
     return topology;
 }
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "filter_tracked_mcf/core/crack_report.h"
 #include "filter_tracked_mcf/core/parallel/parallel.h"
 #include "filter_tracked_mcf/core/parallel/raw_vector.h"
 #include "filter_tracked_mcf/core/triangle_mesh.h"
@@ -12,7 +13,7 @@
 namespace tracked_mcf {
 
 /// The connectivity of a mesh. Coincident vertices count as one vertex, so a triangle soup has the
-/// connectivity of the mesh it was made from.
+/// connectivity of the mesh it was made from. So do vertices on both sides of a narrow crack.
 ///
 /// Side i of a triangle goes from its corner i to its corner (i + 1) % 3. Flags of a triangle's
 /// sides are bits of one number: bit i belongs to side i.
@@ -21,7 +22,7 @@ struct MeshTopology {
 
     std::vector<std::uint8_t> referenced;  ///< per vertex: 1 if a triangle has it, else 0
     std::vector<std::int32_t>
-        welded;  ///< per vertex: its representative, see weld_coincident_vertices
+        welded;  ///< per vertex: its representative, see weld_coincident_vertices; close_cracks
     RawVector<Triangle> triangles;  ///< per triangle: its welded vertices
     /// Per triangle: the edge along each side, or kNoEdge if the side joins a vertex to itself. Any
     /// number of triangles may share an edge.
@@ -32,6 +33,7 @@ struct MeshTopology {
     /// triangle has its edge. Copies of a triangle count as one triangle. Triangles with two equal
     /// vertices do not count: they have no boundary sides and close no boundary.
     std::vector<std::uint8_t> boundary;
+    CrackReport cracks;
     /// The largest difference, over all edges, between the numbers of triangles that pass along the
     /// edge in one and in the other direction.
     std::int32_t imbalance = 0;

@@ -17,7 +17,7 @@ struct NoiseWishes {
 /// How noise is removed from a surface. Lengths are in edges.
 struct Treatment {
     StepSettings settings;  ///< of every step
-    int steps = 0;
+    int steps = 0;          ///< 0: there is hardly any noise
     Sharpening sharpening;
     double noise = 0;  ///< the standard deviation that the sample shows
 };
@@ -34,6 +34,22 @@ double detail_size_of(const Treatment& treatment);
 /// needs no knowledge of the noise. If the noise σ is known, Stein's estimate of the risk takes its
 /// place, |F(x) - x|² / n + 2 σ² div F / n (1981). Differences F(x + ε z) - F(x) for random signs z
 /// tell the divergence and the norm (Ramani, Blu and Unser, "Monte-Carlo SURE", 2008).
+///
+/// Without wishes, a treatment that takes little of what seems to be noise is none: then it is
+/// detail.
 Treatment best_treatment(const Sample& sample, const NoiseWishes& wishes);
+
+/// What a sample shows of noise of some width. Lengths are in edges.
+struct NoiseOfWidth {
+    double height = 0;  ///< standard deviation of what the best treatment takes
+    double taken = 0;   ///< share of the noise that this is
+    /// Correlation of what it takes over twice the width, relative to that of noise of this width.
+    double correlation = 0;
+};
+
+/// Tries a few treatments on a sample as if its noise were `width` wide, such as voxels or lumps.
+/// Such noise is like white noise on a mesh with edges of this length: all lengths of a treatment
+/// are in units of the width, and random signs are averaged over it.
+NoiseOfWidth noise_of_width(const Sample& sample, const NoiseWishes& wishes, double width);
 
 }  // namespace tracked_mcf

@@ -280,6 +280,7 @@ FairReport fair(TriangleMesh& mesh, const Selection& selection, const FairParame
     MeshTopology topology = topology_of(mesh);
     const std::vector<Patch> patches = patches_of(topology, selection);
     const std::vector<std::int32_t> welded = std::move(topology.welded);
+    report.cracks = topology.cracks;
     topology = {};
     report.patches = static_cast<std::int64_t>(patches.size());
     for (const Patch& patch : patches) report.vertices += patch.moving;

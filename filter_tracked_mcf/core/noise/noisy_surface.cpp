@@ -13,9 +13,6 @@ namespace tracked_mcf {
 
 namespace {
 
-/// Vertices of a patch of a sample.
-constexpr std::int32_t kPatch = 500;
-
 /// The least strength that still moves a vertex, so that fidelities are finite.
 constexpr double kLeastStrength = 1e-3;
 
@@ -208,12 +205,14 @@ std::vector<Ranked> ranked(const Positions& positions) {
     return vertices;
 }
 
-/// Marks the vertices nearest to `seed`, counted in sides: as many whole rings as have kPatch.
-void mark_patch(const Stars& stars, std::int32_t seed, std::vector<std::uint8_t>& marked) {
+/// Marks the vertices nearest to `seed`, counted in sides: as many whole rings as have
+/// `count` vertices.
+void mark_patch(const Stars& stars, std::int32_t seed, std::size_t count,
+                std::vector<std::uint8_t>& marked) {
     std::vector<std::int32_t> patch(1, seed);
     marked[seed] = 1;
     std::size_t ring = 0;
-    while (ring < patch.size() && patch.size() < kPatch) {
+    while (ring < patch.size() && patch.size() < count) {
         for (const std::size_t end = patch.size(); ring < end; ++ring) {
             const std::int32_t vertex = patch[ring];
             for (std::uint32_t k = stars.neighbour_begin[vertex];
@@ -247,20 +246,20 @@ std::vector<float> random_signs(const Positions& positions) {
 
 }  // namespace
 
-Sample sample_of(const NoisySurface& surface, std::int32_t vertex_count) {
+Sample sample_of(const NoisySurface& surface, std::int32_t vertex_count, std::int32_t patch) {
     const Stars& stars = surface.stars;
     const std::int32_t all = stars.count();
     std::vector<std::uint8_t> marked(static_cast<std::size_t>(all), 1);
     if (all > 2 * vertex_count) {
         std::fill(marked.begin(), marked.end(), std::uint8_t{0});
         std::vector<Ranked> vertices = ranked(surface.positions);
-        const std::int32_t patches = vertex_count / kPatch;
+        const std::int32_t patches = vertex_count / patch;
         auto begin = vertices.begin();
         for (std::int32_t i = 0; i < patches; ++i) {
             const auto seed = vertices.begin() + (2 * i + 1) * std::int64_t{all} / (2 * patches);
             std::nth_element(begin, seed, vertices.end());
             begin = seed;
-            mark_patch(stars, seed->vertex, marked);
+            mark_patch(stars, seed->vertex, static_cast<std::size_t>(patch), marked);
         }
     }
     // Only whole triangles belong to the sample, and only their vertices.

@@ -51,10 +51,11 @@ struct Sample {
     std::vector<float> signs;  ///< per vertex: 1 or -1, at random
 };
 
-/// Returns patches that are spread over the surface and have about so many vertices together; all
-/// of a surface that is not much larger. Neither the patches nor the signs depend on the order of
-/// the vertices. Nor do they depend on the surface's place in space, but for rounding. An exception
-/// are vertices at the same distance from the middle: their coordinates decide.
-Sample sample_of(const NoisySurface& surface, std::int32_t vertex_count);
+/// Returns patches of `patch` vertices that are spread over the surface and have about so many
+/// vertices together; all of a surface that is not much larger. Neither the patches nor the signs
+/// depend on the order of the vertices. Nor do they depend on the surface's place in space, but for
+/// rounding. An exception are vertices at the same distance from the middle: their coordinates
+/// decide.
+Sample sample_of(const NoisySurface& surface, std::int32_t vertex_count, std::int32_t patch = 500);
 
 }  // namespace tracked_mcf

@@ -93,4 +93,24 @@ void Stars::find_rim() {
     });
 }
 
+void diffuse(const Stars& stars, int steps, std::vector<float>& values) {
+    const auto degree = [&](std::int32_t vertex) {
+        return stars.neighbour_begin[vertex + 1] - stars.neighbour_begin[vertex];
+    };
+    std::vector<float> next(values.size());
+    for (int step = 0; step < steps; ++step) {
+        parallel_for_rows(stars.count(), [&](std::int32_t vertex) {
+            float sum = 0;
+            for (auto i = stars.neighbour_begin[vertex]; i < stars.neighbour_begin[vertex + 1];
+                 ++i) {
+                const std::int32_t other = stars.neighbours[i];
+                const auto most = static_cast<float>(std::max(degree(vertex), degree(other)));
+                sum += (values[other] - values[vertex]) / (2 * most);
+            }
+            next[vertex] = values[vertex] + sum;
+        });
+        values.swap(next);
+    }
+}
+
 }  // namespace tracked_mcf

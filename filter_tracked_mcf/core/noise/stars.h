@@ -57,6 +57,11 @@ void for_each_rim_neighbour(const Stars& stars, std::int32_t vertex, const Visit
     });
 }
 
+/// Spreads values over neighbouring vertices: `steps` steps of a random walk that stays where it is
+/// with a probability of at least a half. Sums stay the same. On average, a value goes the square
+/// root of steps / 2 edges far.
+void diffuse(const Stars& stars, int steps, std::vector<float>& values);
+
 /// Returns the sum of body(row) over the rows, in an order that does not depend on the threads.
 template <class Body>
 double sum_over_rows(std::int32_t rows, const Body& body) {

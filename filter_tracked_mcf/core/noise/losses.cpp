@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "filter_tracked_mcf/core/noise/losses.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "filter_tracked_mcf/core/mesh/measures.h"
+#include "filter_tracked_mcf/core/parallel/disjoint_sets.h"
+
+namespace tracked_mcf {
+
+namespace {
+
+/// A part that loses more than this has lost more than noise.
+constexpr double kTooMuch = 0.03;
+/// A part is closed if the sum of its triangles' normals is less than this, relative to its area.
+constexpr double kClosed = 1e-9;
+
+/// Sums over the triangles of a part.
+struct Part {
+    double area_before = 0, area_after = 0;  ///< see losses_of()
+    double volume_before = 0, volume_after = 0;
+    double area = 0;
+    Eigen::Vector3d normals = Eigen::Vector3d::Zero();
+    bool has_rim = false;
+
+    bool is_closed() const { return !has_rim && normals.norm() <= kClosed * area; }
+};
+
+std::vector<Part> parts_of(const NoisySurface& before, const Positions& after) {
+    const Stars& stars = before.stars;
+    ConcurrentSets sets(stars.count());
+    parallel_for_items(stars.triangles, [&](const Triangle& t) {
+        sets.unite(t[0], t[1]);
+        sets.unite(t[1], t[2]);
+    });
+    std::vector<std::int32_t> numbers(static_cast<std::size_t>(stars.count()), -1);
+    std::vector<Part> parts;
+    for (std::size_t i = 0; i < stars.triangles.size(); ++i) {
+        const Triangle& t = stars.triangles[i];
+        std::int32_t& number = numbers[sets.find(t[0])];
+        if (number < 0) {
+            number = static_cast<std::int32_t>(parts.size());
+            parts.emplace_back();
+        }
+        Part& part = parts[number];
+        const auto [a, b, c] = corners_of(before.positions, t);
+        const auto [p, q, r] = corners_of(after, t);
+        const Eigen::Vector3d old = twice_vector_area(a, b, c),
+                              present = twice_vector_area(p, q, r);
+        const double area = present.norm();
+        part.area += old.norm();
+        part.area_before += area > 0 ? old.dot(present) / area : old.norm();
+        part.area_after += area;
+        part.normals += old;
+        part.volume_before += a.dot(old);
+        part.volume_after += p.dot(present);
+        for (std::size_t side = 0; side < 3 && !stars.on_rim.empty(); ++side) {
+            if (stars.rim_sides[3 * i + side] != 0) part.has_rim = true;
+        }
+    }
+    return parts;
+}
+
+}  // namespace
+
+Losses losses_of(const NoisySurface& before, const Positions& after) {
+    Losses losses;
+    for (const Part& part : parts_of(before, after)) {
+        if (part.area == 0) continue;
+        const double area =
+            part.area_before > 0 ? std::max(0.0, 1 - part.area_after / part.area_before) : 0;
+        const bool has_volume = part.is_closed() && part.volume_before != 0;
+        const double volume = has_volume ? std::abs(part.volume_after / part.volume_before - 1) : 0;
+        losses.area = std::max(losses.area, area);
+        losses.volume = std::max(losses.volume, volume);
+        if (std::max(area, volume) > kTooMuch) ++losses.parts;
+    }
+    return losses;
+}
+
+}  // namespace tracked_mcf

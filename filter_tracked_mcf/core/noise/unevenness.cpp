@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "filter_tracked_mcf/core/noise/unevenness.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <vector>
+
+#include "filter_tracked_mcf/core/mesh/measures.h"
+
+namespace tracked_mcf {
+
+namespace {
+
+/// Stairs have at least so many triangles, and all but a few of these in so many directions. Two
+/// normals have the same direction if their coordinates, times kUnits, round to the same integers.
+constexpr std::size_t kLeastTriangles = 1000, kDirections = 26;
+constexpr double kUnits = 200, kLeastCovered = 0.95;
+/// A direction counts if it has this share of the triangles, and planes are different if they are
+/// so far from each other, in edges.
+constexpr double kLeastShare = 0.01, kLeastGap = 0.02;
+/// The planes of one direction, at least; so near to each other in one of the directions, in edges.
+/// A real part with steps has its steps farther apart.
+constexpr std::size_t kLeastPlanes = 3;
+constexpr double kNearPlanes = 1;
+
+/// Widths of lumps, in edges.
+constexpr std::array<double, 4> kWidths = {1.4, 2, 2.8, 4};
+/// A sample for these: its patches must be several widths across.
+constexpr std::int32_t kSample = 2000, kPatch = 1000;
+/// Noise of a width is found if treatments take this share of it, if what they take is hardly more
+/// correlated than noise of this width is, and if it is as high as this, in edges.
+constexpr double kLeastTaken = 0.5, kMostCorrelated = 1.1, kLeastHeight = 0.02;
+
+/// Where the planes of triangles are along a direction, per direction.
+using Offsets = std::map<std::array<int, 3>, std::vector<double>>;
+
+Offsets offsets_of(const NoisySurface& surface) {
+    Offsets offsets;
+    for (const Triangle& t : surface.stars.triangles) {
+        const auto [a, b, c] = corners_of(surface.positions, t);
+        const Eigen::Vector3d normal = twice_vector_area(a, b, c).normalized();
+        std::array<int, 3> direction;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            direction[axis] =
+                static_cast<int>(std::lround(kUnits * normal[static_cast<Eigen::Index>(axis)]));
+        }
+        offsets[direction].push_back(normal.dot(a + b + c) / 3);
+        // A smooth surface has too many directions.
+        if (offsets.size() > surface.stars.triangles.size() / 4 + kDirections) return {};
+    }
+    return offsets;
+}
+
+/// The planes of one direction: their number, and the median of their distances.
+struct Planes {
+    std::size_t count = 0;
+    double distance = 0;
+};
+
+Planes planes_of(std::vector<double> offsets) {
+    std::sort(offsets.begin(), offsets.end());
+    std::vector<double> gaps;
+    for (std::size_t i = 1; i < offsets.size(); ++i) {
+        const double gap = offsets[i] - offsets[i - 1];
+        if (gap > kLeastGap) gaps.push_back(gap);
+    }
+    if (gaps.empty()) return {1, 0};
+    const auto middle = gaps.begin() + static_cast<std::ptrdiff_t>(gaps.size() / 2);
+    std::nth_element(gaps.begin(), middle, gaps.end());
+    return {gaps.size() + 1, *middle};
+}
+
+}  // namespace
+
+double height_of_stairs(const NoisySurface& surface) {
+    const std::size_t count = surface.stars.triangles.size();
+    if (count < kLeastTriangles) return 0;
+    std::vector<std::vector<double>> directions;
+    for (auto& [direction, offsets] : offsets_of(surface)) directions.push_back(std::move(offsets));
+    std::sort(directions.begin(), directions.end(),
+              [](const auto& a, const auto& b) { return a.size() > b.size(); });
+    directions.resize(std::min(directions.size(), kDirections));
+    std::size_t covered = 0, most_planes = 0;
+    double nearest = 2 * kNearPlanes, farthest = 0;
+    for (const std::vector<double>& offsets : directions) {
+        covered += offsets.size();
+        if (static_cast<double>(offsets.size()) < kLeastShare * static_cast<double>(count))
+            continue;
+        const Planes planes = planes_of(offsets);
+        most_planes = std::max(most_planes, planes.count);
+        if (planes.distance == 0) continue;
+        nearest = std::min(nearest, planes.distance);
+        farthest = std::max(farthest, planes.distance);
+    }
+    const bool are_stairs =
+        static_cast<double>(covered) >= kLeastCovered * static_cast<double>(count) &&
+        most_planes >= kLeastPlanes && nearest <= kNearPlanes;
+    return are_stairs ? farthest : 0;
+}
+
+Unevenness unevenness_of(const NoisySurface& surface, const NoiseWishes& wishes) {
+    Unevenness found;
+    found.stairs = height_of_stairs(surface);
+    if (found.stairs > 0) return found;
+    const Sample sample = sample_of(surface, kSample, kPatch);
+    for (const double width : kWidths) {
+        const NoiseOfWidth noise = noise_of_width(sample, wishes, width);
+        if (noise.taken >= kLeastTaken && noise.correlation <= kMostCorrelated &&
+            noise.height >= kLeastHeight) {
+            found.width = width;
+            found.height = noise.height;
+            break;
+        }
+    }
+    return found;
+}
+
+}  // namespace tracked_mcf
