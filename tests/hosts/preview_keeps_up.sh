@@ -11,9 +11,9 @@ here=$(dirname "$0")
 source "$here/window.sh"
 release=$1 filter=$2 out=$(realpath -m "$3") program=$4 plugin=${5:-}
 case "$filter in $release" in # A percentage, and the distance of its field from the dialog's upper edge.
-    "Mean Curvature Flow in 2020.09") percentage=4.25 field_top=168 ;;
-    "Mean Curvature Flow in "*) percentage=4.25 field_top=146 ;;
-    "Remove Noise in 2020.09") percentage=0.15 field_top=169 ;;
+    "Mean Curvature Flow in 2020.09") percentage=4.25 field_top=183 ;;
+    "Mean Curvature Flow in "*) percentage=4.25 field_top=160 ;;
+    "Remove Noise in 2020.09") percentage=0.15 field_top=184 ;;
     *) percentage=0.15 field_top=161 ;;
 esac
 
