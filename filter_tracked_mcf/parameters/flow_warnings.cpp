@@ -5,6 +5,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "filter_tracked_mcf/parameters/inside_out.h"
+
 namespace tracked_mcf {
 
 namespace {
@@ -162,7 +164,7 @@ bool converged(const FlowReport& report) {
 
 std::vector<std::string> warnings_of(const FlowParameters& parameters, const FlowReport& report,
                                      const std::string& advice) {
-    std::vector<std::string> warnings;
+    std::vector<std::string> warnings = inside_out(report);
     for (const std::string& warning :
          {early_stop(report, parameters.iterations), limited_step_size(report),
           unresolved_detail(report), fine_detail(report), handles(report), lost_shape(report),

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "filter_tracked_mcf/parameters/noise_warnings.h"
 
+#include "filter_tracked_mcf/parameters/inside_out.h"
+
 namespace tracked_mcf {
 
 std::vector<std::string> warnings_of(const NoiseParameters& /*parameters*/,
@@ -15,7 +17,7 @@ std::vector<std::string> warnings_of(const NoiseParameters& /*parameters*/,
             "Nothing has moved: the surface has no noise. To smooth it nevertheless, give a detail "
             "size."};
     }
-    return {};
+    return inside_out(report);
 }
 
 }  // namespace tracked_mcf
