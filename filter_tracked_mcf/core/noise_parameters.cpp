@@ -14,7 +14,8 @@ const std::vector<ParameterOf<NoiseParameters>>& parameter_table() {
         named(access<&P::crease_angle>(Type::Real,
                                        {0, 179, " degrees, such as 25, where 0 keeps none"}),
               "crease_angle", "Keep creases above (degrees)",
-              "Where the smoothed surface turns by more, a crease is kept. 0 keeps none."),
+              "In degrees: where the smoothed surface turns by more, a crease is kept. 0 keeps "
+              "none."),
         named(access<&P::noise>(Type::Length,
                                 {0, kFinite, ", in units of the mesh, where 0 measures it"}),
               "noise", "Noise (0: measure it)",
