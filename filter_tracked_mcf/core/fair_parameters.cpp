@@ -10,13 +10,12 @@ const std::vector<ParameterOf<FairParameters>>& parameter_table() {
     using namespace parameter_rows;
     using P = FairParameters;
     static const std::vector<ParameterOf<P>> table = {
-        named(
-            choice<&P::continuity>({{"Position (C0)", "position"},
-                                    {"Tangent (C1)", "tangent"},
-                                    {"Curvature (C2)", "curvature"}}),
-            "continuity", "Continuity",
-            "What the patch shares with the surface around it. Position suits rough surroundings, "
-            "curvature smooth ones."),
+        named(choice<&P::continuity>({{"Position (C0)", "position"},
+                                      {"Tangent (C1)", "tangent"},
+                                      {"Curvature (C2)", "curvature"}}),
+              "continuity", "Continuity",
+              "What the patch shares with its surroundings. Position suits rough ones, curvature "
+              "smooth ones."),
         named(integer<&P::iterations>(1, 20), "iterations", "Iterations",
               "1 to 20: how often tangent and curvature are solved for, each time on the shape "
               "before."),

@@ -13,30 +13,29 @@ const std::vector<ParameterOf<NoiseParameters>>& parameter_table() {
     static const std::vector<ParameterOf<P>> table = {
         named(access<&P::crease_angle>(Type::Real,
                                        {0, 179, " degrees, such as 25, where 0 keeps none"}),
-              "crease_angle", "Keep creases sharper than",
-              "In degrees. Where the smoothed surface turns by more, a crease is kept. 0 keeps "
+              "crease_angle", "Keep creases above (degrees)",
+              "In degrees: where the smoothed surface turns by more, a crease is kept. 0 keeps "
               "none."),
         named(access<&P::noise>(Type::Length,
                                 {0, kFinite, ", in units of the mesh, where 0 measures it"}),
-              "noise", "Noise",
+              "noise", "Noise (0: measure it)",
               "Standard deviation of the noise along the normals. 0 measures it."),
         named(access<&P::detail_size>(
                   Type::Length,
                   {0, kFinite, ", in units of the mesh, where 0 takes what the noise needs"}),
-              "detail_size", "Remove detail smaller than",
+              "detail_size", "Detail size (0: auto)",
               "Waves this long keep half their height, shorter ones less. 0 takes what the noise "
               "needs."),
         named(access<&P::largest_movement>(
                   Type::Length, {0, kFinite, ", in units of the mesh, where 0 is no bound"}),
-              "largest_movement", "Move no vertex farther than",
+              "largest_movement", "Largest move (0: any)",
               "A bound that no vertex exceeds. 0 is no bound."),
         named(toggle<&P::along_normals>(), "along_normals", "Along normals only",
-              "For rasters and textures: no vertex slides along the surface. Otherwise it slides by "
-              "at most twice the noise."),
-        named(choice<&P::boundary>({{"Locked", "locked"}, {"Free", "free"}, {"Smooth the rim", "smooth"}}), "boundary",
-              "Boundary",
-              "Free: the rim of an open mesh is smoothed, too. Locked: its vertices stay, with "
-              "their noise."),
+              "For rasters and textures: no vertex slides along the surface."),
+        named(choice<&P::boundary>({{"Locked", "locked"}, {"Free", "free"}, {"Smooth", "smooth"}}),
+              "boundary", "Boundary",
+              "Locked keeps the rim, with its noise. Free moves it along its normals. Smooth evens "
+              "its outline."),
         displacement<&P::quality>(),
         threads<&P::threads>(),
     };

@@ -8,8 +8,8 @@ namespace tracked_mcf {
 /// What happens to the boundary of an open mesh while noise is removed.
 enum class NoiseBoundary {
     Locked,  ///< its vertices keep their bits, and their noise
-    Free,    ///< its vertices move along their normals
-    Smooth   ///< its curve is smoothed, too
+    Free,    ///< its vertices move along their normals, so it keeps its outline
+    Smooth   ///< its curves are smoothed afterwards, but for their corners
 };
 
 /// The parameters of remove_noise(). The defaults need no knowledge of the mesh.

@@ -79,7 +79,7 @@ const std::vector<ParameterOf<P>>& parameter_table() {
         named(access<&P::detail_size>(
                   Type::Length,
                   {0, kFinite, ", in units of the mesh, where 0 takes 2.5 mean edge lengths"}),
-              "detail_size", "Remove detail smaller than",
+              "detail_size", "Detail size (0: auto)",
               "Waves this long keep half their height, shorter ones less. 0 takes 2.5 mean edge "
               "lengths."),
         named(toggle<&P::local_detail_size>(), "local_detail_size", "Larger where faces are larger",
@@ -114,16 +114,14 @@ const std::vector<ParameterOf<P>>& parameter_table() {
               "The step size is in squared units of the mesh."),
         named(integer<&P::depth>(0, kMaximumDepth, ", where 0 chooses automatically"), "depth",
               "Octree depth (expert)",
-              "The grid has 2^depth cells a side, 1 to 12. One more takes 4 times the time and "
-              "memory. 0 is automatic."),
+              "1 to 12: 2^depth cells a side. One more needs 4 times the memory. 0 is automatic."),
         named(choice<&P::flow, P>(
                   {{"Mean curvature", "mean-curvature"}, {"Conformalized", "conformalized"}}),
               "flow", "Flow (expert)",
-              "By mean curvature, thin parts pinch. By the conformalized flow, a closed surface "
-              "without handles becomes a sphere."),
+              "Mean curvature pinches thin parts. Conformalized makes closed surfaces spheres."),
         named(method(), "method", "Method (expert)",
-              "By Shared cells, close parts stick together. By Paper, too, and each step is one "
-              "W-cycle: only to compare."),
+              "Shared cells lets close parts stick together. Paper does, too, and is only to "
+              "compare."),
         named(access<&P::tolerance, P>(Type::Real, {0, 1, ", such as 1e-3", true}), "tolerance", "",
               "Except with method paper: a step is solved when the error estimate, relative to the "
               "step in the energy norm, is at most this number; greater than 0, less than 1. A "

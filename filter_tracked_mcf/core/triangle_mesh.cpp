@@ -65,8 +65,7 @@ void validate(const TriangleMesh& mesh, const Inputs& inputs) {
     const auto is_set = [](auto flag) { return flag != 0; };
     const Selection& selection = inputs.selection;
     if (!selection.empty() && std::none_of(selection.begin(), selection.end(), is_set)) {
-        throw InvalidMesh(
-            "No face is selected; select the faces to smooth, or smooth the whole mesh.");
+        throw InvalidMesh("No face is selected; select the faces that are to move.");
     }
     if (!inputs.strength.empty()) check_strengths(mesh, inputs.strength);
 }

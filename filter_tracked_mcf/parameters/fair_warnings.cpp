@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "filter_tracked_mcf/parameters/fair_warnings.h"
 
-#include "filter_tracked_mcf/parameters/open_cracks.h"
+#include "filter_tracked_mcf/parameters/surface_warnings.h"
 
 namespace tracked_mcf {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "filter_tracked_mcf/parameters/open_cracks.h"
+#include "filter_tracked_mcf/parameters/surface_warnings.h"
 
 namespace tracked_mcf {
 
@@ -164,7 +164,7 @@ bool converged(const FlowReport& report) {
 
 std::vector<std::string> warnings_of(const FlowParameters& parameters, const FlowReport& report,
                                      const std::string& advice) {
-    std::vector<std::string> warnings = open_cracks(report.cracks);
+    std::vector<std::string> warnings = surface_warnings(report);
     for (const std::string& warning :
          {early_stop(report, parameters.iterations), limited_step_size(report),
           unresolved_detail(report), fine_detail(report), handles(report), lost_shape(report),

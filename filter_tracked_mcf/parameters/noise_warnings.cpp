@@ -4,7 +4,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "filter_tracked_mcf/parameters/open_cracks.h"
+#include "filter_tracked_mcf/parameters/surface_warnings.h"
 
 namespace tracked_mcf {
 
@@ -24,7 +24,7 @@ std::string nothing(const NoiseReport& report) {
 
 /// Says which flow removes noise of this width. Its detail size is three times as long.
 std::string flow_for(double width, const NoiseReport& report) {
-    return "Take Mean Curvature Flow, with a detail size of " + rounded(3 * width) +
+    return "take Mean Curvature Flow, with a detail size of " + rounded(3 * width) +
            (report.boundary_edges > 0 ? " and order 2." : ", order 2 and the volume preserved.");
 }
 
@@ -33,7 +33,8 @@ std::string no_noise(const NoiseReport& report) {
     const std::string text = nothing(report) + "there is no noise from vertex to vertex";
     if (report.stairs > 0) {
         return text + ", but stairs " + rounded(report.stairs) +
-               " high, as of slices, voxels or whole numbers. " + flow_for(report.stairs, report);
+               " high, as of slices, voxels or whole numbers. To remove them, " +
+               flow_for(report.stairs, report);
     }
     if (report.lump_width > 0) {
         return text + ", but perhaps in lumps or waves, about " + rounded(report.lump_width) +
@@ -83,7 +84,7 @@ std::string loss(const NoiseReport& report) {
 
 std::vector<std::string> warnings_of(const NoiseParameters& /*parameters*/,
                                      const NoiseReport& report, const std::string& /*advice*/) {
-    std::vector<std::string> warnings = open_cracks(report.cracks);
+    std::vector<std::string> warnings = surface_warnings(report);
     for (const std::string& warning : {stop_text(report), loss(report)}) {
         if (!warning.empty()) warnings.push_back(warning);
     }

@@ -2,11 +2,14 @@
 #include "filter_tracked_mcf/plugin/meshlab_filter.h"
 
 #include <QPointer>
+#include <optional>
+#include <utility>
 #include <variant>
 
 #include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/parameter_table.h"
 #include "filter_tracked_mcf/parameters/filter_names.h"
+#include "filter_tracked_mcf/plugin/filter_dialog.h"
 
 namespace tracked_mcf {
 
@@ -84,43 +87,84 @@ ParameterValue read(const RichParameterList& list, const Parameter& parameter) {
                            "see how it is written.");
 }
 
-/// Marks that this thread runs the filter. Throws Error if it does already: MeshLab's callback
-/// processes events, so a user can apply the filter while it runs.
+/// A run of a filter, at most one for each thread. MeshLab's callback processes events, so MeshLab
+/// can apply a filter while one runs: a key in a dialog whose *Preview* is ticked begins a preview.
 class Run {
 public:
-    Run() {
-        if (runs) {
-            throw Error(
-                "The filter is already running. It goes on when this message is closed: apply the "
-                "filter "
-                "again when it is done.");
-        }
-        runs = true;
+    Run(MeshDocument& document, const char* filter)
+        : dialog_(filter), document_(&document), filter_(filter) {
+        current = this;
     }
-    ~Run() { runs = false; }
+    ~Run() { current = nullptr; }
     Run(const Run&) = delete;
     Run& operator=(const Run&) = delete;
 
+    /// The run of this thread, or null.
+    static thread_local Run* current;
+
+    /// Takes parameters that are to replace those of this run, and returns the outcome of the call
+    /// that has brought them. The dialog then waits for this run.
+    FilterOutcome replace(const MeshDocument& document, const char* filter,
+                          const RichParameterList& parameters) {
+        if (&document != document_ || filter != filter_) {
+            return {false,
+                    "A filter is already running. It goes on when this message is closed: apply "
+                    "this filter again when it is done.",
+                    {}};
+        }
+        if (dialog_.applies()) {
+            dialog_.preview_afterwards();
+        } else {
+            newer_ = parameters;
+        }
+        return {true, "", {}};
+    }
+
+    /// Wraps the host's callback, which may be null. Stops if a user has deleted the layer
+    /// meanwhile, or closed its document.
+    Progress watched_progress(const MeshModel& layer, vcg::CallBackPos* callback) const {
+        if (callback == nullptr) return {};
+        return [this, report = as_progress(callback), document = QPointer<MeshDocument>(document_),
+                id = layer.id()](double fraction, std::string_view phase) {
+            const bool goes_on = report(fraction, phase);
+            if (document.isNull() || document->getMesh(id) == nullptr) {
+                throw InvalidMesh(
+                    "The layer was deleted while the filter ran, so the filter stopped.");
+            }
+            return goes_on && !newer_ && !dialog_.ends_run();
+        };
+    }
+
+    /// Returns what `apply` returns for `parameters`, or for those that have replaced them.
+    template <class Apply>
+    FilterOutcome finish(RichParameterList parameters, const Apply& apply) {
+        for (;;) {
+            try {
+                return apply(parameters);
+            } catch (const Cancelled&) {
+                // MeshLab will log that the filter was applied: after a failure it shows a message.
+                if (dialog_.ends_run()) {
+                    return {true, "The run was ended. The layer is as it was.", {}};
+                }
+                if (!newer_) throw;
+            }
+            parameters = *std::exchange(newer_, std::nullopt);
+            // MeshLab has taken the call that brought them for the end of this run: it has logged
+            // that, and forgotten the layer. It would draw the layer as it draws a new one.
+            take_back_log(*document_);
+            document_->meshDocStateData().clear();
+            document_->meshDocStateData().create(*document_);
+        }
+    }
+
 private:
-    static thread_local bool runs;
+    FilterDialog dialog_;
+    MeshDocument* document_;
+    const char* filter_;
+    std::optional<RichParameterList> newer_;
 };
 
-thread_local bool Run::runs = false;
-
-/// Wraps the host's callback, which may be null. Stops if a user has deleted the layer meanwhile,
-/// or closed its document.
-Progress watched_progress(MeshDocument& document, const MeshModel& layer,
-                          vcg::CallBackPos* callback) {
-    if (callback == nullptr) return {};
-    return [report = as_progress(callback), pointer = QPointer<MeshDocument>(&document),
-            id = layer.id()](double fraction, std::string_view phase) {
-        const bool goes_on = report(fraction, phase);
-        if (pointer.isNull() || pointer->getMesh(id) == nullptr) {
-            throw InvalidMesh("The layer was deleted while the filter ran, so the filter stopped.");
-        }
-        return goes_on;
-    };
-}
+thread_local Run* Run::current = nullptr;
 
 template <class Parameters>
 RichParameterList rich_parameters(const MeshModel* layer) {
@@ -140,18 +184,20 @@ RichParameterList rich_parameters(const MeshModel* layer) {
 template <class Parameters>
 FilterOutcome apply_to_current_layer(MeshDocument& document, const RichParameterList& list,
                                      vcg::CallBackPos* callback) {
-    const auto work = [&] {
-        const Run run;
+    const char* const name = kNames<Parameters>.name;
+    if (Run::current != nullptr) return Run::current->replace(document, name, list);
+    Run run(document, name);
+    const auto apply = [&](const RichParameterList& newest) {
         MeshModel* const layer = document.mm();
         if (layer == nullptr) throw InvalidMesh("There is no layer to smooth; open a mesh first.");
         Parameters parameters;
         for (const auto& parameter : parameter_table<Parameters>()) {
-            if (!parameter.label.empty()) parameter.set(parameters, read(list, parameter));
+            if (!parameter.label.empty()) parameter.set(parameters, read(newest, parameter));
         }
         Inputs inputs;
         for (const Input& input : input_table<Parameters>()) {
             // An input without a label is always taken.
-            if (!input.label.empty() && !std::get<bool>(read(list, input))) continue;
+            if (!input.label.empty() && !std::get<bool>(read(newest, input))) continue;
             if (input.of_faces) {
                 inputs.*input.of_faces = selected_faces(layer->cm);
             } else if (layer->hasDataMask(MeshModel::MM_VERTQUALITY)) {
@@ -161,14 +207,14 @@ FilterOutcome apply_to_current_layer(MeshDocument& document, const RichParameter
             }
         }
         FilterOutcome outcome =
-            run_filter(layer->cm, parameters, inputs, watched_progress(document, *layer, callback));
+            run_filter(layer->cm, parameters, inputs, run.watched_progress(*layer, callback));
         update_box_and_normals(*layer);
         if (parameters.quality != Quality::None) {
             layer->updateDataMask(MeshModel::MM_VERTQUALITY);
         }
         return outcome;
     };
-    return guard(work);
+    return guard([&] { return run.finish(list, apply); });
 }
 
 template <class Parameters>

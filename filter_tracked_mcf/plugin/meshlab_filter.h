@@ -26,15 +26,22 @@ struct MeshLabFilter {
     /// bounding box, and its mask if it has got a quality. Never throws. A failure leaves the layer
     /// as it was.
     ///
-    /// Fails if this thread applies one of the filters already, or if `callback`, in which hosts
-    /// process the user's events, changes or deletes the layer.
+    /// Hosts process the user's events in `callback`. If they apply the filter again meanwhile, the
+    /// inner call returns at once, without a message and with the layer as it is. The outer call
+    /// begins again, with the inner call's parameters and the layer that is then the current one.
+    /// An outer call that the user ends succeeds, and leaves the layer as it was. See FilterDialog.
+    ///
+    /// Fails if this thread applies another of the filters, or to another document, or if
+    /// `callback` changes or deletes the layer.
     FilterOutcome (*apply)(MeshDocument& document, const RichParameterList& parameters,
                            vcg::CallBackPos* callback);
 };
 
-/// Passes each line of the message to `log`, the first after the name of the build.
+/// Passes each line of the message to `log`, the first after the name of the build. An empty
+/// message has no line.
 template <class Log>
 void log_lines(const std::string& message, const Log& log) {
+    if (message.empty()) return;
     std::istringstream lines(kBuild + (": " + message));
     for (std::string line; std::getline(lines, line);) log(line);
 }

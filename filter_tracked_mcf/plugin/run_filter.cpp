@@ -111,6 +111,8 @@ std::uint64_t checksum(const TriangleMesh& mesh) {
 template <class Parameters, class Report>
 std::string message_of(const Parameters& parameters, const Report& report) {
     std::string text = summary(parameters, report);
+    if (!report.quality.empty())
+        text += "\nColorize by vertex Quality shows the new vertex quality.";
     for (const std::string& warning : warnings_of(parameters, report, kAdvice))
         text += "\nWarning: " + warning;
     return text;

@@ -1,16 +1,16 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Writes an open surface with noise for the host tests: bumpy_bowl.py OUTPUT.off [SELECTED.ply]
+"""Writes an open surface with noise for the host tests: bumpy_bowl.py OUTPUT.off [SELECTED.ply [SIDE]]
 
-In SELECTED.ply, the faces in the middle are selected.
+In SELECTED.ply, the faces in the middle are selected; '' writes none. SIDE is in vertices.
 """
 
 import random
 import sys
 
-# In vertices. MeshLab shows meshes of fewer than 50,000 faces with flat shading until a filter has run.
-# Pictures before and after would then differ by their shading.
-SIDE = 180
+# MeshLab shows meshes of fewer than 50,000 faces with flat shading until a filter has run. Pictures before
+# and after would then differ by their shading.
+SIDE = int(sys.argv[3]) if len(sys.argv) > 3 else 180
 
 
 def vertices():
@@ -40,7 +40,7 @@ def write_selected(path):
             print(3, *face, 32 if inside else 0, file=file)
 
 
-def main(output, selected=None):
+def main(output, selected=None, _side=None):
     if selected:
         write_selected(selected)
     with open(output, "w") as file:

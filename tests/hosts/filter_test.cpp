@@ -12,6 +12,7 @@
 #include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/parameter_table.h"
 #include "filter_tracked_mcf/parameters/flow_warnings.h"
+#include "filter_tracked_mcf/parameters/noise_warnings.h"
 #include "filter_tracked_mcf/parameters/summary.h"
 #include "filter_tracked_mcf/plugin/run_filter.h"
 
@@ -270,6 +271,24 @@ TEST(EarlyStop, NamesTheStepTheReasonAndTheRemedy) {
     report.steps.resize(1);
     EXPECT_EQ(early_stop(),
               "The flow stopped after step 1 of 10: everything that could move has pinched.");
+}
+
+TEST(Warnings, TellThatAClosedMeshIsInsideOut) {
+    const std::string warning =
+        "The mesh is inside out: its faces point inwards. MeshLab's Invert Faces Orientation turns "
+        "them.";
+    const auto warnings = [](double volume) {
+        FlowReport flow;
+        NoiseReport noise;
+        flow.area_before = noise.area_before = 10;
+        flow.volume_before = noise.volume_before = volume;
+        noise.vertices = noise.steps = 1;
+        const std::vector<std::string> of_flow = warnings_of(FlowParameters(), flow, "");
+        EXPECT_EQ(warnings_of(NoiseParameters(), noise, ""), of_flow);
+        return of_flow;
+    };
+    EXPECT_EQ(warnings(-1), std::vector<std::string>{warning});
+    for (const double volume : {1.0, 0.0, -1e-9}) EXPECT_TRUE(warnings(volume).empty());
 }
 
 TEST(Warnings, TellOfALimitedStepADetailBelowACellAndASuddenLoss) {

@@ -109,6 +109,26 @@ TEST(Pages, TheFilterScriptsSetAllParametersToTheirDefaults) {
     expect_script<FairParameters>();
 }
 
+/// MeshLab 2020.09 shows two lines of help beside a parameter on a screen of 1280 by 900.
+template <class Parameters>
+void expect_short_help() {
+    constexpr std::size_t most = 102;  // letters
+    for (const auto& parameter : parameter_table<Parameters>()) {
+        if (parameter.label.empty()) continue;
+        EXPECT_LE(parameter.help.size(), most) << parameter.name;
+    }
+    for (const Input& input : input_table<Parameters>()) {
+        if (input.label.empty()) continue;
+        EXPECT_LE(input.help.size(), most) << input.name;
+    }
+}
+
+TEST(Help, FitsTwoLinesOfADialog) {
+    expect_short_help<FlowParameters>();
+    expect_short_help<NoiseParameters>();
+    expect_short_help<FairParameters>();
+}
+
 }  // namespace
 
 }  // namespace tracked_mcf

@@ -241,6 +241,8 @@ TEST_F(Plugin, WritesTheQualityThatIsAskedFor) {
     parameters.setValue("quality", *host::choice(1));
     ASSERT_TRUE(apply()) << outcome.message;
     const std::vector<double> displacement = quality();
+    // The name of MeshLab's filter in all releases.
+    EXPECT_TRUE(contains(outcome.log, "Colorize by vertex Quality")) << outcome.log;
     parameters.setValue("quality", *host::choice(2));
     ASSERT_TRUE(apply()) << outcome.message;
     EXPECT_NE(displacement, before);

@@ -151,7 +151,7 @@ TEST_F(RemoveNoise, RefusesBadParametersAndNamesTheirLabels) {
     parameters.setValue("crease_angle", FloatValue(200));
     EXPECT_FALSE(apply());
     EXPECT_TRUE(contains(outcome.message, "crease_angle is 200")) << outcome.message;
-    EXPECT_TRUE(contains(outcome.message, "Keep creases sharper than")) << outcome.message;
+    EXPECT_TRUE(contains(outcome.message, "Keep creases above")) << outcome.message;
     EXPECT_EQ(position_bits(layer), before);
 }
 

@@ -53,39 +53,83 @@ protected:
     }
 };
 
-TEST_P(Running, AnotherRunIsRefusedAndTheFirstGoesOn) {
-    const auto expected = undisturbed();
+TEST_P(Running, ANewerRunReplacesTheFirst) {
+    RichParameterList newer = parameters;
+    newer.setValue("iterations", IntValue(3));
+    MeshDocument other;
+    MeshModel& same = host::add_layer(other, "same");
+    make_layer(same);
+    ASSERT_TRUE(filter().apply(other, newer).succeeded);
     const auto before = position_bits(layer);
     const Belongings belongings(layer);
     ASSERT_TRUE(apply_meanwhile([&] {
         filter().parameters(document);  // the user opens the dialog again
-        const host::Outcome inner = filter().apply(document, parameters, process_events);
-        EXPECT_FALSE(inner.succeeded);
-        EXPECT_TRUE(contains(inner.message, "already running")) << inner.message;
-        EXPECT_TRUE(contains(inner.message, "goes on when")) << inner.message;
+        const host::Outcome inner = filter().apply(document, newer, process_events);
+        EXPECT_TRUE(inner.succeeded) << inner.message;
+        EXPECT_EQ(inner.log, "");
         EXPECT_EQ(position_bits(layer), before);
         EXPECT_TRUE(Belongings(layer) == belongings);
     })) << outcome.message;
-    EXPECT_EQ(position_bits(layer), expected);
+    EXPECT_EQ(position_bits(layer), position_bits(same));
     EXPECT_TRUE(Belongings(layer) == belongings);
 }
 
-TEST_P(Running, AnotherRunIsRefusedForOtherLayersAndDocumentsToo) {
+TEST_P(Running, TheNewestOfManyRunsIsMade) {
+    const auto expected = undisturbed();
+    RichParameterList newer = parameters;
+    newer.setValue("iterations", IntValue(1));
+    ASSERT_TRUE(apply_meanwhile([&] {
+        // The second arrives while the run of the first has begun.
+        EXPECT_TRUE(filter().apply(document, newer, process_events).succeeded);
+        action = [&] {
+            EXPECT_TRUE(filter().apply(document, newer, process_events).succeeded);
+            EXPECT_TRUE(filter().apply(document, parameters, process_events).succeeded);
+        };
+    })) << outcome.message;
+    EXPECT_EQ(position_bits(layer), expected);
+}
+
+TEST_P(Running, ANewerRunWithWrongParametersFails) {
+    RichParameterList wrong = parameters;
+    wrong.setValue("depth", IntValue(-1));
+    const auto before = position_bits(layer);
+    EXPECT_FALSE(apply_meanwhile(
+        [&] { EXPECT_TRUE(filter().apply(document, wrong, process_events).succeeded); }));
+    EXPECT_TRUE(contains(outcome.message, "depth")) << outcome.message;
+    EXPECT_EQ(position_bits(layer), before);
+}
+
+TEST_P(Running, ANewerRunIsForTheLayerThatIsThenTheCurrentOne) {
     const auto expected = undisturbed();
     MeshModel& other = host::add_layer(document, "other");
     make_layer(other);
+    document.setCurrentMesh(layer.id());
+    const auto before = position_bits(layer);
+    ASSERT_TRUE(apply_meanwhile([&] {
+        document.setCurrentMesh(other.id());
+        EXPECT_TRUE(filter().apply(document, parameters, process_events).succeeded);
+    })) << outcome.message;
+    EXPECT_EQ(position_bits(layer), before) << "the layer that was current at first";
+    EXPECT_EQ(position_bits(other), expected);
+}
+
+TEST_P(Running, AnotherFilterOrDocumentIsRefusedAndTheFirstGoesOn) {
+    const auto expected = undisturbed();
+    const host::Filter noise(TRACKED_MCF_PLUGIN_FILE, "Remove Noise");
     MeshDocument other_document;
     MeshModel& far = host::add_layer(other_document, "far");
     make_layer(far);
-    const auto before = position_bits(other);
-    document.setCurrentMesh(layer.id());
+    const auto before = position_bits(far);
     ASSERT_TRUE(apply_meanwhile([&] {
-        document.setCurrentMesh(other.id());
-        EXPECT_FALSE(filter().apply(document, parameters, process_events).succeeded);
-        EXPECT_FALSE(filter().apply(other_document, parameters, process_events).succeeded);
+        for (const host::Outcome& inner :
+             {noise.apply(document, noise.parameters(document), process_events),
+              filter().apply(other_document, parameters, process_events)}) {
+            EXPECT_FALSE(inner.succeeded);
+            EXPECT_TRUE(contains(inner.message, "already running")) << inner.message;
+            EXPECT_TRUE(contains(inner.message, "goes on when")) << inner.message;
+        }
     })) << outcome.message;
-    EXPECT_EQ(position_bits(layer), expected) << "the layer that was current at first";
-    EXPECT_EQ(position_bits(other), before);
+    EXPECT_EQ(position_bits(layer), expected);
     EXPECT_EQ(position_bits(far), before);
 }
 

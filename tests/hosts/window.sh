@@ -28,6 +28,23 @@ start_filter() {
     xdotool windowmove --sync "$dialog" $((width - 790)) 80 windowfocus --sync "$dialog"
 }
 
+# The mouse reaches the dialog's buttons at distances from its edges, which differ between releases.
+set_buttons() { # RELEASE
+    case $1 in # Distance of the box from the dialog's lower edge.
+        2020.09) preview_height=83 ;;
+        2022.02) preview_height=79 ;;
+        *) preview_height=169 ;;
+    esac
+}
+click() { # X HEIGHT: X from the left edge, or from the right if negative; HEIGHT from the lower edge
+    eval "$(xdotool getwindowgeometry --shell "$dialog")"
+    xdotool mousemove --window "$dialog" $(($1 < 0 ? WIDTH + $1 : $1)) $((HEIGHT - $2)) click 1
+}
+click_help() { click -85 51; }
+click_apply() { click -85 22; }
+click_close() { click 85 22; }
+click_preview() { click 17 "$preview_height"; }
+
 wait_for() { # WHAT COMMAND...: repeats COMMAND until it succeeds
     for _ in {1..300}; do
         if "${@:2}" > /dev/null 2>&1; then return; fi

@@ -11,7 +11,10 @@ void TrackedMcfPlugin::initParameterSet(QAction* action, MeshDocument& document,
 bool TrackedMcfPlugin::applyFilter(QAction* action, MeshDocument& document,
                                    const RichParameterList& parameters,
                                    vcg::CallBackPos* callback) {
+    // A call from inside the callback replaces the context, but MeshLab then removes this one.
+    MLPluginGLContext* const context = glContext;
     const FilterOutcome outcome = filter(ID(action)).apply(document, parameters, callback);
+    glContext = context;
     if (!outcome.succeeded) errorMessage = QString::fromStdString(outcome.message);
     // Of failures, too: meshlabserver does not print errorMessage.
     log_lines(outcome.message, [this](const std::string& line) { Log(line); });

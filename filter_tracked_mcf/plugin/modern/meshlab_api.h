@@ -26,6 +26,11 @@ inline void update_box_and_normals(MeshModel& layer) {
     layer.updateBoxAndNormals();
 }
 
+/// Removes the log's lines of a preview.
+inline void take_back_log(MeshDocument& document) {
+    document.Log.backToBookmark();
+}
+
 /// Returns whether a parameter's value is the index of a choice.
 inline bool holds_choice(const Value& value) {
     return value.isInt();

@@ -13,7 +13,10 @@ std::map<std::string, QVariant> TrackedMcfPlugin::applyFilter(const QAction* act
                                                               MeshDocument& document,
                                                               unsigned int& post_condition_mask,
                                                               vcg::CallBackPos* callback) {
+    // A call from inside the callback replaces the context, but MeshLab then removes this one.
+    MLPluginGLContext* const context = glContext;
     const FilterOutcome outcome = filter(ID(action)).apply(document, parameters, callback);
+    glContext = context;
     // MLException is the only exception that hosts expect.
     if (!outcome.succeeded) throw MLException(QString::fromStdString(outcome.message));
     log_lines(outcome.message, [this](const std::string& line) { log(line); });

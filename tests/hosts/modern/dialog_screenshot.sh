@@ -11,17 +11,7 @@ set -euo pipefail
 
 source "$(dirname "$0")/../window.sh"
 release=$1 plugin=$2 mesh=$3 out=$(realpath -m "$4") filter=${5:-Mean Curvature Flow}
-case $release in # Distance of the box from the dialog's lower edge.
-    2022.02) preview_height=79 ;;
-    *) preview_height=169 ;;
-esac
-click() { # X HEIGHT: X from the left edge, or from the right if negative; HEIGHT from the lower edge
-    eval "$(xdotool getwindowgeometry --shell "$dialog")"
-    xdotool mousemove --window "$dialog" $(($1 < 0 ? WIDTH + $1 : $1)) $((HEIGHT - $2)) click 1
-}
-click_help() { click -85 51; }
-click_apply() { click -85 22; }
-click_preview() { click 17 "$preview_height"; }
+set_buttons "$release"
 
 make_home
 if [ -n "$plugin" ]; then
