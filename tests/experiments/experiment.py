@@ -52,6 +52,8 @@ class Experiment:
             description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
         parser.add_argument("--build", type=pathlib.Path, default=TOP / "build", metavar="FOLDER",
                             help="where the project was built, tests and tool included")
+        parser.add_argument("--program", type=pathlib.Path, metavar="FILE",
+                            help="another tracked_mcf than that of the build folder")
         parser.add_argument("--meshes", type=pathlib.Path, metavar="FOLDER",
                             help="folder of scans (default: cgal-meshes in the build folder)")
         parser.add_argument("--scans", nargs="+", metavar="NAME",
@@ -62,6 +64,7 @@ class Experiment:
         add_options(parser)
         self.name = name
         self.options = parser.parse_args()
+        self.program = self.options.program or self.options.build / "filter_tracked_mcf" / "tool" / "tracked_mcf"
         self._pyplot = pyplot()  # before the measurements, in case it is missing
         self.output = self.options.output or self.options.build / "experiments"
         self.output.mkdir(parents=True, exist_ok=True)
@@ -73,7 +76,8 @@ class Experiment:
     def _command(self):
         """Returns a sentence with the command that makes the page. It names no folder of this machine."""
         script = pathlib.Path(sys.argv[0]).resolve().relative_to(TOP)
-        words = [f"--{name} FOLDER" for name in ("meshes", "pairs") if getattr(self.options, name, None)]
+        words = [f"--{name} FOLDER" for name in ("meshes", "pairs", "findings") if getattr(self.options, name, None)]
+        words += [f'--also="{options}"' for options in getattr(self.options, "also", [])]
         if self.options.quick:
             words.append("--quick")
         return f"{MADE_BY} `{' '.join([str(script), *words])}`."
@@ -92,10 +96,11 @@ class Experiment:
         """Returns the paths of the scans to measure, unpacked: those of --scans if given; only the
         smallest with --quick."""
         named = self.options.scans
-        paths = [self._unpacked(path) for path in self.meshes(named or shared, named or cgal)]
+        paths = [self.unpacked(path) for path in self.meshes(named or shared, named or cgal)]
         return [min(paths, key=lambda path: path.stat().st_size)] if self.options.quick else paths
 
-    def _unpacked(self, path):
+    def unpacked(self, path):
+        """Returns the path of a file, or of its unpacked copy if it is packed by xz."""
         if path.suffix != ".xz":
             return path
         target = self.options.build / "experiments" / path.stem
@@ -109,8 +114,7 @@ class Experiment:
         report as a dictionary, and its processor seconds, files included."""
         report = target.with_suffix(".json")
         begin = processor_seconds()
-        subprocess.run([self.options.build / "filter_tracked_mcf" / "tool" / "tracked_mcf",
-                        *([command] if command else []), source, target, "--quiet", "--report", report,
+        subprocess.run([self.program, *([command] if command else []), source, target, "--quiet", "--report", report,
                         *map(str, words)], check=True)
         return json.loads(report.read_text(encoding="utf-8")), processor_seconds() - begin
 

@@ -21,6 +21,7 @@ import numpy
 from experiment import TOP, Experiment
 from ply import read_mesh, read_vertices, write_ply
 from scipy.spatial import cKDTree
+from shapes import grid_faces
 
 CONTINUITIES = ["position", "tangent", "curvature"]
 SEED = 1
@@ -59,16 +60,6 @@ class Runner:
             return None
         return (numpy.fromfile(target, "<f8").reshape(-1, 3),
                 dict(zip(("wall_seconds", "processor_seconds", "peak_bytes"), map(float, words[1:]))))
-
-
-def grid_faces(n, m, around):
-    """Returns the triangles of n by m quads; columns close around, and rows if `around` is 2."""
-    i, j = (axis.ravel() for axis in numpy.meshgrid(numpy.arange(n), numpy.arange(m), indexing="ij"))
-    rows = m if around == 2 else m + 1
-    corner = lambda a, b: a % n * rows + b % rows  # noqa: E731
-    quads = [corner(i, j), corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)]
-    return numpy.concatenate([numpy.stack([quads[k] for k in (0, 1, 2)], 1),
-                              numpy.stack([quads[k] for k in (0, 2, 3)], 1)])
 
 
 def sphere(frequency):

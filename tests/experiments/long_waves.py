@@ -17,7 +17,7 @@ import tempfile
 
 import numpy
 from experiment import Experiment, processor_seconds
-from scan import Scan
+from scan import Scan, mesh_set
 
 PERCENTAGES = [0.3, 1, 3, 10]  # detail sizes, of the diagonal of the bounding box
 LAMBDA = 0.5
@@ -26,7 +26,7 @@ MEASURED_ITERATIONS = 10
 
 def seconds_of_taubin(scan):
     """Returns the processor seconds of one iteration."""
-    meshes = scan.mesh_set(scan.vertices)
+    meshes = mesh_set(scan, scan.vertices)
     begin = processor_seconds()
     meshes.apply_coord_taubin_smoothing(lambda_=LAMBDA, mu=-LAMBDA,
                                         stepsmoothnum=MEASURED_ITERATIONS)

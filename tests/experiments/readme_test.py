@@ -6,6 +6,7 @@ Its table and sentences are written anew from the results and compared as text. 
 """
 
 import csv
+import math
 import pathlib
 import re
 import unittest
@@ -14,6 +15,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 README = HERE.parents[1] / "README.md"
 
 NOISE = "0.2"
+OTHERS = "Other "  # how the names of the lists begin whose meshes chose no constants
 MESHES = ["anchor_dense", "skull_50k", "boot_genus12"]
 SMOOTHERS = {"noisy": "noisy", "ours": "Remove Noise", "Taubin, default": "Taubin, default",
              "Taubin": "Taubin, best of 22 settings"}
@@ -39,7 +41,7 @@ def table(*rows):
 
 def of_removing_noise():
     found = {(row["mesh"], row["smoother"]): row for row in results("removing_noise")
-             if row["noise"] == NOISE and row["list"] == "Other meshes"}
+             if row["noise"] == NOISE and row["list"].startswith(OTHERS)}
 
     def cell(mesh, smoother):
         row = found[mesh, smoother]
@@ -50,12 +52,16 @@ def of_removing_noise():
 
 
 def over_peers():
-    text = (HERE / "results" / "removing_noise.md").read_text(encoding="utf-8")
+    found = {}
+    for row in results("removing_noise"):
+        if row["list"].startswith(OTHERS):
+            found.setdefault((row["mesh"], row["noise"]), {})[row["smoother"]] = row
 
     def over(peer):
-        rms, angle = (two_digits(re.findall(f"Other meshes: {figure} over {peer}, geometric mean: ([0-9.]+)", text)[0])
+        pairs = [(row["ours"], row[peer]) for row in found.values() if peer in row]
+        logarithms = ([math.log(float(ours[figure]) / float(other[figure])) for ours, other in pairs]
                       for figure in ("RMS", "angle"))
-        return re.findall(rf"Other meshes: RMS over {peer}: \d+ of (\d+) rows", text)[0], rms, angle
+        return len(pairs), *(two_digits(math.exp(sum(values) / len(values))) for values in logarithms)
 
     cases, rms, angle = over("Taubin")
     fewer, rms_over_bilateral, angle_over_bilateral = over("bilateral")

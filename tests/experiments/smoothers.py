@@ -2,33 +2,22 @@
 """Smoothers to compare with, each over its settings: MeshLab's in PyMeshLab, and a bilateral filter of normals."""
 
 import numpy
-from bilateral import BilateralFilter, area_vectors, unit
+from bilateral import BilateralFilter
 from experiment import processor_seconds
+from measures import angles, distance, measures
+from scan import mesh_set
 
 STEPS = [1, 2, 3, 4, 6, 8, 10, 14, 20, 30, 50]
 
 
-def distance(scan, vertices):
-    """Returns the RMS displacement from the clean vertices along the clean normals, in mean edge lengths."""
-    along = ((vertices - scan.vertices) * scan.normals).sum(axis=1)
-    return float(numpy.sqrt((along ** 2).mean())) / scan.edge
-
-
-def angles(scan, vertices):
-    """Returns the angle of each face's normal to that of the clean mesh, in degrees."""
-    clean = unit(area_vectors(scan.vertices, scan.faces))
-    cosines = (clean * unit(area_vectors(vertices, scan.faces))).sum(axis=1)
-    return numpy.degrees(numpy.arccos(numpy.clip(cosines, -1, 1)))
-
-
-def result(scan, vertices, seconds):
-    return {"RMS": distance(scan, vertices), "angle": float(angles(scan, vertices).mean()), "seconds": seconds,
-            "vertices": vertices}
+def result(scan, noisy, vertices, seconds, pairs=None):
+    """Returns the measures of a result, with its seconds and vertices."""
+    return {**measures(scan, noisy, vertices, pairs), "seconds": seconds, "vertices": vertices}
 
 
 def applied(scan, vertices, name, **parameters):
     """Returns the vertices after MeshLab's filter `name`, and its processor seconds."""
-    meshes = scan.mesh_set(vertices)
+    meshes = mesh_set(scan, vertices)
     begin = processor_seconds()
     meshes.apply_filter(name, **parameters)
     return meshes.current_mesh().vertex_matrix(), processor_seconds() - begin
@@ -69,19 +58,20 @@ def bilateral_family(scan, vertices, width):
         yield smooth
 
 
-def best(scan, families):
-    """Returns the best result over families, for the distance and for the angle each. Leaves a family once neither
+def best(scan, noisy, families, pairs=None):
+    """Returns the result with the least RMS over families, and the least angle of all of them. Leaves a family once neither
     got better twice."""
-    found, angle = None, numpy.inf
+    found, least_angle = (numpy.inf, None), numpy.inf
     for family in families:
         least, worse = (numpy.inf, numpy.inf), 0
         for smooth in family:
-            now = result(scan, *smooth())
-            worse = 0 if now["RMS"] < least[0] or now["angle"] < least[1] else worse + 1
-            least = min(least[0], now["RMS"]), min(least[1], now["angle"])
-            angle = min(angle, now["angle"])
-            if found is None or now["RMS"] < found["RMS"]:
-                found = now
+            vertices, seconds = smooth()
+            now = distance(scan, vertices), float(angles(scan, vertices).mean())
+            worse = 0 if now[0] < least[0] or now[1] < least[1] else worse + 1
+            least = min(least[0], now[0]), min(least[1], now[1])
+            least_angle = min(least_angle, now[1])
+            if now[0] < found[0]:
+                found = now[0], (vertices, seconds)
             if worse == 2:
                 break
-    return {**found, "angle": angle}
+    return result(scan, noisy, *found[1], pairs), least_angle
