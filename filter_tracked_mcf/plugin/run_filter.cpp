@@ -144,6 +144,11 @@ Outputs outputs_of(const FlowParameters& parameters, const FlowReport& report) {
 Outputs outputs_of(const NoiseParameters& /*parameters*/, const NoiseReport& report) {
     return {{"noise", report.noise},
             {"crease_share", report.crease_share},
+            {"stairs", report.stairs},
+            {"lump_width", report.lump_width},
+            {"lump_height", report.lump_height},
+            {"lost_area", report.lost_area},
+            {"lost_volume", report.lost_volume},
             {"detail_size", report.detail_size},
             {"steps", report.steps},
             {"largest_displacement", report.largest_displacement},

@@ -200,20 +200,67 @@ TEST(Summary, OfNoiseHasAFactInEachLine) {
     NoiseReport report;
     report.vertices = 100;
     report.seconds = 0.123;
-    EXPECT_EQ(summary({}, report), "Removed noise from 100 vertices in 0.12 s.");
+    NoiseParameters parameters;
+    EXPECT_EQ(summary(parameters, report), "Found no noise to remove from 100 vertices in 0.12 s.");
     report.steps = 2;
+    report.largest_displacement = 0.1;
+    report.rms_displacement = 0.02;
+    report.cracks.joined_vertices = 2;
     report.noise = 0.01234;
     report.crease_share = 0.0567;
     report.detail_size = 0.25;
     report.area_before = report.area_after = report.volume_before = 1;
     report.bounded_vertices = 7;
-    EXPECT_EQ(summary({}, report),
-              "Removed noise from 100 vertices in 0.12 s.\n"
-              "The noise along the normals was about 0.0123.\n"
-              "Creases were kept. They cross 5.67 % of the area.\n"
-              "Elsewhere, detail smaller than 0.25 was removed.\n"
-              "Vertices moved by up to 0, RMS 0.\nArea: unchanged. Volume: unchanged.\n"
-              "7 vertices moved as far as the largest movement allows.");
+    EXPECT_EQ(
+        summary(parameters, report),
+        "Removed noise from 100 vertices in 0.12 s.\n"
+        "The noise along the normals was about 0.0123.\n"
+        "Creases were kept. They cross 5.67 % of the area.\n"
+        "Elsewhere, detail smaller than 0.25 was removed.\n"
+        "Vertices moved by up to 0.1, RMS 0.02.\nArea: unchanged. Volume: unchanged.\n"
+        "7 vertices moved as far as the largest movement allows.\n"
+        "Cracks were closed: 2 vertices count as one with another that is nearer than 1e-6 of "
+        "the diagonal.");
+    report.boundary_edges = 5;
+    parameters.boundary = NoiseBoundary::Smooth;
+    EXPECT_THAT(summary(parameters, report), HasSubstr("The rim was smoothed, too."));
+    report.steps = 0;
+    EXPECT_THAT(summary(parameters, report), HasSubstr("Smoothed the rim of 100 vertices"));
+}
+
+TEST(NoiseWarnings, SayWhyNothingWasRemovedAndWhatToDo) {
+    const auto warning = [](const NoiseReport& report) {
+        const std::vector<std::string> warnings = warnings_of(NoiseParameters(), report, "");
+        EXPECT_EQ(warnings.size(), 1U);
+        return warnings.empty() ? std::string() : warnings.front();
+    };
+    NoiseReport report;
+    EXPECT_TRUE(warnings_of(NoiseParameters(), report, "").empty());
+    report.stop = NoiseStop::TooFewVertices;
+    EXPECT_THAT(warning(report), HasSubstr("Nothing has moved: fewer than 100 vertices"));
+    report.stop = NoiseStop::TooManyCreases;
+    report.crease_share = 0.625;
+    EXPECT_THAT(warning(report), HasSubstr("creases cross 62 % of the area"));
+    report.stop = NoiseStop::NoNoise;
+    EXPECT_THAT(warning(report), HasSubstr("three times its width"));
+    report.lump_width = 2;
+    report.lump_height = 0.25;
+    EXPECT_THAT(warning(report), HasSubstr("about 2 wide and 0.25 high"));
+    EXPECT_THAT(warning(report), HasSubstr("a detail size of 6, order 2 and the volume"));
+    report.stairs = 3;
+    report.boundary_edges = 4;
+    EXPECT_THAT(warning(report), HasSubstr("stairs 3 high"));
+    EXPECT_THAT(warning(report), HasSubstr("a detail size of 9 and order 2."));
+    report.largest_displacement = 1;
+    EXPECT_THAT(warning(report), HasSubstr("No noise was removed: ")) << "the rim has moved";
+    report = {};
+    report.shrunken_parts = 2;
+    report.lost_area = 0.12;
+    EXPECT_THAT(warning(report), HasSubstr("2 parts of the surface have lost"));
+    report = {};
+    report.cracks.open_pairs = 33;
+    report.cracks.open_width = 2e-4;
+    EXPECT_THAT(warning(report), HasSubstr("33 pairs of rim vertices are up to 0.0002 apart"));
 }
 
 TEST(DefaultDetailSize, IsThatOfTheSelectedTriangles) {

@@ -16,6 +16,8 @@ class Report(TypedDict):
     triangles: int  # that could move
     degenerate_triangles: int  # of these, with zero area
     boundary_edges: int
+    joined_vertices: int  # that count as one with another across a crack
+    open_pairs: int  # of vertices at cracks that are too wide for that
     constrained_vertices: int  # that kept their bits
     detail_size: float  # waves of this length kept half of their height, shorter ones less
     area_before: float
@@ -36,12 +38,19 @@ class _Quality(TypedDict, total=False):
 class NoiseReport(Report, _Quality):
     """What remove_noise() reports."""
 
+    stop: str  # why no noise was removed, or "none"
     noise: float  # standard deviation along the normals
+    stairs: float  # height of stairs; 0 if there are none, or noise was removed
+    lump_width: float  # of what may be noise in lumps or waves, likewise
+    lump_height: float
     crease_share: float  # share of the area in triangles that a crease crosses
     steps: int
     sharpenings: int  # iterations of the bilateral filter after the steps
     iterations: int  # of conjugate gradients, in all steps
     bounded_vertices: int  # that stopped at largest_movement
+    shrunken_parts: int  # that have lost more than 3 % of their area or volume
+    lost_area: float  # the largest share that a part has lost
+    lost_volume: float
     seconds: float
 
 
@@ -86,6 +95,8 @@ class FairReport(_Quality):
     parameters: Dict[str, Any]
     vertices: int  # that could move, coincident ones once
     triangles: int  # that were selected
+    joined_vertices: int  # that count as one with another across a crack
+    open_pairs: int  # of vertices at cracks that are too wide for that
     patches: int
     flatter_patches: int  # that have less continuity than was asked for
     rough_patches: int  # whose surroundings bend much more than they do

@@ -73,7 +73,9 @@ def _fair_results(report):
 
 
 def _noise_results(report):
-    return {**_smoothing_results(report), **{key: report[key] for key in ("noise", "crease_share", "steps")}}
+    return {**_smoothing_results(report),
+            **{key: report[key] for key in ("noise", "crease_share", "steps", "stairs", "lump_width", "lump_height",
+                                            "lost_area", "lost_volume")}}
 
 
 def _flow_results(report):

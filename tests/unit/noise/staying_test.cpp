@@ -9,8 +9,10 @@
 #include <vector>
 
 #include "filter_tracked_mcf/core/mesh/mesh_topology.h"
+#include "filter_tracked_mcf/core/noise/unevenness.h"
 #include "tests/support/shapes.h"
 #include "tests/support/surface_distance.h"
+#include "tests/unit/flows.h"
 #include "tests/unit/noise/noisy.h"
 
 namespace tracked_mcf {
@@ -153,6 +155,151 @@ TEST(RemoveNoise, UnfoldsTrianglesThatNoiseHasFolded) {
     const TriangleMesh before = with_isotropic_noise(clean, 0.25);
     ASSERT_GT(folded(before), 100);
     EXPECT_EQ(folded(denoised(before)), 0);
+}
+
+/// The cap of a sphere above a circle of latitude, whose rim is ragged within the sphere.
+struct RaggedCap {
+    TriangleMesh mesh;
+    double latitude;  ///< of the rim, an angle
+};
+
+RaggedCap ragged_cap() {
+    const TriangleMesh sphere = shapes::geodesic_sphere(40);
+    RaggedCap cap;
+    for (const Triangle& t : sphere.triangles) {
+        const auto [a, b, c] = corners_of(sphere.positions, t);
+        if ((a + b + c).z() > 0.3) cap.mesh.triangles.push_back(t);
+    }
+    cap.mesh.positions = sphere.positions;
+    cap.latitude = std::asin(0.1);
+    std::mt19937 random(1);
+    std::normal_distribution<double> noise(0, 0.3 * mean_edge_length(sphere));
+    const std::vector<std::uint8_t> rim = rim_of(cap.mesh);
+    for (std::size_t i = 0; i < rim.size(); ++i) {
+        if (rim[i] == 0) continue;
+        Eigen::Vector3d& p = cap.mesh.positions[i];
+        const double latitude = cap.latitude + noise(random), longitude = std::atan2(p.y(), p.x());
+        p = {std::cos(latitude) * std::cos(longitude), std::cos(latitude) * std::sin(longitude),
+             std::sin(latitude)};
+    }
+    return cap;
+}
+
+TEST(RemoveNoise, SmoothsTheOutlineOfARimIfAskedTo) {
+    const RaggedCap cap = ragged_cap();
+    const std::vector<std::uint8_t> rim = rim_of(cap.mesh);
+    const double edge = mean_edge_length(cap.mesh);
+    NoiseParameters parameters;
+    parameters.boundary = NoiseBoundary::Smooth;
+    const TriangleMesh after = denoised(cap.mesh, parameters);
+    double squares_before = 0, squares_after = 0, mean = 0;
+    int count = 0;
+    for (std::size_t i = 0; i < rim.size(); ++i) {
+        if (rim[i] == 0) continue;
+        const double before = std::asin(cap.mesh.positions[i].z()) - cap.latitude;
+        const double latitude = std::asin(after.positions[i].z() / after.positions[i].norm());
+        squares_before += before * before;
+        squares_after += (latitude - cap.latitude) * (latitude - cap.latitude);
+        mean += latitude - cap.latitude;
+        ++count;
+    }
+    EXPECT_LT(squares_after, 0.3 * squares_before);
+    EXPECT_LT(std::abs(mean / count), 0.05 * edge) << "the opening keeps its size";
+    EXPECT_LT(sideways(cap.mesh, cap.mesh, after).inside, 0.1);
+}
+
+TEST(RemoveNoise, KeepsTheCornersOfASmoothRim) {
+    const TriangleMesh before = uneven_sheet();
+    NoiseParameters parameters;
+    parameters.boundary = NoiseBoundary::Smooth;
+    const TriangleMesh after = denoised(before, parameters);
+    const double edge = mean_edge_length(before);
+    for (const Eigen::Vector3d& corner :
+         {Eigen::Vector3d(0, 0, 0), {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}) {
+        const auto place = std::find(before.positions.begin(), before.positions.end(), corner);
+        ASSERT_NE(place, before.positions.end());
+        const auto i = static_cast<std::size_t>(place - before.positions.begin());
+        EXPECT_LT((after.positions[i] - corner).norm(), 0.1 * edge);
+    }
+    EXPECT_NEAR(surface_area(after), 1, 1e-3);
+}
+
+TEST(RemoveNoise, LeavesWhatHasNoNoise) {
+    const auto expect_kept = [](const TriangleMesh& mesh, NoiseStop stop) {
+        TriangleMesh after = mesh;
+        EXPECT_EQ(remove_noise(after, {}, {}).stop, stop);
+        EXPECT_TRUE(same_bits(after, mesh));
+    };
+    for (const int n : {1, 2, 3}) expect_kept(shapes::box(n, {1, 2, 3}), NoiseStop::TooFewVertices);
+    expect_kept(with_noise(shapes::box(5, {1, 1, 1}), 0.1), NoiseStop::TooManyCreases);
+    for (const TriangleMesh& mesh :
+         {shapes::geodesic_sphere(20), shapes::bumpy_sphere(20), hills(0), shapes::square(30)}) {
+        expect_kept(mesh, NoiseStop::NoNoise);
+    }
+}
+
+TEST(Stairs, HaveTheHeightOfTheirSteps) {
+    const auto height_of = [](const TriangleMesh& mesh) {
+        const SurfaceOfMesh surface = surface_of(Domain(mesh, BoundaryCondition::Free));
+        return surface.edge * height_of_stairs(surface.surface);
+    };
+    TriangleMesh stairs = shapes::square(60);
+    const double step = 0.7 / 60;  // every second quad is a tread, the others are risers
+    for (Eigen::Vector3d& p : stairs.positions) p.z() = step * std::floor(30.25 * p.x());
+    const Eigen::Affine3d turn(Eigen::AngleAxisd(1, Eigen::Vector3d(1, 2, 3).normalized()));
+    EXPECT_NEAR(height_of(stairs), step, 1e-9);
+    EXPECT_NEAR(height_of(shapes::transformed(stairs, turn)), step, 1e-9);
+    for (const TriangleMesh& mesh : {shapes::box(30, {1, 1, 1}), shapes::geodesic_sphere(20),
+                                     shapes::square(40), with_noise(stairs, 0.1)}) {
+        EXPECT_EQ(height_of(mesh), 0);
+    }
+}
+
+TEST(RemoveNoise, NamesLumps) {
+    // Noise averaged over neighbours, four times.
+    const TriangleMesh clean = shapes::box(40, {1, 1, 1});
+    std::mt19937 random(1);
+    std::normal_distribution<double> normal;
+    std::vector<double> heights(clean.positions.size());
+    for (double& height : heights) height = normal(random);
+    for (int i = 0; i < 4; ++i) {
+        std::vector<double> sums(heights.size(), 0), counts(heights.size(), 0);
+        for (const Triangle& t : clean.triangles) {
+            for (const std::int32_t a : t) {
+                for (const std::int32_t b : t) sums[a] += heights[b], counts[a] += 1;
+            }
+        }
+        for (std::size_t v = 0; v < heights.size(); ++v) heights[v] = sums[v] / counts[v];
+    }
+    double squares = 0;
+    for (const double height : heights) squares += height * height;
+    const double edge = mean_edge_length(clean);
+    const double scale = 0.2 * edge / std::sqrt(squares / static_cast<double>(heights.size()));
+    TriangleMesh lumpy = clean;
+    const std::vector<Eigen::Vector3d> normals = vertex_normals(clean);
+    for (std::size_t v = 0; v < heights.size(); ++v) {
+        lumpy.positions[v] += scale * heights[v] * normals[v];
+    }
+    const NoiseReport report = report_of(lumpy);
+    EXPECT_EQ(report.stop, NoiseStop::NoNoise);
+    EXPECT_GT(report.lump_width, 1.3 * edge);
+    EXPECT_LT(report.lump_width, 4.1 * edge);
+    EXPECT_NEAR(report.lump_height, 0.2 * edge, 0.08 * edge);
+    EXPECT_EQ(report_of(clean).lump_width, 0);
+}
+
+TEST(RemoveNoise, ReportsPartsThatLoseMoreThanNoise) {
+    const TriangleMesh noisy = with_noise(shapes::geodesic_sphere(20), 0.2);
+    EXPECT_EQ(report_of(noisy).shrunken_parts, 0) << "noise has area, and its removal is no loss";
+    // A sphere beside it, so small that waves of the detail size are all of it.
+    const TriangleMesh two = shapes::merged(
+        noisy, shapes::transformed(shapes::geodesic_sphere(5),
+                                   Eigen::Translation3d(3, 0, 0) * Eigen::Scaling(0.1)));
+    NoiseParameters parameters;
+    parameters.detail_size = 15 * mean_edge_length(noisy);
+    const NoiseReport report = report_of(two, parameters);
+    EXPECT_EQ(report.shrunken_parts, 1);
+    EXPECT_GT(std::max(report.lost_area, report.lost_volume), 0.03);
 }
 
 }  // namespace
