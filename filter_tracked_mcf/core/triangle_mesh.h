@@ -33,7 +33,8 @@ struct Inputs {
 
     Selection selection;
     /// Per vertex: a number from 0 to 1 that multiplies the detail size; empty if all are 1. At 0,
-    /// a vertex stays. Coincident vertices take the strength of the first.
+    /// a vertex stays. Coincident vertices, and those across a crack, take the
+    /// strength of the first.
     std::vector<double> strength;
 };
 

@@ -427,6 +427,56 @@ TriangleMesh dumbbell(Random& random) {
                                                  shapes::transformed(ball, placed({0, 0, 3}, 1))));
 }
 
+/// An open sheet, flat or bent, with uneven vertices and perhaps noise. Its outline may be ragged.
+TriangleMesh open_sheet(Random& random) {
+    const int side = random.integer(4, 30);
+    TriangleMesh mesh = shapes::square(side);
+    const double bend = random.pick({0.0, random.between(0, 1)});
+    const double uneven = random.pick({0.0, 0.3}) / side;
+    const double height = random.pick({0.0, 0.02, 0.1, 0.4}) / side;
+    for (Vector3d& p : mesh.positions) {
+        p += Vector3d(uneven * random.between(-1, 1), uneven * random.between(-1, 1),
+                      bend * p.x() * p.x() + height * random.between(-1, 1));
+    }
+    if (random.chance(0.3)) {
+        auto& triangles = mesh.triangles;
+        const auto is_cut = [&](const Triangle& /*triangle*/) { return random.chance(0.1); };
+        triangles.erase(std::remove_if(triangles.begin(), triangles.end(), is_cut),
+                        triangles.end());
+    }
+    return shapes::transformed(mesh, turned(random));
+}
+
+/// A closed surface or a sheet cut along a line, whose sides are almost at the same place.
+TriangleMesh cracked(Random& random) {
+    TriangleMesh mesh = random.chance(0.5) ? open_sheet(random) : noisy(random);
+    const double shift = random.log_between(1e-18, 1e-9);
+    const double height = mesh.positions.front().z();
+    std::vector<std::int32_t> copies(mesh.positions.size(), -1);
+    for (Triangle& t : mesh.triangles) {
+        const auto [a, b, c] = t;
+        const double sum = mesh.positions[a].z() + mesh.positions[b].z() + mesh.positions[c].z();
+        if (!(sum > 3 * height)) continue;
+        for (std::int32_t& vertex : t) {
+            if (copies[vertex] < 0) {
+                copies[vertex] = static_cast<std::int32_t>(mesh.positions.size());
+                const Vector3d p = mesh.positions[vertex];
+                mesh.positions.push_back(p + shift * random.point());
+            }
+            vertex = copies[vertex];
+        }
+    }
+    return mesh;
+}
+
+/// A part of a few faces.
+TriangleMesh coarse(Random& random) {
+    const Vector3d sizes(1, random.between(0.1, 1), random.between(0.1, 1));
+    TriangleMesh mesh = shapes::box(random.integer(1, 5), sizes);
+    if (random.chance(0.3)) mesh.triangles.resize(mesh.triangles.size() * 5 / 6);
+    return shapes::transformed(mesh, turned(random));
+}
+
 }  // namespace
 
 const std::vector<Kind>& kinds() {
@@ -467,6 +517,9 @@ const std::vector<Kind>& kinds() {
         {"double_cover", double_cover},
         {"voxels", voxels},
         {"dumbbell", dumbbell},
+        {"open_sheet", open_sheet},
+        {"cracked", cracked},
+        {"coarse", coarse},
     };
     return all;
 }

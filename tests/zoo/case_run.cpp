@@ -27,14 +27,16 @@ FlowReport as_flow_report(Report made) {
     return report;
 }
 
-FlowReport filtered(TriangleMesh& mesh, const Case& run_case, int threads) {
+FlowReport filtered(TriangleMesh& mesh, const Case& run_case, int threads, bool& is_loss_told) {
     if (run_case.noise) {
         NoiseParameters parameters = *run_case.noise;
         parameters.threads = threads;
         const NoiseReport made = remove_noise(mesh, run_case.inputs, parameters);
+        is_loss_told = made.shrunken_parts > 0;
         FlowReport report = as_flow_report(made);
         report.detail_size = made.detail_size;
         report.volume_change = made.volume_change;
+        report.volume_before = made.volume_before;
         return report;
     }
     if (run_case.fair) {
@@ -54,7 +56,7 @@ Run run(const Case& run_case, int threads) {
     made.mesh = run_case.mesh;
     const double start = cpu_seconds();
     try {
-        made.report = filtered(made.mesh, run_case, threads);
+        made.report = filtered(made.mesh, run_case, threads, made.is_loss_told);
     } catch (const Error& error) {
         made.refusal = error.what();
     } catch (const std::exception& error) {

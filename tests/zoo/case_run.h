@@ -17,6 +17,7 @@ struct Run {
     std::string refusal;  ///< message of an exception of errors.h
     std::string foreign;  ///< message of any other exception
     double cpu_seconds = 0;
+    bool is_loss_told = true;  ///< whether the removal of noise warns that parts have shrunk
     bool made() const { return refusal.empty() && foreign.empty(); }
 };
 

@@ -197,7 +197,9 @@ Case noise_case_of(std::uint64_t seed, std::int64_t number) {
     noise.noise = length(0.2);
     noise.detail_size = length(0.2);
     noise.largest_movement = length(0.2);
-    if (random.chance(0.3)) noise.boundary = NoiseBoundary::Locked;
+    noise.along_normals = random.chance(0.2);
+    noise.boundary = random.pick(
+        {NoiseBoundary::Free, NoiseBoundary::Free, NoiseBoundary::Locked, NoiseBoundary::Smooth});
     if (random.chance(0.3)) noise.quality = Quality::Displacement;
     return made;
 }

@@ -123,8 +123,28 @@ private:
     std::unordered_map<std::uint64_t, std::vector<std::int32_t>> cells_;
 };
 
+/// Leaves out pairs that a triangle joins: such a triangle is narrow, and no crack.
+void leave_out_joined(const MeshTopology& topology, const Rims& rims,
+                      std::vector<std::int32_t>& pairs) {
+    std::unordered_map<std::int32_t, std::int32_t> numbers;
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+        if (pairs[i] != kNone) numbers.emplace(rims.vertices[i], static_cast<std::int32_t>(i));
+    }
+    if (numbers.empty()) return;
+    for (const Triangle& t : topology.triangles) {
+        for (int side = 0; side < 3; ++side) {
+            const auto a = numbers.find(t[side]);
+            if (a == numbers.end() || pairs[a->second] == kNone) continue;
+            const std::int32_t other = pairs[a->second];
+            if (rims.vertices[other] != t[(side + 1) % 3]) continue;
+            pairs[a->second] = pairs[other] = kNone;
+        }
+    }
+}
+
 /// Returns, per vertex of the boundary, the other one of its pair or kNone.
-std::vector<std::int32_t> pairs_of(const TriangleMesh& mesh, const Rims& rims, double width) {
+std::vector<std::int32_t> pairs_of(const TriangleMesh& mesh, const MeshTopology& topology,
+                                   const Rims& rims, double width) {
     const Places places(mesh, rims, width);
     const auto count = static_cast<std::int32_t>(rims.vertices.size());
     std::vector<std::int32_t> nearest(rims.vertices.size()), pairs(rims.vertices.size(), kNone);
@@ -141,6 +161,7 @@ std::vector<std::int32_t> pairs_of(const TriangleMesh& mesh, const Rims& rims, d
             }
         }
     }
+    leave_out_joined(topology, rims, pairs);
     return pairs;
 }
 
@@ -157,7 +178,7 @@ CrackReport close_cracks(const TriangleMesh& mesh, MeshTopology& topology) {
     const double joined = kJoinedOfDiagonal * box.diagonal().norm();
     const double width = std::max(joined, kFoundOfEdge * rims.median);
     if (!(width > 0) || !std::isfinite(width)) return report;
-    const std::vector<std::int32_t> pairs = pairs_of(mesh, rims, width);
+    const std::vector<std::int32_t> pairs = pairs_of(mesh, topology, rims, width);
 
     std::vector<std::int32_t> representatives;
     for (std::size_t i = 0; i < pairs.size(); ++i) {

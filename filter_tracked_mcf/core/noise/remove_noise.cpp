@@ -150,13 +150,7 @@ Positions treated(const NoisySurface& surface, double edge, const NoiseParameter
     Positions positions = denoised(surface, wishes, edge, parameters, report);
     if (parameters.boundary == NoiseBoundary::Smooth) {
         smooth_rim(surface, wishes.crease, positions);
-    } else if (report.stop != NoiseStop::None) {
-        return positions;
     }
-    const Losses losses = losses_of(surface, positions);
-    report.shrunken_parts = losses.parts;
-    report.lost_area = losses.area;
-    report.lost_volume = losses.volume;
     return positions;
 }
 
@@ -202,8 +196,22 @@ std::vector<Eigen::Vector3d> moved_positions(const TriangleMesh& mesh, const Sur
     return after;
 }
 
+void report_losses(const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& after,
+                   const SurfaceOfMesh& from, NoiseReport& report) {
+    Positions to = from.surface.positions;
+    for (std::size_t i = 0; i < after.size(); ++i) {
+        const std::int32_t vertex = from.vertices[i];
+        if (vertex < 0) continue;
+        to[vertex] = from.surface.positions[vertex] + (after[i] - mesh.positions[i]) / from.edge;
+    }
+    const Losses losses = losses_of(from.surface, to);
+    report.shrunken_parts = losses.parts;
+    report.lost_area = losses.area;
+    report.lost_volume = losses.volume;
+}
+
 void measure_change(const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& after,
-                    const Selection& selection, NoiseReport& report) {
+                    const SurfaceOfMesh& from, const Selection& selection, NoiseReport& report) {
     double squares = 0;
     for (std::size_t i = 0; i < after.size(); ++i) {
         if (!after[i].allFinite()) continue;  // a vertex that no triangle uses
@@ -219,6 +227,7 @@ void measure_change(const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>
         report.volume_change += swept_volume(corners_of(mesh.positions, mesh.triangles[i]),
                                              corners_of(after, mesh.triangles[i]));
     }
+    if (report.largest_displacement > 0) report_losses(mesh, after, from, report);
     report.area_before = surface_area(mesh, selection);
     report.area_after = surface_area({after, mesh.triangles}, selection);
 }
@@ -272,7 +281,7 @@ NoiseReport remove_noise(TriangleMesh& mesh, const Inputs& inputs,
     enter_phase(0.95, "Moving the vertices");
     std::vector<Eigen::Vector3d> after =
         moved_positions(mesh, from, to, parameters.largest_movement, report);
-    measure_change(mesh, after, moving, report);
+    measure_change(mesh, after, from, moving, report);
     if (parameters.quality == Quality::Displacement)
         report.quality = displacements_along_normals(mesh, after, moving);
     report.seconds = watch.seconds();

@@ -2,6 +2,7 @@
 #include "filter_tracked_mcf/core/noise/rim.h"
 
 #include <Eigen/Sparse>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -19,13 +20,13 @@ constexpr double kTangentLength = 2.6;
 
 /// The curves of a rim, whose vertices have numbers of their own.
 struct Curves {
-    std::vector<std::int32_t> vertices;  ///< of the surface
-    std::vector<std::int32_t> next;      ///< per vertex: the next one, or -1
-    std::vector<std::uint8_t> stays;     ///< per vertex
-    std::vector<double> fidelity;        ///< per vertex
+    std::vector<std::int32_t> vertices;              ///< of the surface
+    std::vector<std::array<Eigen::Index, 2>> sides;  ///< the numbers of their ends, as oriented
+    std::vector<std::uint8_t> stays;                 ///< per vertex
+    std::vector<double> fidelity;                    ///< per vertex
 };
 
-/// Lists the curves. Where more than two sides meet, or two sides begin, the vertex stays.
+/// Lists the curves. Vertices stay where not one side ends and another one begins.
 Curves curves_of(const NoisySurface& surface) {
     const Stars& stars = surface.stars;
     Curves curves;
@@ -34,22 +35,20 @@ Curves curves_of(const NoisySurface& surface) {
         if (stars.on_rim[i] == 0) continue;
         numbers[i] = static_cast<std::int32_t>(curves.vertices.size());
         curves.vertices.push_back(static_cast<std::int32_t>(i));
-        curves.stays.push_back(surface.fidelity[i] == 0 ? 1 : 0);
         curves.fidelity.push_back(double{surface.fidelity[i]});
     }
-    curves.next.assign(curves.vertices.size(), -1);
-    std::vector<std::uint8_t> ends(curves.vertices.size(), 0);
+    std::vector<int> begins(curves.vertices.size(), 0), ends(curves.vertices.size(), 0);
     for (std::size_t i = 0; i < stars.rim_sides.size(); ++i) {
         if (stars.rim_sides[i] == 0) continue;
         const Triangle& t = stars.triangles[i / 3];
         const std::int32_t from = numbers[t[i % 3]], to = numbers[t[(i + 1) % 3]];
-        if (curves.next[from] >= 0) curves.stays[from] = 1;
-        if (ends[to] != 0) curves.stays[to] = 1;
-        curves.next[from] = to;
-        ends[to] = 1;
+        curves.sides.push_back({from, to});
+        ++begins[from];
+        ++ends[to];
     }
-    for (std::size_t i = 0; i < ends.size(); ++i) {
-        if (ends[i] == 0 || curves.next[i] < 0) curves.stays[i] = 1;
+    for (std::size_t i = 0; i < begins.size(); ++i) {
+        const bool is_regular = begins[i] == 1 && ends[i] == 1;
+        curves.stays.push_back(is_regular && curves.fidelity[i] > 0 ? 0 : 1);
     }
     return curves;
 }
@@ -61,20 +60,22 @@ struct CurveElements {
 };
 
 CurveElements elements_of(const Curves& curves, const Points& tangents, double tangent_length) {
-    const auto count = static_cast<Eigen::Index>(curves.next.size());
+    const Eigen::Index count = tangents.rows();
     CurveElements elements{Eigen::VectorXd::Zero(count), Matrix(count, count)};
     std::vector<Eigen::Triplet<double>> entries;
-    for (Eigen::Index i = 0; i < count; ++i) {
-        const Eigen::Index j = curves.next[static_cast<std::size_t>(i)];
-        if (j < 0) continue;
+    for (const auto& [i, j] : curves.sides) {
         const double turn = tangent_length * (tangents.row(j) - tangents.row(i)).norm();
         const double length = std::hypot(1, turn);
         elements.masses[i] += length / 2;
         elements.masses[j] += length / 2;
-        for (const auto& [row, column, sign] :
-             {std::tuple{i, i, 1}, {j, j, 1}, {i, j, -1}, {j, i, -1}}) {
-            entries.emplace_back(static_cast<int>(row), static_cast<int>(column), sign / length);
-        }
+        const auto add = [&, inverse = 1 / length](Eigen::Index row, Eigen::Index column,
+                                                   int sign) {
+            entries.emplace_back(static_cast<int>(row), static_cast<int>(column), sign * inverse);
+        };
+        add(i, i, 1);
+        add(j, j, 1);
+        add(i, j, -1);
+        add(j, i, -1);
     }
     elements.stiffness.setFromTriplets(entries.begin(), entries.end());
     return elements;
@@ -86,22 +87,25 @@ Points solution(const Eigen::VectorXd& diagonal, Matrix matrix, const Points& b)
     return Eigen::SimplicialLDLT<Matrix>(matrix).solve(b);
 }
 
+/// Leaves rows without a direction as they are.
+void normalize_rows(Points& points) {
+    for (Eigen::Index i = 0; i < points.rows(); ++i) points.row(i).normalize();
+}
+
 /// Returns unit tangents of the curves, smoothed as normals are.
 Points smooth_tangents(const Curves& curves, const Points& positions, double tangent_length) {
     Points mean = Points::Zero(positions.rows(), 3);
-    for (Eigen::Index i = 0; i < positions.rows(); ++i) {
-        const Eigen::Index j = curves.next[static_cast<std::size_t>(i)];
-        if (j < 0) continue;
+    for (const auto& [i, j] : curves.sides) {
         mean.row(i) += positions.row(j) - positions.row(i);
         mean.row(j) += positions.row(j) - positions.row(i);
     }
-    mean.rowwise().normalize();
+    normalize_rows(mean);
     Points tangents = mean;
     for (const double length : {0.0, tangent_length}) {
         const CurveElements elements = elements_of(curves, tangents, length);
         tangents = solution(elements.masses, kTangentStepSize * elements.stiffness,
                             elements.masses.asDiagonal() * mean);
-        tangents.rowwise().normalize();
+        normalize_rows(tangents);
     }
     return tangents;
 }
@@ -131,8 +135,8 @@ void smooth_rim(const NoisySurface& surface, double crease, Positions& positions
         force.row(i).setZero();
     }
     bending.prune([&](Eigen::Index row, Eigen::Index column, double /*value*/) {
-        return curves.stays[static_cast<std::size_t>(row)] == 0 &&
-               curves.stays[static_cast<std::size_t>(column)] == 0;
+        return row == column || (curves.stays[static_cast<std::size_t>(row)] == 0 &&
+                                 curves.stays[static_cast<std::size_t>(column)] == 0);
     });
     const Points d = solution(fidelities, bending, force);
     for (Eigen::Index i = 0; i < count; ++i) {
