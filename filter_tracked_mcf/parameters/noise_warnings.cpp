@@ -72,11 +72,14 @@ std::string stop_text(const NoiseReport& report) {
 std::string loss(const NoiseReport& report) {
     if (report.shrunken_parts == 0) return {};
     const bool one = report.shrunken_parts == 1;
-    return (one ? "A part of the surface has"
-                : std::to_string(report.shrunken_parts) + " parts of the surface have") +
-           " lost more than noise: up to " + rounded(100 * report.lost_area) +
-           " % of the area, and its volume has changed by up to " +
-           rounded(100 * report.lost_volume) +
+    const auto per_cent = [](double share) {
+        return share < 0.1 ? rounded(100 * share) : std::to_string(std::lround(100 * share));
+    };
+    return (one ? "A part of the surface has lost"
+                : std::to_string(report.shrunken_parts) + " parts of the surface have lost up to") +
+           " " + per_cent(report.lost_area) + " % of the area without noise, and the volume " +
+           (one ? "has changed by " : "of a part has changed by up to ") +
+           per_cent(report.lost_volume) +
            " %. Look at the result; a smaller detail size or a largest movement limits it.";
 }
 

@@ -45,6 +45,7 @@ TEST(Report, HoldsEveryMemberUnderItsName) {
     report.triangles = 2;
     report.degenerate_triangles = 3;
     report.boundary_edges = 4;
+    report.cracks = {16, 17, 0.5};
     report.constrained_vertices = 15;
     report.detail_size = 0.4375;
     report.step_size = 0.0625;
@@ -78,6 +79,7 @@ TEST(Report, HoldsEveryMemberUnderItsName) {
                        "preserve": "area", "quality": "displacement", "cubature": 12,
                        "method": "shared-cells", "tolerance": 0.5, "stabilization": 0.25, "cycles": 2, "threads": 1},
         "vertices": 1, "triangles": 2, "degenerate_triangles": 3, "boundary_edges": 4,
+        "joined_vertices": 16, "open_pairs": 17,
         "constrained_vertices": 15, "detail_size": 0.4375, "step_size": 0.0625,
         "area_before": 20.5, "area_after": 19.5,
         "volume_before": 10.5, "volume_after": 8, "volume_change": -2.5,

@@ -11,8 +11,9 @@ pages=("$readme" "$(dirname "$readme")"/filter_tracked_mcf/{plugin,tool}/README.
 rm -rf "$work"
 mkdir -p "$work"
 
-# The meshes of the README: a closed scan, one with a boundary, and one with a selection.
-"$prefix/bin/meshlabserver" -i "$meshes/hand.off" -o "$work/scan.ply"
+# The meshes of the README: a closed scan with noise, one with a boundary, and one with a selection.
+awk 'NF == 3 && NR > 2 { for (i = 1; i <= 3; ++i) $i += 0.02 * (rand() - 0.5) } 1' "$meshes/hand.off" > "$work/noisy.off"
+"$prefix/bin/meshlabserver" -i "$work/noisy.off" -o "$work/scan.ply"
 "$prefix/bin/meshlabserver" -i "$meshes/mannequin-devil.off" -o "$work/open.ply"
 cat > "$work/select.mlx" << XML
 <!DOCTYPE FilterScript>
