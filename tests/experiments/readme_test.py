@@ -54,20 +54,21 @@ def of_removing_noise():
 def over_peers():
     found = {}
     for row in results("removing_noise"):
-        if row["list"].startswith(OTHERS):
-            found.setdefault((row["mesh"], row["noise"]), {})[row["smoother"]] = row
+        found.setdefault(row["list"], {}).setdefault((row["mesh"], row["noise"]), {})[row["smoother"]] = row
 
-    def over(peer):
-        pairs = [(row["ours"], row[peer]) for row in found.values() if peer in row]
+    def over(peer, title):
+        pairs = [(row["ours"], row[peer]) for row in found[title].values() if peer in row]
         logarithms = ([math.log(float(ours[figure]) / float(other[figure])) for ours, other in pairs]
                       for figure in ("RMS", "angle"))
         return len(pairs), *(two_digits(math.exp(sum(values) / len(values))) for values in logarithms)
 
-    cases, rms, angle = over("Taubin")
-    fewer, rms_over_bilateral, angle_over_bilateral = over("bilateral")
-    return (f"Over {cases} cases, its RMS error is {rms} times that of the best of Taubin's 22 settings, its error of normals "
-            f"{angle} times; over {fewer}, they are {rms_over_bilateral} and {angle_over_bilateral} times those of a bilateral "
-            f"filter of normals at its best")
+    parts, rms_of_parts, angle_of_parts = over("Taubin", "Other parts")
+    scans, rms_of_scans, angle_of_scans = over("Taubin", "Other scans")
+    _, rms, angle = over("bilateral", "Other scans")
+    return (f"Over {parts} cases of parts, its RMS error is {rms_of_parts} times that of the best of Taubin's 22 settings, "
+            f"and its error of normals {angle_of_parts} times; over {scans} cases of scans {rms_of_scans} and "
+            f"{angle_of_scans} times. On scans, they are {rms} and {angle} times those of a bilateral filter of normals at "
+            f"its best")
 
 
 def of_long_waves():

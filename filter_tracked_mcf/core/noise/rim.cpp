@@ -2,6 +2,7 @@
 #include "filter_tracked_mcf/core/noise/rim.h"
 
 #include <Eigen/Sparse>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
@@ -16,7 +17,10 @@ using Points = Eigen::Matrix<double, Eigen::Dynamic, 3>;
 /// δ for positions and for tangents, in squared edges.
 constexpr double kStepSize = 2.4, kTangentStepSize = 6;
 /// The length s of the metric, relative to that at which the least corner is as wide as an edge.
-constexpr double kTangentLength = 2.6;
+constexpr double kTangentLength = 4;
+
+/// Sides count as at least so long, in edges.
+constexpr double kShortest = 0.1;
 
 /// The curves of a rim, whose vertices have numbers of their own.
 struct Curves {
@@ -59,13 +63,15 @@ struct CurveElements {
     Matrix stiffness;
 };
 
-CurveElements elements_of(const Curves& curves, const Points& tangents, double tangent_length) {
+CurveElements elements_of(const Curves& curves, const Points& positions, const Points& tangents,
+                          double tangent_length) {
     const Eigen::Index count = tangents.rows();
     CurveElements elements{Eigen::VectorXd::Zero(count), Matrix(count, count)};
     std::vector<Eigen::Triplet<double>> entries;
     for (const auto& [i, j] : curves.sides) {
         const double turn = tangent_length * (tangents.row(j) - tangents.row(i)).norm();
-        const double length = std::hypot(1, turn);
+        const double side = std::max(kShortest, (positions.row(j) - positions.row(i)).norm());
+        const double length = side * std::hypot(1, turn);
         elements.masses[i] += length / 2;
         elements.masses[j] += length / 2;
         const auto add = [&, inverse = 1 / length](Eigen::Index row, Eigen::Index column,
@@ -102,7 +108,7 @@ Points smooth_tangents(const Curves& curves, const Points& positions, double tan
     normalize_rows(mean);
     Points tangents = mean;
     for (const double length : {0.0, tangent_length}) {
-        const CurveElements elements = elements_of(curves, tangents, length);
+        const CurveElements elements = elements_of(curves, positions, tangents, length);
         tangents = solution(elements.masses, kTangentStepSize * elements.stiffness,
                             elements.masses.asDiagonal() * mean);
         normalize_rows(tangents);
@@ -122,7 +128,7 @@ void smooth_rim(const NoisySurface& surface, double crease, Positions& positions
     }
     const double tangent_length = crease > 0 ? kTangentLength / crease : 0;
     const CurveElements elements =
-        elements_of(curves, smooth_tangents(curves, x, tangent_length), tangent_length);
+        elements_of(curves, x, smooth_tangents(curves, x, tangent_length), tangent_length);
     const Eigen::VectorXd inverse = kStepSize * kStepSize * elements.masses.cwiseInverse();
     Matrix bending = elements.stiffness * inverse.asDiagonal() * elements.stiffness;
     Points force = -(bending * x);

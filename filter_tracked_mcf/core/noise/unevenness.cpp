@@ -102,9 +102,10 @@ double height_of_stairs(const NoisySurface& surface) {
 
 Unevenness unevenness_of(const NoisySurface& surface, const NoiseWishes& wishes) {
     Unevenness found;
-    found.stairs = height_of_stairs(surface);
-    if (found.stairs > 0) return found;
     const Sample sample = sample_of(surface, kSample, kPatch);
+    // All of a large surface takes long.
+    if (height_of_stairs(sample.surface) > 0) found.stairs = height_of_stairs(surface);
+    if (found.stairs > 0) return found;
     for (const double width : kWidths) {
         const NoiseOfWidth noise = noise_of_width(sample, wishes, width);
         if (noise.taken >= kLeastTaken && noise.correlation <= kMostCorrelated &&
