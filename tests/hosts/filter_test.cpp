@@ -256,7 +256,8 @@ TEST(NoiseWarnings, SayWhyNothingWasRemovedAndWhatToDo) {
     report = {};
     report.shrunken_parts = 2;
     report.lost_area = 0.12;
-    EXPECT_THAT(warning(report), HasSubstr("2 parts of the surface have lost up to 12 % of the area"));
+    EXPECT_THAT(warning(report),
+                HasSubstr("2 parts of the surface have lost up to 12 % of the area"));
     report = {};
     report.cracks.open_pairs = 33;
     report.cracks.open_width = 2e-4;
