@@ -84,8 +84,8 @@ public:
         std::int32_t found = kNone;
         int compared = 0;
         for (int k = 0; k < 27; ++k) {
-            const Eigen::Vector3d shift(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1);
-            const auto cell = cells_.find(cell_of(at + width_ * shift));
+            const Eigen::Vector3i shift(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1);
+            const auto cell = cells_.find(cell_of(at + width_ * shift.cast<double>()));
             if (cell == cells_.end()) continue;
             for (const std::int32_t other : cell->second) {
                 if (other == number || std::count(neighbours.begin(), neighbours.end(), other) > 0)
