@@ -52,8 +52,9 @@ OTHER_MEASURES = {"sideways RMS": "sideways RMS", "sideways max": "max", "worst"
                   "area": "area, %", "volume": "volume, %", "turned": "turned faces", "newly turned": "newly turned",
                   "folded": "folded pairs"}
 
-# Drawn with noise of 0.2 edges: the camera's direction and what is up.
-DRAWN = {"fandisk": ("-0.6 -0.6 1", "0 1 0"), "anchor_dense": ("-1 -1 -1", "0 0 1"), "skull_50k": ("0 0 -1", "0 1 0")}
+# Drawn with noise of 0.2 edges, or as a pair: the camera's direction and what is up.
+DRAWN = {"fandisk": ("-0.6 -0.6 1", "0 1 0"), "anchor_dense": ("-1 -1 -1", "0 0 1"), "skull_50k": ("0 0 -1", "0 1 0"),
+         "block0.4_original": ("-1 -1 -1", "0 1 0")}
 LARGEST_COLOURED_ANGLE = 20  # degrees
 PLASTER, RED = numpy.array([0.93, 0.89, 0.83]), numpy.array([0.75, 0.05, 0.05])
 
@@ -111,7 +112,7 @@ def measure(experiment, scan, noise, vertices):
             measured[TWO_STEP] = lambda: at_best(scan, vertices, two_step_families(scan, vertices))
         measured[BILATERAL] = lambda: at_best(scan, vertices, bilateral_families(scan, vertices))
     kept = kept_peers(experiment, scan, noise)
-    if noise == "0.2" and scan.name in DRAWN:
+    if noise in WITH_ALL_PEERS and scan.name in DRAWN:
         kept.pop(TAUBIN, None)  # the picture needs the vertices
     for name, result_of in measured.items():
         row[name] = kept[name] if name in kept else result_of()
@@ -138,7 +139,10 @@ def rows_of_pairs(experiment, folder):
     for original in sorted(folder.glob("*_original.ply")):
         name = original.stem.removesuffix("_original")
         vertices = loaded(folder / f"{name}_noisy.ply")
-        row = measure(experiment, Scan(original), "", vertices.current_mesh().vertex_matrix())
+        scan = Scan(original)
+        row = measure(experiment, scan, "", vertices.current_mesh().vertex_matrix())
+        if scan.name in DRAWN:
+            draw(experiment, scan, row)
         for (rms, angle), smoother in zip(OF_GUIDED.get(name, ()), (GUIDED_DEFAULT, GUIDED)):
             row[smoother] = {"RMS": rms, "angle": angle, "seconds": numpy.nan}
         rows[name, ""] = without_vertices(row)
