@@ -55,6 +55,11 @@ void for_each_edge(const MeshTopology& topology, const Visit& visit) {
     });
 }
 
+/// Returns whether a triangle's vertices differ.
+constexpr bool has_three_vertices(const Triangle& t) {
+    return t[0] != t[1] && t[1] != t[2] && t[2] != t[0];
+}
+
 /// Returns whether bit `i` of a triangle's flags is set.
 constexpr bool has_bit(std::uint64_t flags, int i) {
     return (flags >> static_cast<unsigned>(i) & 1U) != 0;

@@ -93,10 +93,6 @@ RawVector<Triangle> oriented_triangles(const MeshTopology& topology,
     return triangles;
 }
 
-bool has_three_vertices(const Triangle& t) {
-    return t[0] != t[1] && t[1] != t[2] && t[2] != t[0];
-}
-
 /// Returns new numbers, from 0, for the vertices that have a mark, and -1 for the others.
 std::vector<std::int32_t> numbers_of(const std::vector<std::uint8_t>& marked) {
     std::vector<std::int32_t> numbers(marked.size(), -1);

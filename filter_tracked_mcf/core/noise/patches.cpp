@@ -17,10 +17,6 @@ constexpr std::uint8_t kRings = 3;
 /// Per vertex, its distance in edges from the vertices that move, at most kRings + 1.
 using Rings = std::vector<std::uint8_t>;
 
-bool has_three_vertices(const Triangle& t) {
-    return t[0] != t[1] && t[1] != t[2] && t[2] != t[0];
-}
-
 /// Calls visit(a, b, sides) for each side of a triangle: its vertices, and how many triangles have
 /// the edge; 1 on the boundary.
 template <class Visit>

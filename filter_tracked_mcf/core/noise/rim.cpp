@@ -11,11 +11,11 @@ namespace tracked_mcf {
 
 namespace {
 
-using Matrix = Eigen::SparseMatrix<double>;
-using Points = Eigen::Matrix<double, Eigen::Dynamic, 3>;
+using CurveMatrix = Eigen::SparseMatrix<double>;
+using CurvePoints = Eigen::Matrix<double, Eigen::Dynamic, 3>;
 
 /// δ for positions and for tangents, in squared edges.
-constexpr double kStepSize = 2.4, kTangentStepSize = 6;
+constexpr double kRimStepSize = 2.4, kTangentStepSize = 6;
 /// The length s of the metric, relative to that at which the least corner is as wide as an edge.
 constexpr double kTangentLength = 4;
 
@@ -60,13 +60,13 @@ Curves curves_of(const NoisySurface& surface) {
 /// Mass and stiffness of linear elements on the curves.
 struct CurveElements {
     Eigen::VectorXd masses;
-    Matrix stiffness;
+    CurveMatrix stiffness;
 };
 
-CurveElements elements_of(const Curves& curves, const Points& positions, const Points& tangents,
-                          double tangent_length) {
+CurveElements elements_of(const Curves& curves, const CurvePoints& positions,
+                          const CurvePoints& tangents, double tangent_length) {
     const Eigen::Index count = tangents.rows();
-    CurveElements elements{Eigen::VectorXd::Zero(count), Matrix(count, count)};
+    CurveElements elements{Eigen::VectorXd::Zero(count), CurveMatrix(count, count)};
     std::vector<Eigen::Triplet<double>> entries;
     for (const auto& [i, j] : curves.sides) {
         const double turn = tangent_length * (tangents.row(j) - tangents.row(i)).norm();
@@ -88,25 +88,26 @@ CurveElements elements_of(const Curves& curves, const Points& positions, const P
 }
 
 /// Returns the solution of (diagonal + matrix) x = b.
-Points solution(const Eigen::VectorXd& diagonal, Matrix matrix, const Points& b) {
+CurvePoints solution(const Eigen::VectorXd& diagonal, CurveMatrix matrix, const CurvePoints& b) {
     matrix.diagonal() += diagonal;
-    return Eigen::SimplicialLDLT<Matrix>(matrix).solve(b);
+    return Eigen::SimplicialLDLT<CurveMatrix>(matrix).solve(b);
 }
 
 /// Leaves rows without a direction as they are.
-void normalize_rows(Points& points) {
+void normalize_rows(CurvePoints& points) {
     for (Eigen::Index i = 0; i < points.rows(); ++i) points.row(i).normalize();
 }
 
 /// Returns unit tangents of the curves, smoothed as normals are.
-Points smooth_tangents(const Curves& curves, const Points& positions, double tangent_length) {
-    Points mean = Points::Zero(positions.rows(), 3);
+CurvePoints smooth_tangents(const Curves& curves, const CurvePoints& positions,
+                            double tangent_length) {
+    CurvePoints mean = CurvePoints::Zero(positions.rows(), 3);
     for (const auto& [i, j] : curves.sides) {
         mean.row(i) += positions.row(j) - positions.row(i);
         mean.row(j) += positions.row(j) - positions.row(i);
     }
     normalize_rows(mean);
-    Points tangents = mean;
+    CurvePoints tangents = mean;
     for (const double length : {0.0, tangent_length}) {
         const CurveElements elements = elements_of(curves, positions, tangents, length);
         tangents = solution(elements.masses, kTangentStepSize * elements.stiffness,
@@ -122,16 +123,16 @@ void smooth_rim(const NoisySurface& surface, double crease, Positions& positions
     if (surface.stars.on_rim.empty()) return;
     const Curves curves = curves_of(surface);
     const auto count = static_cast<Eigen::Index>(curves.vertices.size());
-    Points x(count, 3);
+    CurvePoints x(count, 3);
     for (Eigen::Index i = 0; i < count; ++i) {
         x.row(i) = positions[curves.vertices[static_cast<std::size_t>(i)]].transpose();
     }
     const double tangent_length = crease > 0 ? kTangentLength / crease : 0;
     const CurveElements elements =
         elements_of(curves, x, smooth_tangents(curves, x, tangent_length), tangent_length);
-    const Eigen::VectorXd inverse = kStepSize * kStepSize * elements.masses.cwiseInverse();
-    Matrix bending = elements.stiffness * inverse.asDiagonal() * elements.stiffness;
-    Points force = -(bending * x);
+    const Eigen::VectorXd inverse = kRimStepSize * kRimStepSize * elements.masses.cwiseInverse();
+    CurveMatrix bending = elements.stiffness * inverse.asDiagonal() * elements.stiffness;
+    CurvePoints force = -(bending * x);
     Eigen::VectorXd fidelities(count);
     for (Eigen::Index i = 0; i < count; ++i) {
         const auto vertex = static_cast<std::size_t>(i);
@@ -144,7 +145,7 @@ void smooth_rim(const NoisySurface& surface, double crease, Positions& positions
         return row == column || (curves.stays[static_cast<std::size_t>(row)] == 0 &&
                                  curves.stays[static_cast<std::size_t>(column)] == 0);
     });
-    const Points d = solution(fidelities, bending, force);
+    const CurvePoints d = solution(fidelities, bending, force);
     for (Eigen::Index i = 0; i < count; ++i) {
         positions[curves.vertices[static_cast<std::size_t>(i)]] += d.row(i).transpose();
     }

@@ -26,12 +26,12 @@ constexpr std::size_t kLeastPlanes = 3;
 constexpr double kNearPlanes = 1;
 
 /// Widths of lumps, in edges.
-constexpr std::array<double, 4> kWidths = {1.4, 2, 2.8, 4};
+constexpr std::array<double, 4> kLumpWidths = {1.4, 2, 2.8, 4};
 /// A sample for these: its patches must be several widths across.
-constexpr std::int32_t kSample = 2000, kPatch = 1000;
+constexpr std::int32_t kLumpSample = 2000, kLumpPatch = 1000;
 /// Noise of a width is found if treatments take this share of it, if what they take is hardly more
 /// correlated than noise of this width is, and if it is as high as this, in edges.
-constexpr double kLeastTaken = 0.5, kMostCorrelated = 1.1, kLeastHeight = 0.02;
+constexpr double kLeastTakenOfLumps = 0.5, kMostCorrelated = 1.1, kLeastHeight = 0.02;
 
 /// Where the planes of triangles are along a direction, per direction.
 using Offsets = std::map<std::array<int, 3>, std::vector<double>>;
@@ -102,13 +102,13 @@ double height_of_stairs(const NoisySurface& surface) {
 
 Unevenness unevenness_of(const NoisySurface& surface, const NoiseWishes& wishes) {
     Unevenness found;
-    const Sample sample = sample_of(surface, kSample, kPatch);
+    const Sample sample = sample_of(surface, kLumpSample, kLumpPatch);
     // All of a large surface takes long.
     if (height_of_stairs(sample.surface) > 0) found.stairs = height_of_stairs(surface);
     if (found.stairs > 0) return found;
-    for (const double width : kWidths) {
+    for (const double width : kLumpWidths) {
         const NoiseOfWidth noise = noise_of_width(sample, wishes, width);
-        if (noise.taken >= kLeastTaken && noise.correlation <= kMostCorrelated &&
+        if (noise.taken >= kLeastTakenOfLumps && noise.correlation <= kMostCorrelated &&
             noise.height >= kLeastHeight) {
             found.width = width;
             found.height = noise.height;
