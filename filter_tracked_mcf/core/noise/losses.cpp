@@ -17,13 +17,36 @@ constexpr double kTooMuch = 0.03;
 /// A part is closed if the sum of its triangles' normals is less than this, relative to its area.
 constexpr double kClosed = 1e-9;
 
+/// The spread of points around their mean.
+struct Spread {
+    double count = 0, squares = 0;
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+
+    void add(const Eigen::Vector3d& point) {
+        ++count;
+        squares += point.squaredNorm();
+        sum += point;
+    }
+    /// Returns the mean squared distance from the mean.
+    double square() const { return squares / count - (sum / count).squaredNorm(); }
+};
+
 /// Sums over the triangles of a part.
 struct Part {
+    Spread before, after;                    ///< of the corners
     double area_before = 0, area_after = 0;  ///< see losses_of()
     double volume_before = 0, volume_after = 0;
     double area = 0;
     Eigen::Vector3d normals = Eigen::Vector3d::Zero();
     bool has_rim = false;
+
+    /// Returns the share of the area that the part has lost. Where it has collapsed, the triangles
+    /// have no direction to be seen along, so its spread is compared, too.
+    double lost_area() const {
+        const double lost = area_before > 0 ? 1 - area_after / area_before : 0;
+        const double narrower = before.square() > 0 ? 1 - after.square() / before.square() : 0;
+        return std::max({0.0, lost, narrower});
+    }
 
     bool is_closed() const { return !has_rim && normals.norm() <= kClosed * area; }
 };
@@ -50,6 +73,8 @@ std::vector<Part> parts_of(const NoisySurface& before, const Positions& after) {
         const Eigen::Vector3d old = twice_vector_area(a, b, c),
                               present = twice_vector_area(p, q, r);
         const double area = present.norm();
+        for (const Eigen::Vector3d& corner : {a, b, c}) part.before.add(corner);
+        for (const Eigen::Vector3d& corner : {p, q, r}) part.after.add(corner);
         part.area += old.norm();
         part.area_before += area > 0 ? old.dot(present) / area : old.norm();
         part.area_after += area;
@@ -69,8 +94,7 @@ Losses losses_of(const NoisySurface& before, const Positions& after) {
     Losses losses;
     for (const Part& part : parts_of(before, after)) {
         if (part.area == 0) continue;
-        const double area =
-            part.area_before > 0 ? std::max(0.0, 1 - part.area_after / part.area_before) : 0;
+        const double area = part.lost_area();
         const bool has_volume = part.is_closed() && part.volume_before != 0;
         const double volume = has_volume ? std::abs(part.volume_after / part.volume_before - 1) : 0;
         losses.area = std::max(losses.area, area);

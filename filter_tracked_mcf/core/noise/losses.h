@@ -17,7 +17,8 @@ struct Losses {
 /// Compares the parts of a surface with what they are at other positions.
 ///
 /// Noise makes an area larger, and its removal is no loss. So the area before is that of the
-/// triangles seen along their normals afterwards. Noise hardly changes a volume.
+/// triangles seen along their normals afterwards. Noise hardly changes a volume, or how far a part
+/// spreads.
 Losses losses_of(const NoisySurface& before, const Positions& after);
 
 }  // namespace tracked_mcf

@@ -149,7 +149,7 @@ Positions treated(const NoisySurface& surface, double edge, const NoiseParameter
                                 parameters.detail_size / edge};
     Positions positions = denoised(surface, wishes, edge, parameters, report);
     if (parameters.boundary == NoiseBoundary::Smooth) {
-        smooth_rim(surface, wishes.crease, positions);
+        smooth_rim(surface, wishes.crease, confinement(surface.positions), positions);
     }
     return positions;
 }

@@ -19,6 +19,10 @@ constexpr double kRimStepSize = 2.4, kTangentStepSize = 6;
 /// The length s of the metric, relative to that at which the least corner is as wide as an edge.
 constexpr double kTangentLength = 4;
 
+/// A step that would take a vertex out of the box is made with a quarter of its size, at most so
+/// many times.
+constexpr int kMostSmallerSteps = 8;
+
 /// Sides count as at least so long, in edges.
 constexpr double kShortest = 0.1;
 
@@ -117,24 +121,14 @@ CurvePoints smooth_tangents(const Curves& curves, const CurvePoints& positions,
     return tangents;
 }
 
-}  // namespace
-
-void smooth_rim(const NoisySurface& surface, double crease, Positions& positions) {
-    if (surface.stars.on_rim.empty()) return;
-    const Curves curves = curves_of(surface);
-    const auto count = static_cast<Eigen::Index>(curves.vertices.size());
-    CurvePoints x(count, 3);
-    for (Eigen::Index i = 0; i < count; ++i) {
-        x.row(i) = positions[curves.vertices[static_cast<std::size_t>(i)]].transpose();
-    }
-    const double tangent_length = crease > 0 ? kTangentLength / crease : 0;
-    const CurveElements elements =
-        elements_of(curves, x, smooth_tangents(curves, x, tangent_length), tangent_length);
-    const Eigen::VectorXd inverse = kRimStepSize * kRimStepSize * elements.masses.cwiseInverse();
+/// Returns the displacements of a step, δ.
+CurvePoints displacements(const Curves& curves, const CurveElements& elements, double step_size,
+                          const CurvePoints& x) {
+    const Eigen::VectorXd inverse = step_size * step_size * elements.masses.cwiseInverse();
     CurveMatrix bending = elements.stiffness * inverse.asDiagonal() * elements.stiffness;
     CurvePoints force = -(bending * x);
-    Eigen::VectorXd fidelities(count);
-    for (Eigen::Index i = 0; i < count; ++i) {
+    Eigen::VectorXd fidelities(x.rows());
+    for (Eigen::Index i = 0; i < x.rows(); ++i) {
         const auto vertex = static_cast<std::size_t>(i);
         fidelities[i] = elements.masses[i] * curves.fidelity[vertex];
         if (curves.stays[vertex] == 0) continue;
@@ -145,9 +139,35 @@ void smooth_rim(const NoisySurface& surface, double crease, Positions& positions
         return row == column || (curves.stays[static_cast<std::size_t>(row)] == 0 &&
                                  curves.stays[static_cast<std::size_t>(column)] == 0);
     });
-    const CurvePoints d = solution(fidelities, bending, force);
+    return solution(fidelities, bending, force);
+}
+
+}  // namespace
+
+void smooth_rim(const NoisySurface& surface, double crease, const Eigen::AlignedBox3d& box,
+                Positions& positions) {
+    if (surface.stars.on_rim.empty()) return;
+    const Curves curves = curves_of(surface);
+    const auto count = static_cast<Eigen::Index>(curves.vertices.size());
+    CurvePoints x(count, 3);
     for (Eigen::Index i = 0; i < count; ++i) {
-        positions[curves.vertices[static_cast<std::size_t>(i)]] += d.row(i).transpose();
+        x.row(i) = positions[curves.vertices[static_cast<std::size_t>(i)]].transpose();
+    }
+    const double tangent_length = crease > 0 ? kTangentLength / crease : 0;
+    const CurveElements elements =
+        elements_of(curves, x, smooth_tangents(curves, x, tangent_length), tangent_length);
+    double step_size = kRimStepSize;
+    for (int tries = 0; tries <= kMostSmallerSteps; ++tries, step_size /= 4) {
+        const CurvePoints moved = x + displacements(curves, elements, step_size, x);
+        Eigen::Index outside = 0;
+        for (Eigen::Index i = 0; i < count; ++i) {
+            if (!box.contains(Eigen::Vector3d(moved.row(i)))) ++outside;
+        }
+        if (outside > 0) continue;
+        for (Eigen::Index i = 0; i < count; ++i) {
+            positions[curves.vertices[static_cast<std::size_t>(i)]] = moved.row(i).transpose();
+        }
+        return;
     }
 }
 

@@ -12,7 +12,8 @@ namespace tracked_mcf {
 /// the curve, and F are the fidelities: waves of ten edges lose half of their height. The metric is
 /// that of (X, s T) with smooth tangents T, so corners that turn by `crease` or more are long.
 /// `crease` is a difference of unit tangents; 0 keeps no corners. Vertices without a fidelity stay,
-/// and those where curves meet.
-void smooth_rim(const NoisySurface& surface, double crease, Positions& positions);
+/// and those where curves meet. Where a vertex would leave `box`, the step is smaller.
+void smooth_rim(const NoisySurface& surface, double crease, const Eigen::AlignedBox3d& box,
+                Positions& positions);
 
 }  // namespace tracked_mcf
