@@ -156,18 +156,21 @@ void smooth_rim(const NoisySurface& surface, double crease, const Eigen::Aligned
     const double tangent_length = crease > 0 ? kTangentLength / crease : 0;
     const CurveElements elements =
         elements_of(curves, x, smooth_tangents(curves, x, tangent_length), tangent_length);
+    const auto leaves_box = [&](const CurvePoints& moved) {
+        for (Eigen::Index i = 0; i < count; ++i) {
+            if (!box.contains(Eigen::Vector3d(moved.row(i)))) return true;
+        }
+        return false;
+    };
     double step_size = kRimStepSize;
-    for (int tries = 0; tries <= kMostSmallerSteps; ++tries, step_size /= 4) {
-        const CurvePoints moved = x + displacements(curves, elements, step_size, x);
-        Eigen::Index outside = 0;
-        for (Eigen::Index i = 0; i < count; ++i) {
-            if (!box.contains(Eigen::Vector3d(moved.row(i)))) ++outside;
-        }
-        if (outside > 0) continue;
-        for (Eigen::Index i = 0; i < count; ++i) {
-            positions[curves.vertices[static_cast<std::size_t>(i)]] = moved.row(i).transpose();
-        }
-        return;
+    CurvePoints moved = x + displacements(curves, elements, step_size, x);
+    for (int tries = 0; tries < kMostSmallerSteps && leaves_box(moved); ++tries) {
+        step_size /= 4;
+        moved = x + displacements(curves, elements, step_size, x);
+    }
+    if (leaves_box(moved)) return;
+    for (Eigen::Index i = 0; i < count; ++i) {
+        positions[curves.vertices[static_cast<std::size_t>(i)]] = moved.row(i).transpose();
     }
 }
 

@@ -98,6 +98,19 @@ TEST(Cracks, AreNotWhereSheetsLieOnEachOther) {
     EXPECT_EQ(topology_of(fans).cracks.joined_vertices, 0);
 }
 
+TEST(Cracks, AreNotNarrowTriangles) {
+    TriangleMesh strip;
+    for (int i = 0; i <= 10; ++i) {
+        strip.positions.emplace_back(i, 0, 0);
+        strip.positions.emplace_back(i, 1e-8, 0);
+        if (i == 10) continue;
+        strip.triangles.push_back({2 * i, 2 * i + 2, 2 * i + 3});
+        strip.triangles.push_back({2 * i, 2 * i + 3, 2 * i + 1});
+    }
+    EXPECT_EQ(topology_of(strip).cracks.joined_vertices, 0);
+    EXPECT_EQ(topology_of(strip).cracks.open_pairs, 0);
+}
+
 TEST(Cracks, DoNotDependOnTheOrderOfVertices) {
     TriangleMesh mesh = cut_torus(1e-9);
     std::reverse(mesh.positions.begin(), mesh.positions.end());

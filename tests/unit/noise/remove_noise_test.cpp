@@ -377,10 +377,11 @@ TEST(RemoveNoise, IsDefinedForBadMeshes) {
                                      shapes::moebius_band(30, 4), shapes::separate_triangles(200),
                                      with_noise(shapes::stack(shapes::square(10), 3, 1e-9), 1)}) {
         for (const double crease_angle : {0.0, 25.0}) {
-            for (const bool locked : {false, true}) {
+            for (const NoiseBoundary boundary :
+                 {NoiseBoundary::Locked, NoiseBoundary::Free, NoiseBoundary::Smooth}) {
                 NoiseParameters parameters;
                 parameters.crease_angle = crease_angle;
-                parameters.boundary = locked ? NoiseBoundary::Locked : NoiseBoundary::Free;
+                parameters.boundary = boundary;
                 TriangleMesh after = mesh;
                 const NoiseReport report = remove_noise(after, {}, parameters);
                 EXPECT_TRUE(is_finite(after));

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "filter_tracked_mcf/core/mesh/mesh_topology.h"
+#include "filter_tracked_mcf/core/noise/rim.h"
 #include "filter_tracked_mcf/core/noise/unevenness.h"
 #include "tests/support/shapes.h"
 #include "tests/support/surface_distance.h"
@@ -222,6 +223,19 @@ TEST(RemoveNoise, KeepsTheCornersOfASmoothRim) {
         EXPECT_LT((after.positions[i] - corner).norm(), 0.1 * edge);
     }
     EXPECT_NEAR(surface_area(after), 1, 1e-3);
+}
+
+TEST(SmoothRim, KeepsToItsBox) {
+    const RaggedCap cap = ragged_cap();
+    const NoisySurface surface = surface_of(Domain(cap.mesh, BoundaryCondition::Free)).surface;
+    Eigen::AlignedBox3d box;
+    for (const Eigen::Vector3d& p : surface.positions) box.extend(p);
+    Positions moved = surface.positions;
+    smooth_rim(surface, 0.4, confinement(surface.positions), moved);
+    EXPECT_NE(moved, surface.positions);
+    Positions confined = surface.positions;
+    smooth_rim(surface, 0.4, box, confined);
+    for (const Eigen::Vector3d& p : confined) EXPECT_TRUE(box.contains(p));
 }
 
 TEST(RemoveNoise, LeavesWhatHasNoNoise) {
