@@ -42,7 +42,7 @@ packages_of() {
         windows) echo "$(packages_of program)" g++-mingw-w64-x86-64-posix googletest python3 wine wine64 ;;
         arm64) echo "$(packages_of program)" g++-aarch64-linux-gnu googletest python3 qemu-user ;;
         checks) echo g++-11 libc++-dev libc++abi-dev clang clang-format clang-tidy-22 libclang-rt-dev llvm git \
-            valgrind ;;
+            valgrind libcgal-dev ;;
         *) echo "install_debian.sh: unknown task '$1'" >&2 && return 1 ;;
     esac
 }

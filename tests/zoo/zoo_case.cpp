@@ -181,6 +181,8 @@ Case case_of(std::uint64_t seed, std::int64_t number) {
         box_of_selected(made.mesh, made.inputs.selection).sizes().maxCoeff(), random);
     limit_work(made, kMostFragments);
     if (random.chance(0.1)) made.inputs.strength = random_strength(made.mesh, random);
+    // Vertices on both sides of a crack take the strength of the first of them.
+    if (made.kind == "cracked") made.inputs.strength.clear();
     return made;
 }
 

@@ -3,7 +3,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
 
 #include "filter_tracked_mcf/core/mesh/measures.h"
 
@@ -99,14 +98,14 @@ void sharpen(const NoisySurface& surface, const Sharpening& sharpening, double s
         average_alike(surface.stars, inverse_square, normals, averages);
         normals.swap(averages);
     }
+    const Vectors planes = means_over_stars(surface.stars, normals);
     for (int i = 0; i < kFits; ++i) {
         Positions fitted = fitted_to(normals, surface, positions);
+        limit_sideways(surface, planes, sideways, fitted);
         const auto leaves = [&](std::int64_t vertex) { return !box.contains(fitted[vertex]); };
         if (parallel_count(surface.stars.count(), leaves) > 0) break;
         positions.swap(fitted);
     }
-    if (std::isinf(sideways)) return;
-    limit_sideways(surface, means_over_stars(surface.stars, normals), sideways, positions);
 }
 
 }  // namespace tracked_mcf

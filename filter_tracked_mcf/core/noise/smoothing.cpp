@@ -91,16 +91,14 @@ bool Smoothing::step(const StepSettings& settings, const Eigen::AlignedBox3d& bo
     elements_.assemble(smooth_normals(positions, settings), settings.normal_length, &positions);
     const Vectors& planes = normals_of_planes();
     iterations_ += elements_.displace(settings.step_size, positions, planes, vectors_);
-    const auto moved = [&](std::int32_t vertex) -> Eigen::Vector3d {
-        return positions[vertex] + vectors_[vertex].head<3>().cast<double>();
-    };
-    const auto leaves = [&](std::int64_t i) {
-        return !box.contains(moved(static_cast<std::int32_t>(i)));
-    };
+    Positions moved(positions.size());
+    parallel_for_rows(surface_.stars.count(), [&](std::int32_t vertex) {
+        moved[vertex] = positions[vertex] + vectors_[vertex].head<3>().cast<double>();
+    });
+    limit_sideways(surface_, planes, settings.sideways, moved);
+    const auto leaves = [&](std::int64_t vertex) { return !box.contains(moved[vertex]); };
     if (parallel_count(surface_.stars.count(), leaves) > 0) return false;
-    parallel_for_rows(surface_.stars.count(),
-                      [&](std::int32_t vertex) { positions[vertex] = moved(vertex); });
-    limit_sideways(surface_, planes, settings.sideways, positions);
+    positions.swap(moved);
     return true;
 }
 
