@@ -24,24 +24,24 @@ constexpr std::int32_t kNone = -1;
 
 /// The vertices on the boundary, with numbers of their own.
 struct Rims {
+    std::vector<std::int32_t> numbers;                  ///< per vertex of the mesh, or kNone
     std::vector<std::int32_t> vertices;                 ///< of the mesh
     std::vector<std::vector<std::int32_t>> neighbours;  ///< along the boundary, per number
-    std::vector<double> shortest;                       ///< edge of the boundary, per number
+    std::vector<double> shortest;                       ///< edge of each, on the boundary or not
     double median = 0;                                  ///< edge of the boundary
 };
 
 Rims rims_of(const TriangleMesh& mesh, const MeshTopology& topology) {
     Rims rims;
-    std::unordered_map<std::int32_t, std::int32_t> numbers;
+    rims.numbers.assign(mesh.positions.size(), kNone);
     const auto number_of = [&](std::int32_t vertex) {
-        const auto [place, is_new] =
-            numbers.emplace(vertex, static_cast<std::int32_t>(rims.vertices.size()));
-        if (is_new) {
+        std::int32_t& number = rims.numbers[vertex];
+        if (number == kNone) {
+            number = static_cast<std::int32_t>(rims.vertices.size());
             rims.vertices.push_back(vertex);
             rims.neighbours.emplace_back();
-            rims.shortest.push_back(std::numeric_limits<double>::infinity());
         }
-        return place->second;
+        return number;
     };
     std::vector<double> lengths;
     for (std::size_t t = 0; t < topology.triangles.size(); ++t) {
@@ -49,16 +49,24 @@ Rims rims_of(const TriangleMesh& mesh, const MeshTopology& topology) {
             if (!has_bit(topology.boundary[t], side)) continue;
             const std::int32_t a = topology.triangles[t][side];
             const std::int32_t b = topology.triangles[t][(side + 1) % 3];
-            const double length = (mesh.positions[a] - mesh.positions[b]).norm();
             const std::int32_t i = number_of(a), j = number_of(b);
             rims.neighbours[i].push_back(j);
             rims.neighbours[j].push_back(i);
-            rims.shortest[i] = std::min(rims.shortest[i], length);
-            rims.shortest[j] = std::min(rims.shortest[j], length);
-            lengths.push_back(length);
+            lengths.push_back((mesh.positions[a] - mesh.positions[b]).norm());
         }
     }
     if (lengths.empty()) return rims;
+    rims.shortest.assign(rims.vertices.size(), std::numeric_limits<double>::infinity());
+    for (const Triangle& t : topology.triangles) {
+        for (int side = 0; side < 3; ++side) {
+            const std::int32_t a = t[side], b = t[(side + 1) % 3];
+            for (const std::int32_t number : {rims.numbers[a], rims.numbers[b]}) {
+                if (number == kNone || a == b) continue;
+                const double length = (mesh.positions[a] - mesh.positions[b]).norm();
+                rims.shortest[number] = std::min(rims.shortest[number], length);
+            }
+        }
+    }
     const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
     std::nth_element(lengths.begin(), middle, lengths.end());
     rims.median = *middle;
@@ -126,18 +134,12 @@ private:
 /// Leaves out pairs that a triangle joins: such a triangle is narrow, and no crack.
 void leave_out_joined(const MeshTopology& topology, const Rims& rims,
                       std::vector<std::int32_t>& pairs) {
-    std::unordered_map<std::int32_t, std::int32_t> numbers;
-    for (std::size_t i = 0; i < pairs.size(); ++i) {
-        if (pairs[i] != kNone) numbers.emplace(rims.vertices[i], static_cast<std::int32_t>(i));
-    }
-    if (numbers.empty()) return;
     for (const Triangle& t : topology.triangles) {
         for (int side = 0; side < 3; ++side) {
-            const auto a = numbers.find(t[side]);
-            if (a == numbers.end() || pairs[a->second] == kNone) continue;
-            const std::int32_t other = pairs[a->second];
-            if (rims.vertices[other] != t[(side + 1) % 3]) continue;
-            pairs[a->second] = pairs[other] = kNone;
+            const std::int32_t number = rims.numbers[t[side]];
+            if (number == kNone || pairs[number] == kNone) continue;
+            const std::int32_t other = pairs[number];
+            if (rims.vertices[other] == t[(side + 1) % 3]) pairs[number] = pairs[other] = kNone;
         }
     }
 }

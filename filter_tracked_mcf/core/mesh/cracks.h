@@ -11,9 +11,8 @@ namespace tracked_mcf {
 /// A pair consists of two vertices on the boundary that are nearer to each other than to any other
 /// one, where the next ones along their rims are a pair, too, or the same vertex. No triangle has
 /// both. A pair is joined if its distance is at most 1e-6 of the diagonal and 1e-4 of the shortest
-/// boundary edge at either vertex, so a slit of a thousandth of an edge stays open. Up to 1e-2 of
-/// that edge, and of the median one, it counts as an open pair. Neither depends on the order of the
-/// vertices.
+/// edge at either vertex, so a slit of a thousandth of an edge stays open. Up to 1e-2 of that edge,
+/// it counts as an open pair. Neither depends on the order of the vertices.
 CrackReport close_cracks(const TriangleMesh& mesh, MeshTopology& topology);
 
 }  // namespace tracked_mcf

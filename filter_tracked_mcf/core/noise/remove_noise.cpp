@@ -96,9 +96,8 @@ void apply(const Treatment& treatment, const NoisySurface& surface, const NoiseW
     for (int step = 0; step < treatment.steps; ++step) {
         enter_phase(0.45 + 0.45 * step / treatment.steps,
                     "Step " + std::to_string(step + 1) + " of " + std::to_string(treatment.steps));
-        for (int tries = 0; tries <= kMostShorter; ++tries) {
+        for (int tries = 0; tries <= kMostShorter; ++tries, settings.step_size /= 4) {
             if (smoothing.step(settings, box, positions)) break;
-            settings.step_size /= 4;
         }
     }
     if (wishes.crease > 0) {

@@ -86,8 +86,8 @@ double height_of_stairs(const NoisySurface& surface) {
     double nearest = 2 * kNearPlanes, farthest = 0;
     for (const std::vector<double>& offsets : directions) {
         covered += offsets.size();
-        if (static_cast<double>(offsets.size()) < kLeastShare * static_cast<double>(count))
-            continue;
+        const double share = static_cast<double>(offsets.size()) / static_cast<double>(count);
+        if (share < kLeastShare) continue;
         const Planes planes = planes_of(offsets);
         most_planes = std::max(most_planes, planes.count);
         if (planes.distance == 0) continue;
