@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::size_t kNameColumns = 26, kTextColumns = 70;
 
-const std::string kLength = " X, in units of the mesh, or X% of its bounding box's diagonal. ";
+const std::string kLength = "X in units of the mesh, or X% of its bounding box's diagonal. ";
 
 const std::string kFaceProperty =
     "Only selected faces move. PROPERTY is the name of a number that the faces of a PLY file have, "
@@ -170,7 +170,7 @@ void add_parameter(CLI::App& app, CommandLineOf<Parameters>& line,
                    [&line, &parameter, option](const std::string& text) {
                        line.lengths[parameter.name] = length_of(option, text);
                    },
-                   help_of(parameter.label + kLength + parameter.help))
+                   help_of(kLength + parameter.help))
                 ->type_name("X|X%")
                 ->default_str(first);
             break;

@@ -279,6 +279,8 @@ TEST(CommandLine, HelpNamesEveryOptionAndExplainsTheSharedParameters) {
     for (const auto& parameter : parameter_table<FlowParameters>()) {
         EXPECT_THAT(unwrapped(help), HasSubstr(parameter.help)) << parameter.name;
     }
+    // The labels of fields, such as "Detail size (0: auto)", are for dialogs.
+    EXPECT_THAT(unwrapped(help), Not(HasSubstr("(0: ")));
 }
 
 TEST(CommandLine, HelpFitsIntoAHundredColumns) {

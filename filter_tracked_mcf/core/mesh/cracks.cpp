@@ -15,7 +15,7 @@ namespace tracked_mcf {
 namespace {
 
 /// The largest distance of a pair that is joined, relative to the diagonal and to the shortest edge
-/// of the boundary; and of a pair that is found, relative to that edge.
+/// at either vertex; and of a pair that is found, relative to that edge.
 constexpr double kJoinedOfDiagonal = 1e-6, kJoinedOfEdge = 1e-4, kFoundOfEdge = 1e-2;
 /// So many vertices are compared with one, at most: more in so small a place are no crack.
 constexpr int kMostCompared = 64;
