@@ -33,8 +33,11 @@ struct NoiseReport {
 
     NoiseStop stop = NoiseStop::None;
     double noise = 0;         ///< standard deviation along the normals, mesh units
+    std::int64_t outliers = 0;  ///< vertices with so much more noise that they hardly counted
     double crease_share = 0;  ///< share of the area in triangles that a crease crosses
-    double detail_size = 0;   ///< see NoiseParameters::detail_size; 0 if there was nothing to do
+    /// Of the treatment that suits the whole surface best; places may have chosen others. See
+    /// NoiseParameters::detail_size; 0 if there was nothing to do.
+    double detail_size = 0;
     int steps = 0;
     int sharpenings = 0;  ///< iterations of the bilateral filter after the steps; 0 if it was worse
     int iterations = 0;   ///< of conjugate gradients, all steps
@@ -64,7 +67,8 @@ struct NoiseReport {
 };
 
 /// Removes noise from `mesh`, or only from its selected triangles, and keeps creases. Noise is what
-/// single vertices do independently of their neighbours.
+/// single vertices do independently of their neighbours. It may be larger in some places than in
+/// others, and single vertices may have much more of it.
 ///
 /// Each vertex smooths as much as Inputs::strength says. Positions are written at the very
 /// end, after the last call of `progress` has returned true. Vertices that do not move keep their

@@ -1,30 +1,32 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <vector>
+
+#include "filter_tracked_mcf/core/noise/fidelities.h"
 #include "filter_tracked_mcf/core/noise/noisy_surface.h"
-#include "filter_tracked_mcf/core/noise/sharpening.h"
-#include "filter_tracked_mcf/core/noise/smoothing.h"
+#include "filter_tracked_mcf/core/noise/treatment.h"
 
 namespace tracked_mcf {
 
 /// What the user asks for. Lengths are in edges.
 struct NoiseWishes {
-    double crease = 0;       ///< difference of unit normals across the least crease; 0: no creases
-    double noise = 0;        ///< standard deviation; 0: unknown
-    double detail_size = 0;  ///< see NoiseParameters::detail_size; 0: what the noise needs
+    double crease = 0;        ///< difference of unit normals across the least crease; 0: no creases
+    double noise = 0;         ///< standard deviation; 0: unknown
+    double detail_size = 0;   ///< see NoiseParameters::detail_size; 0: what the noise needs
+    bool is_certain = false;  ///< whether noise is removed even if it may be detail
+    bool is_quick = false;    ///< whether Choice::others are few and share the treatment's steps
 };
 
-/// How noise is removed from a surface. Lengths are in edges.
-struct Treatment {
-    StepSettings settings;  ///< of every step
-    int steps = 0;          ///< 0: there is hardly any noise
-    Sharpening sharpening;
-    double noise = 0;  ///< the standard deviation that the sample shows
+/// How to remove the noise of a surface, as a sample shows.
+struct Choice {
+    Treatment treatment;  ///< without steps if there is hardly any noise
+    double noise = 0;     ///< its standard deviation, in edges
+    NoiseKind kind = NoiseKind::Even;
+    /// Treatments that suit some places better, the most useful ones first. None if the noise is
+    /// not even, or if one of the wishes sets how much is removed.
+    std::vector<Treatment> others;
 };
-
-/// Returns the length of the waves whose amplitude the steps of a treatment halve;
-/// 0 without steps.
-double detail_size_of(const Treatment& treatment);
 
 /// Returns the treatment that suits a sample best.
 ///
@@ -37,7 +39,10 @@ double detail_size_of(const Treatment& treatment);
 ///
 /// Without wishes, a treatment that takes little of what seems to be noise is none: then it is
 /// detail.
-Treatment best_treatment(const Sample& sample, const NoiseWishes& wishes);
+///
+/// Where the sample's vertices have fidelities, heights count by their roots, so that the noise is
+/// the same everywhere.
+Choice best_treatment(const Sample& sample, const NoiseWishes& wishes);
 
 /// What a sample shows of noise of some width. Lengths are in edges.
 struct NoiseOfWidth {

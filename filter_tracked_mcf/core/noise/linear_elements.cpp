@@ -10,9 +10,7 @@ namespace tracked_mcf {
 
 namespace {
 
-/// Conjugate gradients stop at these residuals: of normals, relative to the right-hand side, since
-/// the metric averages them over triangles; of displacements, relative to the first one.
-constexpr double kToleranceOfNormals = 2e-2;
+/// Conjugate gradients for displacements stop at this residual, relative to the first one.
 constexpr double kToleranceOfPositions = 1e-3;
 constexpr int kMostIterations = 500;
 
@@ -160,7 +158,7 @@ int LinearElements::solve(const Product& multiply, double limit, Vectors& x) {
     return iterations;
 }
 
-int LinearElements::smooth(double step_size, const Vectors& b, Vectors& x) {
+int LinearElements::smooth(double step_size, const Vectors& b, double tolerance, Vectors& x) {
     const std::int32_t count = surface_.stars.count();
     const auto delta = static_cast<float>(step_size);
     inverse_.resize(masses_.size());
@@ -169,7 +167,7 @@ int LinearElements::smooth(double step_size, const Vectors& b, Vectors& x) {
         inverse_[row] = 1 / (masses_[row] + delta * diagonal_[row]);
         residual_[row] = masses_[row] * b[row];
     });
-    const double limit = kToleranceOfNormals * kToleranceOfNormals * residual_square();
+    const double limit = tolerance * tolerance * residual_square();
     parallel_for_rows(count, [&](std::int32_t row) {
         residual_[row] -= masses_[row] * x[row] + delta * stiffness(x, row);
     });
@@ -182,7 +180,7 @@ int LinearElements::smooth(double step_size, const Vectors& b, Vectors& x) {
 }
 
 int LinearElements::displace(double step_size, const Positions& positions, const Vectors& normals,
-                             Vectors& d) {
+                             const std::vector<float>& heights, Vectors& d) {
     const Stars& stars = surface_.stars;
     const std::int32_t count = stars.count();
     const std::vector<float>& fidelity = surface_.fidelity;
@@ -194,13 +192,17 @@ int LinearElements::displace(double step_size, const Positions& positions, const
     parallel_for_rows(count, [&](std::int32_t row) {
         Eigen::Vector3d sum = Eigen::Vector3d::Zero();
         float diagonal = diagonal_[row] * diagonal_[row] / masses_[row];
+        float sum_of_heights = 0;
         for (std::uint32_t i = stars.neighbour_begin[row]; i < stars.neighbour_begin[row + 1];
              ++i) {
             const std::int32_t neighbour = stars.neighbours[i];
             sum += double{values_[i]} * (positions[row] - positions[neighbour]);
             diagonal += values_[i] * values_[i] / masses_[neighbour];
+            if (heights.empty()) continue;
+            sum_of_heights += values_[i] * (heights[row] - heights[neighbour]);
         }
-        inner_[row] << (step_size / masses_[row] * sum).cast<float>(), 0;
+        inner_[row] << (step_size / masses_[row] * sum).cast<float>(),
+            delta / masses_[row] * sum_of_heights;
         if (!flux_.empty()) {
             const Eigen::Vector4f along = flux_[row].dot(normals[row]) * normals[row];
             inner_[row] -= delta / masses_[row] * (flux_[row] - along);

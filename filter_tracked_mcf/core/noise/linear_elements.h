@@ -28,15 +28,17 @@ public:
     void assemble(const Vectors& normals, double normal_length,
                   const Positions* positions = nullptr);
 
-    /// Solves (M + δ L) x = M b, from the given x, to the accuracy that normals need. Returns the
-    /// number of iterations.
-    int smooth(double step_size, const Vectors& b, Vectors& x);
+    /// Solves (M + δ L) x = M b, from the given x, until the residual is `tolerance` times as large
+    /// as M b. Returns the number of iterations.
+    int smooth(double step_size, const Vectors& b, double tolerance, Vectors& x);
 
     /// Finds the displacements d that solve (F M + δ² L M⁻¹ L) d = -δ² L M⁻¹ (L X - f), where F are
     /// the fidelities, f is the flux at right angles to `normals`, and vertices without a fidelity
     /// stay: a wave with the eigenvalue k keeps 1 / (1 + (δ k)²) where F is 1. The elements must
     /// have the metric of `positions`. Returns the number of iterations.
-    int displace(double step_size, const Positions& positions, const Vectors& normals, Vectors& d);
+    /// The fourth component of d is what becomes of `heights` in the same way, if there are any.
+    int displace(double step_size, const Positions& positions, const Vectors& normals,
+                 const std::vector<float>& heights, Vectors& d);
 
 private:
     Eigen::Vector4f stiffness(const Vectors& x, std::int32_t vertex) const;

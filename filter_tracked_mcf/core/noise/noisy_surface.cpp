@@ -230,6 +230,8 @@ float sign_of(std::size_t number) {
     return (bits >> 63U) != 0 ? 1.0F : -1.0F;
 }
 
+}  // namespace
+
 std::vector<float> random_signs(const Positions& positions) {
     std::vector<Ranked> vertices = ranked(positions);
     std::sort(vertices.begin(), vertices.end());
@@ -240,9 +242,8 @@ std::vector<float> random_signs(const Positions& positions) {
     return signs;
 }
 
-}  // namespace
-
-Sample sample_of(const NoisySurface& surface, std::int32_t vertex_count, std::int32_t patch) {
+Sample sample_of(const NoisySurface& surface, std::int32_t vertex_count,
+                 const std::vector<float>& fidelities, std::int32_t patch) {
     const Stars& stars = surface.stars;
     const std::int32_t all = stars.count();
     std::vector<std::uint8_t> marked(static_cast<std::size_t>(all), 1);
@@ -270,7 +271,8 @@ Sample sample_of(const NoisySurface& surface, std::int32_t vertex_count, std::in
     for (std::int32_t i = 0; i < all; ++i) {
         if (used[i] == 0) continue;
         sample.surface.positions.push_back(surface.positions[i]);
-        sample.surface.fidelity.push_back(surface.is_fixed(i) ? 0.0F : 1.0F);
+        const float fidelity = fidelities.empty() ? 1 : fidelities[i];
+        sample.surface.fidelity.push_back(surface.is_fixed(i) ? 0 : fidelity);
         star_sizes.push_back(stars.corner_begin[i + 1] - stars.corner_begin[i]);
     }
     const auto count = static_cast<std::int32_t>(star_sizes.size());

@@ -51,11 +51,15 @@ struct Sample {
     std::vector<float> signs;  ///< per vertex: 1 or -1, at random
 };
 
+/// Returns a sign for each vertex, 1 or -1, at random, which does not depend on their order.
+std::vector<float> random_signs(const Positions& positions);
+
 /// Returns patches of `patch` vertices that are spread over the surface and have about so many
 /// vertices together; all of a surface that is not much larger. Neither the patches nor the signs
 /// depend on the order of the vertices. Nor do they depend on the surface's place in space, but for
 /// rounding. An exception are vertices at the same distance from the middle: their coordinates
 /// decide.
-Sample sample_of(const NoisySurface& surface, std::int32_t vertex_count, std::int32_t patch = 500);
+Sample sample_of(const NoisySurface& surface, std::int32_t vertex_count,
+                 const std::vector<float>& fidelities = {}, std::int32_t patch = 500);
 
 }  // namespace tracked_mcf

@@ -11,36 +11,17 @@
 
 #include "filter_tracked_mcf/core/memory/process_memory.h"
 #include "filter_tracked_mcf/core/mesh/measures.h"
-#include "filter_tracked_mcf/core/noise/cross_validation.h"
+#include "filter_tracked_mcf/core/noise/denoising.h"
 #include "filter_tracked_mcf/core/noise/losses.h"
 #include "filter_tracked_mcf/core/noise/rim.h"
-#include "filter_tracked_mcf/core/noise/sharpening.h"
-#include "filter_tracked_mcf/core/noise/unevenness.h"
 #include "filter_tracked_mcf/core/parallel/stopwatch.h"
 
 namespace tracked_mcf {
 
 namespace {
 
-/// Vertices of the sample on which treatments are tried.
-constexpr std::int32_t kSample = 4000;
-
 /// Bytes for each vertex and each triangle, beside the mesh.
-constexpr double kBytesPerVertex = 260, kBytesPerTriangle = 90;
-
-/// Fewer vertices than this show no noise. Nor do those of which creases take more than this share
-/// of the area; they take at most 0.42 on the meshes of tests/experiments.
-constexpr std::int64_t kLeastVertices = 100;
-constexpr double kMostCreases = 0.5;
-
-/// How far vertices may move sideways, relative to the noise. Most noise that is the same in all
-/// directions needs no more.
-constexpr double kSideways = 2;
-
-/// A step that would take a vertex away is made with a quarter of its size, at most so many times.
-constexpr int kMostShorter = 8;
-
-const double kRadian = std::acos(-1.0) / 180;
+constexpr double kBytesPerVertex = 450, kBytesPerTriangle = 90;
 
 void check_memory(const TriangleMesh& mesh) {
     check_free_memory(kBytesPerVertex * static_cast<double>(mesh.positions.size()) +
@@ -48,107 +29,15 @@ void check_memory(const TriangleMesh& mesh) {
                       "Removing noise", "Simplify the mesh, or take a part of it.");
 }
 
-/// Returns the length of the difference of two unit normals across a crease of this angle.
-double crease_of(double angle) {
-    return 2 * std::sin(angle * kRadian / 2);
-}
-
-/// Returns the share of the area in triangles whose vertices' normals differ by a crease.
-double crease_share(const Stars& stars, const Positions& positions, const Vectors& normals,
-                    double crease) {
-    const auto least = static_cast<float>(crease * crease);
-    double all = 0, sharp = 0;
-    for (const Triangle& t : stars.triangles) {
-        const Eigen::Vector4f &a = normals[t[0]], &b = normals[t[1]], &c = normals[t[2]];
-        const auto [p, q, r] = corners_of(positions, t);
-        const double area = twice_vector_area(p, q, r).norm();
-        const float turn =
-            std::max({(a - b).squaredNorm(), (b - c).squaredNorm(), (c - a).squaredNorm()});
-        all += area;
-        if (turn >= least) sharp += area;
-    }
-    return all > 0 ? sharp / all : 0;
-}
-
-/// Returns why noise cannot be measured on a sample, or None.
-NoiseStop obstacle(const Sample& sample) {
-    const auto count = std::count(sample.counts.begin(), sample.counts.end(), 1);
-    return count < kLeastVertices ? NoiseStop::TooFewVertices : NoiseStop::None;
-}
-
-/// Looks for what may be noise though there is none from vertex to vertex.
-void report_unevenness(const NoisySurface& surface, const NoiseWishes& wishes, double edge,
-                       NoiseReport& report) {
-    enter_phase(0.5, "Looking for stairs and lumps");
-    const Unevenness found = unevenness_of(surface, wishes);
-    report.stairs = edge * found.stairs;
-    report.lump_width = edge * found.width;
-    report.lump_height = edge * found.height;
-}
-
-/// Makes the steps of a treatment, sharpens, and reports both.
-void apply(const Treatment& treatment, const NoisySurface& surface, const NoiseWishes& wishes,
-           const NoiseParameters& parameters, Positions& positions, NoiseReport& report) {
-    Smoothing smoothing(surface);
-    const Eigen::AlignedBox3d box = confinement(surface.positions);
-    StepSettings settings = treatment.settings;
-    settings.sideways = parameters.along_normals ? 0 : kSideways * treatment.noise;
-    for (int step = 0; step < treatment.steps; ++step) {
-        enter_phase(0.45 + 0.45 * step / treatment.steps,
-                    "Step " + std::to_string(step + 1) + " of " + std::to_string(treatment.steps));
-        for (int tries = 0; tries <= kMostShorter; ++tries, settings.step_size /= 4) {
-            if (smoothing.step(settings, box, positions)) break;
-        }
-    }
-    if (wishes.crease > 0) {
-        report.crease_share =
-            crease_share(surface.stars, positions, smoothing.normals(), wishes.crease);
-    }
-    if (treatment.sharpening.iterations > 0) {
-        enter_phase(0.9, "Sharpening the creases");
-        sharpen(surface, treatment.sharpening, settings.sideways, box, positions);
-    }
-    report.steps = treatment.steps;
-    report.sharpenings = treatment.sharpening.iterations;
-    report.iterations = smoothing.iterations();
-}
-
-/// Returns the positions of the surface's vertices without noise, and reports on it.
-Positions denoised(const NoisySurface& surface, const NoiseWishes& wishes, double edge,
-                   const NoiseParameters& parameters, NoiseReport& report) {
-    enter_phase(0.3, "Measuring the noise");
-    const bool is_measured = wishes.noise == 0 && wishes.detail_size == 0;
-    const Sample sample = sample_of(surface, kSample);
-    report.noise = parameters.noise;
-    report.stop = is_measured ? obstacle(sample) : NoiseStop::None;
-    if (report.stop != NoiseStop::None) return surface.positions;
-    const Treatment treatment = best_treatment(sample, wishes);
-    if (wishes.noise == 0) report.noise = edge * treatment.noise;
-    if (treatment.steps == 0) {
-        report.stop = NoiseStop::NoNoise;
-        report_unevenness(surface, wishes, edge, report);
-        return surface.positions;
-    }
-    Positions positions = surface.positions;
-    apply(treatment, surface, wishes, parameters, positions, report);
-    if (is_measured && report.crease_share > kMostCreases) {
-        report.stop = NoiseStop::TooManyCreases;
-        report.noise = report.steps = report.sharpenings = 0;
-        return surface.positions;
-    }
-    report.detail_size = edge * detail_size_of(treatment);
-    return positions;
-}
-
 /// Returns the positions of the surface's vertices after they have moved as the parameters ask, and
 /// reports how.
-Positions treated(const NoisySurface& surface, double edge, const NoiseParameters& parameters,
+Positions treated(NoisySurface& surface, double edge, const NoiseParameters& parameters,
                   NoiseReport& report) {
-    const NoiseWishes wishes = {crease_of(parameters.crease_angle), parameters.noise / edge,
-                                parameters.detail_size / edge};
-    Positions positions = denoised(surface, wishes, edge, parameters, report);
+    const ProgressSpan span(0.3, 0.95);
+    Positions positions = denoised(surface, edge, parameters, report);
     if (parameters.boundary == NoiseBoundary::Smooth) {
-        smooth_rim(surface, wishes.crease, confinement(surface.positions), positions);
+        smooth_rim(surface, crease_of(parameters.crease_angle), confinement(surface.positions),
+                   positions);
     }
     return positions;
 }
@@ -271,7 +160,7 @@ NoiseReport remove_noise(TriangleMesh& mesh, const Inputs& inputs,
                                      ? BoundaryCondition::Locked
                                      : BoundaryCondition::Free);
     const Selection moving = domain->selection();
-    const SurfaceOfMesh from = read_surface(*domain, report);
+    SurfaceOfMesh from = read_surface(*domain, report);
     domain.reset();
     report.stop = NoiseStop::NothingMoves;
     const Positions to = report.constrained_vertices < report.vertices

@@ -69,7 +69,8 @@ Positions fitted_to(const Vectors& normals, const NoisySurface& surface,
         });
         const auto triangles =
             static_cast<double>(stars.corner_begin[vertex + 1] - stars.corner_begin[vertex]);
-        fitted[vertex] += sum / (triangles * double{surface.fidelity[vertex]});
+        // No vertex moves farther than it takes to fit.
+        fitted[vertex] += sum / (triangles * std::max(1.0, double{surface.fidelity[vertex]}));
     });
     return fitted;
 }

@@ -9,6 +9,9 @@ namespace tracked_mcf {
 
 namespace {
 
+/// The accuracy of smooth normals: the metric averages them over triangles.
+constexpr double kTolerance = 2e-2;
+
 /// The normals of a star cancel each other if their squared sum is below this share of the sum of
 /// their squares.
 constexpr double kOppositeNormals = 1e-20;
@@ -62,7 +65,7 @@ const Vectors& Smoothing::smooth_normals(const Positions& positions, const StepS
     normals_ = vectors_;
     for (const double normal_length : {0.0, settings.normal_length}) {
         elements_.assemble(normals_, normal_length);
-        iterations_ += elements_.smooth(settings.normal_step_size, vectors_, normals_);
+        iterations_ += elements_.smooth(settings.normal_step_size, vectors_, kTolerance, normals_);
         parallel_for_rows(stars.count(),
                           [&](std::int32_t vertex) { normals_[vertex].normalize(); });
     }
@@ -87,10 +90,10 @@ const Vectors& Smoothing::normals_of_planes() {
 }
 
 bool Smoothing::step(const StepSettings& settings, const Eigen::AlignedBox3d& box,
-                     Positions& positions) {
+                     Positions& positions, std::vector<float>& heights) {
     elements_.assemble(smooth_normals(positions, settings), settings.normal_length, &positions);
     const Vectors& planes = normals_of_planes();
-    iterations_ += elements_.displace(settings.step_size, positions, planes, vectors_);
+    iterations_ += elements_.displace(settings.step_size, positions, planes, heights, vectors_);
     Positions moved(positions.size());
     parallel_for_rows(surface_.stars.count(), [&](std::int32_t vertex) {
         moved[vertex] = positions[vertex] + vectors_[vertex].head<3>().cast<double>();
@@ -99,6 +102,7 @@ bool Smoothing::step(const StepSettings& settings, const Eigen::AlignedBox3d& bo
     const auto leaves = [&](std::int64_t vertex) { return !box.contains(moved[vertex]); };
     if (parallel_count(surface_.stars.count(), leaves) > 0) return false;
     positions.swap(moved);
+    for (std::size_t i = 0; i < heights.size(); ++i) heights[i] += vectors_[i][3];
     return true;
 }
 

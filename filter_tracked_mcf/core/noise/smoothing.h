@@ -39,7 +39,15 @@ public:
     /// these are sideways. Returns false and makes none if it would take a vertex out of `box`: an
     /// equation of fourth order has no maximum principle, so a few vertices beside ones that stay
     /// may fly away.
-    bool step(const StepSettings& settings, const Eigen::AlignedBox3d& box, Positions& positions);
+    ///
+    /// `heights` are perturbations of the vertices along their normals, or empty. They become what
+    /// the same step makes of them in the metric of the positions, which they do not change.
+    bool step(const StepSettings& settings, const Eigen::AlignedBox3d& box, Positions& positions,
+              std::vector<float>& heights);
+    bool step(const StepSettings& settings, const Eigen::AlignedBox3d& box, Positions& positions) {
+        std::vector<float> none;
+        return step(settings, box, positions, none);
+    }
 
     /// Returns the normals of the latest call above.
     const Vectors& normals() const { return normals_; }

@@ -102,7 +102,7 @@ double height_of_stairs(const NoisySurface& surface) {
 
 Unevenness unevenness_of(const NoisySurface& surface, const NoiseWishes& wishes) {
     Unevenness found;
-    const Sample sample = sample_of(surface, kLumpSample, kLumpPatch);
+    const Sample sample = sample_of(surface, kLumpSample, {}, kLumpPatch);
     // All of a large surface takes long.
     if (height_of_stairs(sample.surface) > 0) found.stairs = height_of_stairs(surface);
     if (found.stairs > 0) return found;

@@ -40,6 +40,7 @@ class NoiseReport(Report, _Quality):
 
     stop: str  # why no noise was removed, or "none"
     noise: float  # standard deviation along the normals
+    outliers: int  # vertices with so much more noise that they hardly counted
     stairs: float  # height of stairs; 0 if there are none, or noise was removed
     lump_width: float  # of what may be noise in lumps or waves, likewise
     lump_height: float

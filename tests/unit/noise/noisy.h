@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "filter_tracked_mcf/core/mesh/measures.h"
+#include "filter_tracked_mcf/core/noise/noisy_surface.h"
 #include "filter_tracked_mcf/core/remove_noise.h"
 
 namespace tracked_mcf {
@@ -37,6 +38,10 @@ inline TriangleMesh with_isotropic_noise(TriangleMesh mesh, double deviation) {
         for (double& coordinate : position) coordinate += normal(random);
     }
     return mesh;
+}
+
+inline NoisySurface surface_of_mesh(const TriangleMesh& mesh) {
+    return surface_of(Domain(mesh, BoundaryCondition::Free)).surface;
 }
 
 inline TriangleMesh denoised(TriangleMesh mesh, const NoiseParameters& parameters = {}) {

@@ -12,6 +12,7 @@
 
 #include "filter_tracked_mcf/core/noise/sharpening.h"
 #include "tests/support/shapes.h"
+#include "tests/unit/noise/noisy.h"
 
 namespace tracked_mcf {
 namespace {
@@ -25,10 +26,6 @@ TriangleMesh uneven_sphere() {
     TriangleMesh mesh = shapes::geodesic_sphere(40);
     for (Eigen::Vector3d& p : mesh.positions) p[0] += 0.2 * p[1] * p[1] + 0.1 * p[1] + 0.3 * p[2];
     return mesh;
-}
-
-NoisySurface surface_of_mesh(const TriangleMesh& mesh) {
-    return surface_of(Domain(mesh, BoundaryCondition::Free)).surface;
 }
 
 TEST(Sample, IsPatchesOfALargeSurfaceAndAllOfASmallOne) {

@@ -50,6 +50,45 @@ TEST(RemoveNoise, MeasuresTheNoiseAndRemovesMostOfIt) {
     }
 }
 
+TEST(RemoveNoise, HardlyBelievesOutliers) {
+    for (const TriangleMesh& clean : {shapes::geodesic_sphere(20), cube()}) {
+        const TriangleMesh far = with_noise(clean, 0.4);
+        TriangleMesh before = clean;
+        for (std::size_t i = 0; i < before.positions.size(); i += 5) {
+            before.positions[i] = far.positions[i];
+        }
+        EXPECT_LT(error(denoised(before), clean), 0.06 * error(before, clean));
+        const NoiseReport report = report_of(before);
+        EXPECT_NEAR(static_cast<double>(report.outliers) / static_cast<double>(report.vertices),
+                    0.17, 0.04);
+        EXPECT_EQ(report_of(far).outliers, 0);
+    }
+}
+
+/// Returns the mesh with the vertices of `clean` where x does not have this sign.
+TriangleMesh half_of(TriangleMesh mesh, const TriangleMesh& clean, double sign) {
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        if (sign * clean.positions[i].x() <= 0) mesh.positions[i] = clean.positions[i];
+    }
+    return mesh;
+}
+
+TEST(RemoveNoise, SmoothsMoreWhereTheNoiseIsLarger) {
+    const TriangleMesh clean = shapes::bumpy_sphere(30);
+    TriangleMesh before = half_of(with_noise(clean, 0.4), clean, 1);
+    const TriangleMesh quiet = half_of(with_noise(clean, 0.05), clean, -1);
+    for (std::size_t i = 0; i < before.positions.size(); ++i) {
+        if (clean.positions[i].x() <= 0) before.positions[i] = quiet.positions[i];
+    }
+    NoiseParameters everywhere;
+    everywhere.noise = report_of(before).noise;
+    const TriangleMesh after = denoised(before), alike = denoised(before, everywhere);
+    EXPECT_LT(error(half_of(after, clean, -1), clean),
+              0.9 * error(half_of(alike, clean, -1), clean));
+    EXPECT_LT(error(half_of(after, clean, 1), clean),
+              0.4 * error(half_of(before, clean, 1), clean));
+}
+
 TEST(RemoveNoise, KeepsTheCreasesOfACube) {
     const TriangleMesh before = with_noise(cube(), 0.2);
     NoiseParameters none;

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "filter_tracked_mcf/core/noise/stars.h"
+
+namespace tracked_mcf {
+
+/// How noise is distributed over a surface.
+enum class NoiseKind {
+    Even,     ///< the same everywhere
+    Varying,  ///< larger in some places than in others
+    Outliers  ///< single vertices have much more than those around them
+};
+
+/// Returns which noise a treatment has taken from a surface. `heights` are how far it has moved
+/// each vertex along its normal, in edges; only those of vertices that count decide.
+NoiseKind kind_of_noise(const Stars& stars, const std::vector<float>& heights,
+                        const std::vector<std::uint8_t>& counts);
+
+/// Returns how much each vertex should keep its position in a new treatment, relative to others, by
+/// how far the last one has moved it.
+///
+/// Where noise varies, this falls with its deviation around the vertex. With outliers it is the
+/// weight of Geman and McClure, (1 + (h / c)²)⁻²: c is three deviations of the heights around the
+/// vertex, so that detail, which moves whole neighbourhoods, does not count as outliers.
+std::vector<float> fidelities_of(const Stars& stars, const std::vector<float>& heights,
+                                 NoiseKind kind);
+
+}  // namespace tracked_mcf

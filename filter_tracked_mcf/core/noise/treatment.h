@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "filter_tracked_mcf/core/noise/sharpening.h"
+#include "filter_tracked_mcf/core/noise/smoothing.h"
+
+namespace tracked_mcf {
+
+/// How noise is removed from a surface. Lengths are in edges.
+struct Treatment {
+    StepSettings settings;  ///< of every step
+    int steps = 0;          ///< 0: there is hardly any noise
+    Sharpening sharpening;
+};
+
+/// Returns whether treatments have the same settings, so that they begin alike.
+bool share_steps(const Treatment& a, const Treatment& b);
+
+/// Returns (δ k²)² for the waves whose amplitude `steps` steps halve.
+double halved_waves(int steps);
+
+/// Returns the length of the waves whose amplitude the steps of a treatment halve;
+/// 0 without steps.
+double detail_size_of(const Treatment& treatment);
+
+/// Perturbations of a surface's vertices along normals. They tell how a treatment answers to noise.
+struct Perturbation {
+    std::vector<float> heights;  ///< empty: there is none
+    Vectors normals;
+    double scale = 0;  ///< the perturbations are this times the heights
+};
+
+/// Returns positions with a perturbation.
+Positions perturbed(const Positions& positions, const Perturbation& perturbation);
+
+/// What treatments make of a surface.
+struct Treated {
+    std::vector<Positions> positions;  ///< per treatment
+    std::vector<Positions> twins;      ///< the same with a perturbation; or empty
+    Vectors normals;                   ///< of the last step of the first treatment
+    int iterations = 0;                ///< of conjugate gradients
+};
+
+/// Treats a surface whose vertices are at `start`. Treatments that share their steps are made
+/// together. A step that would take a vertex far away is made with a smaller size. A perturbation
+/// costs little, as it does not change the metric of the steps: it is a part of the response only.
+Treated treat(const NoisySurface& surface, const std::vector<Treatment>& treatments,
+              const Positions& start, const Perturbation& perturbation = {});
+
+}  // namespace tracked_mcf

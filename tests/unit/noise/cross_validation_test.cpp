@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "filter_tracked_mcf/core/noise/cross_validation.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "tests/support/shapes.h"
+#include "tests/unit/noise/noisy.h"
+
+namespace tracked_mcf {
+namespace {
+
+constexpr double kCrease = 0.43;  // 25 degrees
+
+Sample sample_of_mesh(const TriangleMesh& mesh) {
+    return sample_of(surface_of_mesh(mesh), 4000);
+}
+
+NoiseWishes automatic() {
+    NoiseWishes wishes;
+    wishes.crease = kCrease;
+    return wishes;
+}
+
+TEST(CrossValidation, FindsNoTreatmentForACleanSurface) {
+    const Choice choice = best_treatment(sample_of_mesh(shapes::bumpy_sphere(30)), automatic());
+    EXPECT_EQ(choice.treatment.steps, 0);
+    EXPECT_TRUE(choice.others.empty());
+}
+
+TEST(CrossValidation, SmoothsTheMoreTheMoreNoiseThereIs) {
+    double last = 0;
+    for (const double deviation : {0.05, 0.1, 0.3}) {
+        const Choice choice = best_treatment(
+            sample_of_mesh(with_noise(shapes::bumpy_sphere(30), deviation)), automatic());
+        EXPECT_NEAR(choice.noise, deviation, 0.1 * deviation);
+        EXPECT_EQ(choice.kind, NoiseKind::Even);
+        EXPECT_GT(detail_size_of(choice.treatment), last);
+        last = detail_size_of(choice.treatment);
+    }
+}
+
+TEST(CrossValidation, NamesOthersOnlyWithoutWishes) {
+    const Sample sample = sample_of_mesh(with_noise(shapes::box(25, {1, 1, 1}), 0.2));
+    const Choice choice = best_treatment(sample, automatic());
+    EXPECT_GT(choice.others.size(), 0U);
+    EXPECT_LT(choice.others.size(), 5U);
+    NoiseWishes wishes = automatic();
+    wishes.noise = 0.2;
+    EXPECT_TRUE(best_treatment(sample, wishes).others.empty());
+    wishes = automatic();
+    wishes.detail_size = 6;
+    EXPECT_TRUE(best_treatment(sample, wishes).others.empty());
+}
+
+TEST(CrossValidation, NamesOthersThatShareTheStepsIfItIsToBeQuick) {
+    const Sample sample = sample_of_mesh(with_noise(shapes::box(25, {1, 1, 1}), 0.2));
+    NoiseWishes wishes = automatic();
+    wishes.is_quick = true;
+    const Choice choice = best_treatment(sample, wishes);
+    EXPECT_GT(choice.others.size(), 0U);
+    EXPECT_LT(choice.others.size(), 3U);
+    for (const Treatment& other : choice.others) {
+        EXPECT_TRUE(share_steps(other, choice.treatment));
+    }
+}
+
+TEST(CrossValidation, WhitensHeightsByTheirFidelities) {
+    TriangleMesh mesh = shapes::bumpy_sphere(30);
+    const std::vector<Eigen::Vector3d> normals = vertex_normals(mesh);
+    const double edge = mean_edge_length(mesh);
+    std::mt19937 random(1);
+    std::normal_distribution<double> normal;
+    std::vector<float> fidelities;
+    for (std::size_t i = 0; i < normals.size(); ++i) {
+        const bool is_noisy = i % 5 == 0;
+        mesh.positions[i] += (is_noisy ? 0.5 : 0.05) * edge * normal(random) * normals[i];
+        fidelities.push_back(is_noisy ? 0.01F : 1);
+    }
+    const NoisySurface surface = surface_of_mesh(mesh);
+    NoiseWishes wishes = automatic();
+    wishes.is_certain = true;
+    const Choice choice = best_treatment(sample_of(surface, 10000, fidelities), wishes);
+    EXPECT_NEAR(choice.noise, 0.05, 0.01);
+}
+
+}  // namespace
+}  // namespace tracked_mcf

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "filter_tracked_mcf/core/noise/local_choice.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "filter_tracked_mcf/core/noise/cross_validation.h"
+#include "tests/support/shapes.h"
+#include "tests/unit/noise/noisy.h"
+
+namespace tracked_mcf {
+namespace {
+
+/// A square of 80 x 80 cells of which one half has waves.
+struct HalfWavy {
+    explicit HalfWavy(double deviation) {
+        TriangleMesh mesh = shapes::square(80);
+        const double edge = mean_edge_length(mesh);
+        std::mt19937 random(1);
+        std::normal_distribution<double> normal(0, deviation * edge);
+        for (Eigen::Vector3d& p : mesh.positions) {
+            const double height = p.x() > 0.5 ? 0.5 * edge * std::sin(p.y() / edge) : 0;
+            clean.push_back(height / edge);
+            p.z() = height + normal(random);
+        }
+        surface = surface_of_mesh(mesh);
+        origin = surface.positions.front().z() - mesh.positions.front().z() / edge;
+    }
+
+    /// Returns the RMS error of heights in edges.
+    double error(const Positions& positions) const {
+        double squares = 0;
+        for (std::size_t i = 0; i < clean.size(); ++i) {
+            const double error = positions[i].z() - origin - clean[i];
+            squares += error * error;
+        }
+        return std::sqrt(squares / static_cast<double>(clean.size()));
+    }
+
+    std::vector<double> clean;
+    NoisySurface surface{{{}, 0}, {}, {}};
+    double origin = 0;
+};
+
+const Treatment kWeak = {{0, 0.3, 2}, 1, {}}, kStrong = {{0, 2.4, 2}, 4, {}};
+
+TEST(LocalChoice, GivesEachPlaceTheTreatmentThatSuitsIt) {
+    const double noise = 0.2;
+    const HalfWavy wavy(noise);
+    const std::vector<Treatment> treatments = {kWeak, kStrong};
+    const Perturbation perturbation = perturbation_of(wavy.surface, kWeak.settings, noise);
+    for (const bool has_own_metric : {false, true}) {
+        Treated treated = treat(wavy.surface, treatments, wavy.surface.positions,
+                                has_own_metric ? Perturbation() : perturbation);
+        if (has_own_metric) {
+            treated.twins =
+                treat(wavy.surface, treatments, perturbed(wavy.surface.positions, perturbation))
+                    .positions;
+        }
+        const double best =
+            std::min(wavy.error(treated.positions[0]), wavy.error(treated.positions[1]));
+        EXPECT_LT(wavy.error(chosen_locally(wavy.surface, perturbation, treated)), 0.85 * best);
+    }
+}
+
+TEST(LocalChoice, KeepsTheFirstTreatmentWhereNoOtherIsBetter) {
+    const double noise = 0.2;
+    const NoisySurface surface = surface_of_mesh(with_noise(shapes::geodesic_sphere(20), noise));
+    const Perturbation perturbation = perturbation_of(surface, kStrong.settings, noise);
+    const Treatment none = {{0, 1e-3, 2}, 1, {}};
+    const Treated treated = treat(surface, {kStrong, none}, surface.positions, perturbation);
+    EXPECT_EQ(chosen_locally(surface, perturbation, treated), treated.positions[0]);
+}
+
+TEST(LocalChoice, KnowsNoiseThatVaries) {
+    for (const bool varies : {false, true}) {
+        TriangleMesh mesh = shapes::square(60);
+        const double edge = mean_edge_length(mesh);
+        std::mt19937 random(1);
+        std::normal_distribution<double> normal;
+        for (Eigen::Vector3d& p : mesh.positions) {
+            p.z() = (varies && p.x() > 0.5 ? 0.3 : 0.1) * edge * normal(random);
+        }
+        const NoisySurface surface = surface_of_mesh(mesh);
+        const Perturbation perturbation = perturbation_of(surface, kStrong.settings, 0.2);
+        const Treated treated = treat(surface, {kStrong}, surface.positions);
+        EXPECT_EQ(is_uneven(surface, perturbation, treated.positions[0]), varies);
+    }
+}
+
+TEST(LocalChoice, TakesFewTreatmentsThatComplementEachOther) {
+    const HalfWavy wavy(0.2);
+    const Sample sample = sample_of(wavy.surface, 10000);
+    const std::size_t count = sample.counts.size();
+    Risks left(count), right(count), worse(count, 1), middle(count, 0.5F);
+    for (std::size_t i = 0; i < count; ++i) {
+        const bool is_left = wavy.surface.positions[i].x() < 0;
+        left[i] = is_left ? 0 : 2;
+        right[i] = is_left ? 2 : 0.1F;
+    }
+    const std::vector<Risks> risks = {worse, middle, left, right};
+    EXPECT_EQ(best_few(sample, risks, 1, 4), (std::vector<std::size_t>{1, 2, 3}));
+    EXPECT_EQ(best_few(sample, risks, 1, 2), (std::vector<std::size_t>{1, 2}));
+    EXPECT_EQ(best_few(sample, {middle, worse}, 0, 5), std::vector<std::size_t>{0});
+}
+
+TEST(Treatments, ShareTheirSteps) {
+    const NoisySurface surface = surface_of_mesh(with_noise(shapes::geodesic_sphere(10), 0.2));
+    const Treatment once = {{0.5, 0.3, 2}, 1, {}};
+    Treatment twice = once, sharp = once, other = once;
+    twice.steps = 2;
+    sharp.sharpening = {0.3, 3};
+    other.settings.step_size = 1;
+    const std::vector<Treatment> all = {once, other, twice, sharp};
+    const Treated together = treat(surface, all, surface.positions);
+    EXPECT_TRUE(share_steps(once, twice));
+    EXPECT_FALSE(share_steps(once, other));
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const Treated alone = treat(surface, {all[i]}, surface.positions);
+        EXPECT_EQ(together.positions[i], alone.positions[0]) << i;
+    }
+    EXPECT_LT(together.iterations, treat(surface, {once}, surface.positions).iterations +
+                                       treat(surface, {other}, surface.positions).iterations +
+                                       treat(surface, {twice}, surface.positions).iterations);
+}
+
+}  // namespace
+}  // namespace tracked_mcf
