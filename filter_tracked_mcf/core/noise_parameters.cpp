@@ -20,6 +20,13 @@ const std::vector<ParameterOf<NoiseParameters>>& parameter_table() {
                                 {0, kFinite, ", in units of the mesh, where 0 measures it"}),
               "noise", "Noise (0: measure it)",
               "Standard deviation of the noise along the normals. 0 measures it."),
+        named(access<&P::noise_size>(
+                  Type::Length,
+                  {0, kFinite, ", in units of the mesh, where 0 is that of stairs or vertices"}),
+              "noise_size", "Size of the noise (0: auto)",
+              "How wide noise is: the distance of voxels or slices, half the width of lumps, half "
+              "the length of ripples; rather too large than too small. 0 is the size of stairs, if "
+              "the mesh consists of them, or else of single vertices."),
         named(access<&P::detail_size>(
                   Type::Length,
                   {0, kFinite, ", in units of the mesh, where 0 takes what the noise needs"}),

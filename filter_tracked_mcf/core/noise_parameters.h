@@ -22,6 +22,12 @@ struct NoiseParameters {
     /// how much to smooth.
     double noise = 0;
 
+    /// Greater than 0: how wide what counts as noise is, mesh units: the distance of voxels or
+    /// slices, half the length of ripples, half the width of lumps. A little too much is better
+    /// than too little. An edge or less: single vertices. 0 is single vertices, too, unless the
+    /// mesh consists of stairs, as of voxels.
+    double noise_size = 0;
+
     /// Greater than 0: waves of this length, mesh units, lose half their amplitude where the
     /// surface is flat and its edges are of mean length. 0 takes what the noise needs.
     double detail_size = 0;

@@ -32,9 +32,10 @@ struct NoiseReport {
     CrackReport cracks;
 
     NoiseStop stop = NoiseStop::None;
-    double noise = 0;         ///< standard deviation along the normals, mesh units
+    double noise = 0;           ///< standard deviation along the normals, mesh units
+    double noise_size = 0;      ///< how wide what counts as noise is, see NoiseParameters
     std::int64_t outliers = 0;  ///< vertices with so much more noise that they hardly counted
-    double crease_share = 0;  ///< share of the area in triangles that a crease crosses
+    double crease_share = 0;    ///< share of the area in triangles that a crease crosses
     /// Of the treatment that suits the whole surface best; places may have chosen others. See
     /// NoiseParameters::detail_size; 0 if there was nothing to do.
     double detail_size = 0;
@@ -42,9 +43,9 @@ struct NoiseReport {
     int sharpenings = 0;  ///< iterations of the bilateral filter after the steps; 0 if it was worse
     int iterations = 0;   ///< of conjugate gradients, all steps
 
-    /// Where there is no noise from vertex to vertex, what may be noise nevertheless, in mesh
-    /// units: the height of stairs, as of voxels, slices or whole numbers, and the width and the
-    /// standard deviation of lumps or waves. 0: there are none.
+    /// The height of stairs, as of voxels, slices or whole numbers, mesh units; 0: there are none.
+    /// Where there is no noise from vertex to vertex, also the width and the standard deviation of
+    /// lumps or waves that may be noise nevertheless.
     double stairs = 0, lump_width = 0, lump_height = 0;
 
     double rms_displacement = 0;  ///< of the vertices above, mesh units

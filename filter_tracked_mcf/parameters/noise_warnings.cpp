@@ -22,28 +22,32 @@ std::string nothing(const NoiseReport& report) {
     return report.largest_displacement > 0 ? "No noise was removed: " : "Nothing has moved: ";
 }
 
-/// Says which flow removes noise of this width. Its detail size is three times as long.
-std::string flow_for(double width, const NoiseReport& report) {
-    return "take Mean Curvature Flow, with a detail size of " + rounded(3 * width) +
-           (report.boundary_edges > 0 ? " and order 2." : ", order 2 and the volume preserved.");
-}
-
 /// Says what there may be instead of noise from vertex to vertex.
 std::string no_noise(const NoiseReport& report) {
     const std::string text = nothing(report) + "there is no noise from vertex to vertex";
     if (report.stairs > 0) {
         return text + ", but stairs " + rounded(report.stairs) +
-               " high, as of slices, voxels or whole numbers. To remove them, " +
-               flow_for(report.stairs, report);
+               " high, perhaps of slices, voxels or whole numbers. If they are noise, give one and "
+               "a "
+               "half times their height as the size of the noise.";
     }
     if (report.lump_width > 0) {
         return text + ", but perhaps in lumps or waves, about " + rounded(report.lump_width) +
-               " wide and " + rounded(report.lump_height) + " high. If that is not detail, " +
-               flow_for(report.lump_width, report);
+               " wide and " + rounded(report.lump_height) +
+               " high. If that is not detail, give its width as the size of the noise.";
     }
     return text +
-           ". Noise in lumps or waves cannot be told from detail. If there is some, take Mean "
-           "Curvature Flow, with a detail size of three times its width and order 2.";
+           ". Noise in lumps or waves cannot be told from detail. If there is some, give the size "
+           "of the noise: half the width of lumps, or half the length of waves.";
+}
+
+/// Says that stairs were smoothed, which may be a part of the shape.
+std::string stairs_text(const NoiseReport& report) {
+    if (report.stop != NoiseStop::None || report.stairs == 0) return {};
+    return "The mesh consists of stairs " + rounded(report.stairs) +
+           " high, as of voxels, slices or whole numbers. They were smoothed as noise that is " +
+           rounded(report.noise_size) +
+           " wide. If they are the shape, give a smaller size of the noise.";
 }
 
 std::string stop_text(const NoiseReport& report) {
@@ -57,7 +61,8 @@ std::string stop_text(const NoiseReport& report) {
         case NoiseStop::TooFewVertices:
             return nothing(report) +
                    "fewer than 100 vertices can move, too few to measure noise. "
-                   "Give the noise or a detail size, or refine the mesh.";
+                   "Give the noise, a detail size or a smaller size of the noise, or refine the "
+                   "mesh.";
         case NoiseStop::TooManyCreases:
             return nothing(report) + "creases cross " + rounded(100 * report.crease_share) +
                    " % of the area, so noise cannot be told from the shape. Give the noise or a "
@@ -88,7 +93,7 @@ std::string loss(const NoiseReport& report) {
 std::vector<std::string> warnings_of(const NoiseParameters& /*parameters*/,
                                      const NoiseReport& report, const std::string& /*advice*/) {
     std::vector<std::string> warnings = surface_warnings(report);
-    for (const std::string& warning : {stop_text(report), loss(report)}) {
+    for (const std::string& warning : {stop_text(report), stairs_text(report), loss(report)}) {
         if (!warning.empty()) warnings.push_back(warning);
     }
     return warnings;

@@ -140,6 +140,7 @@ ReportObject report_values(const NoiseParameters& parameters, const ReportObject
             {"constrained_vertices", {report.constrained_vertices}},
             {"stop", stop_name(report.stop)},
             {"noise", {report.noise}},
+            {"noise_size", {report.noise_size}},
             {"outliers", {report.outliers}},
             {"stairs", {report.stairs}},
             {"lump_width", {report.lump_width}},

@@ -143,6 +143,7 @@ Outputs outputs_of(const FlowParameters& parameters, const FlowReport& report) {
 
 Outputs outputs_of(const NoiseParameters& /*parameters*/, const NoiseReport& report) {
     return {{"noise", report.noise},
+            {"noise_size", report.noise_size},
             {"outliers", static_cast<int>(report.outliers)},
             {"crease_share", report.crease_share},
             {"stairs", report.stairs},

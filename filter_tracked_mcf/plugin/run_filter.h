@@ -52,8 +52,8 @@ std::string message_of(const Parameters& parameters, const Report& report);
 /// - `area_before`, `area_after`, `volume_change` (NaN unless the faces are oriented consistently).
 Outputs outputs_of(const FlowParameters& parameters, const FlowReport& report);
 
-/// Returns, in units of the mesh: `noise`, `outliers`, `crease_share`, `stairs`, `lump_width`,
-/// `lump_height`, `lost_area`, `lost_volume`, `detail_size`, `steps`, `largest_displacement`,
+/// Returns, in units of the mesh: `noise`, `noise_size`, `outliers`, `crease_share`, `stairs`,
+/// `lump_width`, `lump_height`, `lost_area`, `lost_volume`, `detail_size`, `steps`, `largest_displacement`,
 /// `rms_displacement`, `area_before`, `area_after`, `volume_change` (NaN unless the faces are
 /// oriented consistently). See NoiseReport.
 Outputs outputs_of(const NoiseParameters& parameters, const NoiseReport& report);

@@ -85,6 +85,7 @@ NoiseParameters noise_parameters_of(Bytes& bytes) {
     NoiseParameters p;
     if (bytes.flag()) p.crease_angle = bytes.number();
     if (bytes.flag()) p.noise = bytes.number();
+    if (bytes.flag()) p.noise_size = bytes.number();
     if (bytes.flag()) p.detail_size = bytes.number();
     if (bytes.flag()) p.largest_movement = bytes.number();
     p.boundary = bytes.pick({NoiseBoundary::Free, NoiseBoundary::Locked});

@@ -207,6 +207,7 @@ TEST(Summary, OfNoiseHasAFactInEachLine) {
     report.rms_displacement = 0.02;
     report.cracks.joined_vertices = 2;
     report.noise = 0.01234;
+    report.outliers = 3;
     report.crease_share = 0.0567;
     report.detail_size = 0.25;
     report.area_before = report.area_after = report.volume_before = 1;
@@ -215,6 +216,7 @@ TEST(Summary, OfNoiseHasAFactInEachLine) {
         summary(parameters, report),
         "Removed noise from 100 vertices in 0.12 s.\n"
         "The noise along the normals was about 0.0123.\n"
+        "3 vertices had so much more than others that they hardly counted.\n"
         "Creases were kept. They cross 5.67 % of the area.\n"
         "Elsewhere, detail smaller than 0.25 was removed.\n"
         "Vertices moved by up to 0.1, RMS 0.02.\nArea: unchanged. Volume: unchanged.\n"
@@ -242,17 +244,20 @@ TEST(NoiseWarnings, SayWhyNothingWasRemovedAndWhatToDo) {
     report.crease_share = 0.625;
     EXPECT_THAT(warning(report), HasSubstr("creases cross 62 % of the area"));
     report.stop = NoiseStop::NoNoise;
-    EXPECT_THAT(warning(report), HasSubstr("three times its width"));
+    EXPECT_THAT(warning(report), HasSubstr("give the size of the noise: half the width of lumps"));
     report.lump_width = 2;
     report.lump_height = 0.25;
     EXPECT_THAT(warning(report), HasSubstr("about 2 wide and 0.25 high"));
-    EXPECT_THAT(warning(report), HasSubstr("a detail size of 6, order 2 and the volume"));
+    EXPECT_THAT(warning(report), HasSubstr("give its width as the size of the noise"));
     report.stairs = 3;
-    report.boundary_edges = 4;
-    EXPECT_THAT(warning(report), HasSubstr("stairs 3 high"));
-    EXPECT_THAT(warning(report), HasSubstr("a detail size of 9 and order 2."));
+    EXPECT_THAT(warning(report), HasSubstr("but stairs 3 high"));
     report.largest_displacement = 1;
     EXPECT_THAT(warning(report), HasSubstr("No noise was removed: ")) << "the rim has moved";
+    report = {};
+    report.stairs = 3;
+    report.noise_size = 4.5;
+    EXPECT_THAT(warning(report), HasSubstr("stairs 3 high, as of voxels"));
+    EXPECT_THAT(warning(report), HasSubstr("They were smoothed as noise that is 4.5 wide."));
     report = {};
     report.shrunken_parts = 2;
     report.lost_area = 0.12;

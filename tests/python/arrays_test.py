@@ -42,8 +42,8 @@ COARSE_OPTIONS = ["--depth", "5", "--detail-size", "0.2"]
 # Further runs than those of all hosts. Between them, they set every parameter.
 RUNS = [*runs.RUNS, "detail_size=20%", "tolerance=1e-5", "stabilization=1", "cycles=2 method=paper", "cubature=12",
         "threads=1"]
-NOISE_RUNS = ["crease_angle=5", "noise=0.02", "noise=1%", "detail_size=0.3", "largest_movement=0.1%", "boundary=locked",
-              "boundary=smooth", "along_normals=true", "quality=displacement", "threads=1"]
+NOISE_RUNS = ["crease_angle=5", "noise=0.02", "noise=1%", "noise_size=0.1", "detail_size=0.3", "largest_movement=0.1%",
+              "boundary=locked", "boundary=smooth", "along_normals=true", "quality=displacement", "threads=1"]
 
 Error = tracked_mcf.Error
 InvalidMesh, InvalidParameter = tracked_mcf.InvalidMesh, tracked_mcf.InvalidParameter

@@ -87,6 +87,7 @@ void Invariance::check_scale() {
     for (Eigen::Vector3d& position : scaled.mesh.positions) position *= unit;
     if (scaled.noise) {
         scaled.noise->noise *= unit;
+        scaled.noise->noise_size *= unit;
         scaled.noise->detail_size *= unit;
         scaled.noise->largest_movement *= unit;
     }

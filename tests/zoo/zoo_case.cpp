@@ -197,6 +197,7 @@ Case noise_case_of(std::uint64_t seed, std::int64_t number) {
     NoiseParameters& noise = made.noise.emplace();
     noise.crease_angle = random.pick({25.0, 25.0, 0.0, random.between(0, 179)});
     noise.noise = length(0.2);
+    noise.noise_size = length(0.2);
     noise.detail_size = length(0.2);
     noise.largest_movement = length(0.2);
     noise.along_normals = random.chance(0.2);

@@ -100,10 +100,10 @@ using Place = std::array<int, 2>;
 /// Tries treatments on a sample.
 class Trials {
 public:
-    Trials(const Sample& sample, const NoiseWishes& wishes, double width = 1)
+    Trials(const Sample& sample, const NoiseWishes& wishes)
         : sample_(sample),
           wishes_(wishes),
-          width_(width),
+          width_(wishes.width),
           signs_(sample.signs),
           box_(confinement(sample.surface.positions)),
           smoothing_(sample.surface),
@@ -400,6 +400,8 @@ private:
 
     Attempt sharpened(const Attempt& smooth, Sharpening sharpening) const {
         sharpening.width *= wishes_.crease;
+        sharpening.iterations =
+            static_cast<int>(std::lround(sharpening.iterations * width_ * width_));
         Treatment treatment = smooth.treatment;
         treatment.sharpening = sharpening;
         Twins twins = smooth.twins;
@@ -431,8 +433,8 @@ Choice best_treatment(const Sample& sample, const NoiseWishes& wishes) {
     return Trials(sample, wishes).best();
 }
 
-NoiseOfWidth noise_of_width(const Sample& sample, const NoiseWishes& wishes, double width) {
-    return Trials(sample, wishes, width).of_width();
+NoiseOfWidth noise_of_width(const Sample& sample, const NoiseWishes& wishes) {
+    return Trials(sample, wishes).of_width();
 }
 
 }  // namespace tracked_mcf

@@ -14,6 +14,7 @@ struct NoiseWishes {
     double crease = 0;        ///< difference of unit normals across the least crease; 0: no creases
     double noise = 0;         ///< standard deviation; 0: unknown
     double detail_size = 0;   ///< see NoiseParameters::detail_size; 0: what the noise needs
+    double width = 1;         ///< of the noise, at least 1
     bool is_certain = false;  ///< whether noise is removed even if it may be detail
     bool is_quick = false;    ///< whether Choice::others are few and share the treatment's steps
 };
@@ -40,6 +41,9 @@ struct Choice {
 /// Without wishes, a treatment that takes little of what seems to be noise is none: then it is
 /// detail.
 ///
+/// Noise of some width is like white noise on a mesh with edges of this length: all lengths of a
+/// treatment are in units of the width, and random signs are averaged over it.
+///
 /// Where the sample's vertices have fidelities, heights count by their roots, so that the noise is
 /// the same everywhere.
 Choice best_treatment(const Sample& sample, const NoiseWishes& wishes);
@@ -52,9 +56,7 @@ struct NoiseOfWidth {
     double correlation = 0;
 };
 
-/// Tries a few treatments on a sample as if its noise were `width` wide, such as voxels or lumps.
-/// Such noise is like white noise on a mesh with edges of this length: all lengths of a treatment
-/// are in units of the width, and random signs are averaged over it.
-NoiseOfWidth noise_of_width(const Sample& sample, const NoiseWishes& wishes, double width);
+/// Tries a few treatments on a sample whose noise may have the width that is wished.
+NoiseOfWidth noise_of_width(const Sample& sample, const NoiseWishes& wishes);
 
 }  // namespace tracked_mcf

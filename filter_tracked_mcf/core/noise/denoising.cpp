@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "filter_tracked_mcf/core/mesh/measures.h"
+#include "filter_tracked_mcf/core/noise/clusters.h"
 #include "filter_tracked_mcf/core/noise/cross_validation.h"
 #include "filter_tracked_mcf/core/noise/fidelities.h"
 #include "filter_tracked_mcf/core/noise/local_choice.h"
@@ -16,7 +17,13 @@ namespace tracked_mcf {
 namespace {
 
 /// Vertices of the sample on which treatments are tried.
-constexpr std::int32_t kSample = 4000;
+constexpr std::int32_t kSample = 4000, kPatch = 500;
+
+/// Stairs are noise of this width, relative to their height.
+constexpr double kWidthOfStairs = 1.5;
+
+/// Clusters with a radius of one side are so many edges wide.
+constexpr double kWidthOfRadius = 3;
 
 /// Fewer vertices than this show no noise. Nor do those of which creases take more than this share
 /// of the area; they take at most 0.42 on the meshes of tests/experiments.
@@ -113,6 +120,44 @@ void treat_with_fidelities(NoisySurface& surface, NoiseWishes wishes, NoiseKind 
     surface.fidelity = strengths;
 }
 
+/// Returns clusters of vertices that are a little narrower than noise of some width, on a sample.
+Clusters clusters_of_width(const NoisySurface& surface, double width) {
+    const double all = surface.stars.count(), vertices = std::min(width * width, all);
+    const auto times = [&](double count) {
+        return static_cast<std::int32_t>(std::min(count * vertices, all));
+    };
+    const int radius = std::max(1, static_cast<int>(std::sqrt(vertices) / kWidthOfRadius));
+    return clusters_of(sample_of(surface, times(kSample), {}, times(kPatch)), radius);
+}
+
+/// Returns the treatment of noise wider than an edge, as clusters show it.
+Choice treatment_of_width(const Clusters& clusters, NoiseWishes wishes) {
+    const double edge = clusters.edge;
+    wishes.noise /= edge;
+    wishes.detail_size /= edge;
+    wishes.width = std::max(1.0, wishes.width / edge);
+    Choice choice = best_treatment(clusters.sample, wishes);
+    StepSettings& settings = choice.treatment.settings;
+    settings.normal_length *= edge;
+    settings.step_size *= edge * edge;
+    settings.normal_step_size *= edge * edge;
+    choice.treatment.sharpening.iterations =
+        static_cast<int>(std::lround(choice.treatment.sharpening.iterations * edge * edge));
+    choice.noise *= edge;
+    return choice;
+}
+
+/// Returns the width of the noise, at least an edge: the one that is wished for, or that of stairs.
+double width_of_noise(const NoisySurface& surface, const Sample& sample, double wish,
+                      NoiseReport& report) {
+    // All of a large surface takes long.
+    if (wish > 0 || stairs_of(sample.surface).height == 0) return std::max(1.0, wish);
+    const Stairs stairs = stairs_of(surface);
+    if (!stairs.are_certain) return 1;
+    report.stairs = stairs.height;
+    return std::max(1.0, kWidthOfStairs * stairs.height);
+}
+
 /// Returns a choice's treatments, the one for the whole surface first.
 std::vector<Treatment> treatments_of(const Choice& choice, double sideways) {
     std::vector<Treatment> treatments = {choice.treatment};
@@ -130,16 +175,29 @@ double crease_of(double angle) {
 
 Positions denoised(NoisySurface& surface, double edge, const NoiseParameters& parameters,
                    NoiseReport& report) {
-    const NoiseWishes wishes = {crease_of(parameters.crease_angle), parameters.noise / edge,
-                                parameters.detail_size / edge, false,
-                                surface.stars.count() > kLargeSurface};
     enter_phase(0, "Measuring the noise");
-    const bool is_measured = wishes.noise == 0 && wishes.detail_size == 0;
-    const Sample sample = sample_of(surface, kSample);
+    NoiseWishes wishes;
+    wishes.crease = crease_of(parameters.crease_angle);
+    wishes.noise = parameters.noise / edge;
+    wishes.detail_size = parameters.detail_size / edge;
+    wishes.is_quick = surface.stars.count() > kLargeSurface;
+    const Sample sample = sample_of(surface, kSample, {}, kPatch);
+    wishes.width = width_of_noise(surface, sample, parameters.noise_size / edge, report);
+    wishes.is_certain = wishes.width > 1 || report.stairs > 0;
+    report.stairs *= edge;
+    report.noise_size = edge * wishes.width;
+    const bool is_measured = wishes.noise == 0 && wishes.detail_size == 0 && !wishes.is_certain;
     report.noise = parameters.noise;
-    report.stop = is_measured ? obstacle(sample) : NoiseStop::None;
+    Clusters clusters{{{{{}, 0}, {}, {}}, {}, {}}, 1};
+    if (wishes.width > 1) clusters = clusters_of_width(surface, wishes.width);
+    if (wishes.noise == 0 && wishes.detail_size == 0) {
+        report.stop = obstacle(wishes.width > 1 ? clusters.sample : sample);
+    } else {
+        report.stop = NoiseStop::None;
+    }
     if (report.stop != NoiseStop::None) return surface.positions;
-    const Choice choice = best_treatment(sample, wishes);
+    const Choice choice =
+        wishes.width > 1 ? treatment_of_width(clusters, wishes) : best_treatment(sample, wishes);
     if (wishes.noise == 0) report.noise = edge * choice.noise;
     if (choice.treatment.steps == 0) {
         report.stop = NoiseStop::NoNoise;

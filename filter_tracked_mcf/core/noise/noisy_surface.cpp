@@ -232,13 +232,19 @@ float sign_of(std::size_t number) {
 
 }  // namespace
 
-std::vector<float> random_signs(const Positions& positions) {
+std::vector<std::int32_t> in_rank(const Positions& positions) {
     std::vector<Ranked> vertices = ranked(positions);
     std::sort(vertices.begin(), vertices.end());
-    std::vector<float> signs(vertices.size());
-    for (std::size_t rank = 0; rank < vertices.size(); ++rank) {
-        signs[vertices[rank].vertex] = sign_of(rank);
-    }
+    std::vector<std::int32_t> order(vertices.size());
+    std::transform(vertices.begin(), vertices.end(), order.begin(),
+                   [](const Ranked& ranked) { return ranked.vertex; });
+    return order;
+}
+
+std::vector<float> random_signs(const Positions& positions) {
+    const std::vector<std::int32_t> order = in_rank(positions);
+    std::vector<float> signs(order.size());
+    for (std::size_t rank = 0; rank < order.size(); ++rank) signs[order[rank]] = sign_of(rank);
     return signs;
 }
 

@@ -51,6 +51,9 @@ struct Sample {
     std::vector<float> signs;  ///< per vertex: 1 or -1, at random
 };
 
+/// Returns the vertices in an order that does not depend on their numbers.
+std::vector<std::int32_t> in_rank(const Positions& positions);
+
 /// Returns a sign for each vertex, 1 or -1, at random, which does not depend on their order.
 std::vector<float> random_signs(const Positions& positions);
 

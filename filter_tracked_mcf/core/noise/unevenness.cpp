@@ -24,6 +24,13 @@ constexpr double kLeastShare = 0.01, kLeastGap = 0.02;
 /// A real part with steps has its steps farther apart.
 constexpr std::size_t kLeastPlanes = 3;
 constexpr double kNearPlanes = 1;
+/// Stairs are certain if in every direction with this share of the triangles there are so many
+/// planes, and this share of their gaps are multiples of one gap, up to the tolerance; and if no
+/// edge is longer than so many mean edges. A pyramid of steps that is modelled with faces as wide
+/// as a step cannot be told from voxels.
+constexpr double kMainDirection = 0.05;
+constexpr std::size_t kManyPlanes = 6;
+constexpr double kLeastEven = 0.9, kTolerance = 0.05, kLongestEdge = 3.6;
 
 /// Widths of lumps, in edges.
 constexpr std::array<double, 4> kLumpWidths = {1.4, 2, 2.8, 4};
@@ -33,7 +40,7 @@ constexpr std::int32_t kLumpSample = 2000, kLumpPatch = 1000;
 /// correlated than noise of this width is, and if it is as high as this, in edges.
 constexpr double kLeastTakenOfLumps = 0.5, kMostCorrelated = 1.1, kLeastHeight = 0.02;
 
-/// Where the planes of triangles are along a direction, per direction.
+/// Where the planes of triangles are along a direction, per direction; opposite ones are the same.
 using Offsets = std::map<std::array<int, 3>, std::vector<double>>;
 
 Offsets offsets_of(const NoisySurface& surface) {
@@ -41,22 +48,26 @@ Offsets offsets_of(const NoisySurface& surface) {
     for (const Triangle& t : surface.stars.triangles) {
         const auto [a, b, c] = corners_of(surface.positions, t);
         const Eigen::Vector3d normal = twice_vector_area(a, b, c).normalized();
-        std::array<int, 3> direction;
+        std::array<int, 3> direction, opposite;
         for (std::size_t axis = 0; axis < 3; ++axis) {
             direction[axis] =
                 static_cast<int>(std::lround(kUnits * normal[static_cast<Eigen::Index>(axis)]));
+            opposite[axis] = -direction[axis];
         }
-        offsets[direction].push_back(normal.dot(a + b + c) / 3);
+        const double sign = direction < opposite ? -1 : 1;
+        offsets[std::max(direction, opposite)].push_back(sign * normal.dot(a + b + c) / 3);
         // A smooth surface has too many directions.
         if (offsets.size() > surface.stars.triangles.size() / 4 + kDirections) return {};
     }
     return offsets;
 }
 
-/// The planes of one direction: their number, and the median of their distances.
+/// The planes of one direction: their number, the median of their distances, and whether these are
+/// multiples of the least one.
 struct Planes {
     std::size_t count = 0;
     double distance = 0;
+    bool are_even = false;
 };
 
 Planes planes_of(std::vector<double> offsets) {
@@ -66,17 +77,32 @@ Planes planes_of(std::vector<double> offsets) {
         const double gap = offsets[i] - offsets[i - 1];
         if (gap > kLeastGap) gaps.push_back(gap);
     }
-    if (gaps.empty()) return {1, 0};
+    if (gaps.empty()) return {1, 0, false};
     const auto middle = gaps.begin() + static_cast<std::ptrdiff_t>(gaps.size() / 2);
     std::nth_element(gaps.begin(), middle, gaps.end());
-    return {gaps.size() + 1, *middle};
+    const double distance = *middle;
+    const auto even = std::count_if(gaps.begin(), gaps.end(), [&](double gap) {
+        const double ratio = gap / distance;
+        return std::abs(ratio - std::max(1.0, std::round(ratio))) < kTolerance;
+    });
+    return {gaps.size() + 1, distance,
+            static_cast<double>(even) >= kLeastEven * static_cast<double>(gaps.size())};
+}
+
+/// Returns whether a surface has an edge that is much longer than others.
+bool has_long_edges(const NoisySurface& surface) {
+    return std::any_of(
+        surface.stars.triangles.begin(), surface.stars.triangles.end(), [&](const Triangle& t) {
+            const auto [a, b, c] = corners_of(surface.positions, t);
+            return std::max({(a - b).norm(), (b - c).norm(), (c - a).norm()}) > kLongestEdge;
+        });
 }
 
 }  // namespace
 
-double height_of_stairs(const NoisySurface& surface) {
+Stairs stairs_of(const NoisySurface& surface) {
     const std::size_t count = surface.stars.triangles.size();
-    if (count < kLeastTriangles) return 0;
+    if (count < kLeastTriangles) return {};
     std::vector<std::vector<double>> directions;
     for (auto& [direction, offsets] : offsets_of(surface)) directions.push_back(std::move(offsets));
     std::sort(directions.begin(), directions.end(),
@@ -84,12 +110,14 @@ double height_of_stairs(const NoisySurface& surface) {
     directions.resize(std::min(directions.size(), kDirections));
     std::size_t covered = 0, most_planes = 0;
     double nearest = 2 * kNearPlanes, farthest = 0;
+    bool are_certain = true;
     for (const std::vector<double>& offsets : directions) {
         covered += offsets.size();
         const double share = static_cast<double>(offsets.size()) / static_cast<double>(count);
         if (share < kLeastShare) continue;
         const Planes planes = planes_of(offsets);
         most_planes = std::max(most_planes, planes.count);
+        are_certain &= share < kMainDirection || (planes.are_even && planes.count >= kManyPlanes);
         if (planes.distance == 0) continue;
         nearest = std::min(nearest, planes.distance);
         farthest = std::max(farthest, planes.distance);
@@ -97,17 +125,20 @@ double height_of_stairs(const NoisySurface& surface) {
     const bool are_stairs =
         static_cast<double>(covered) >= kLeastCovered * static_cast<double>(count) &&
         most_planes >= kLeastPlanes && nearest <= kNearPlanes;
-    return are_stairs ? farthest : 0;
+    if (!are_stairs) return {};
+    return {farthest, are_certain && !has_long_edges(surface)};
 }
 
 Unevenness unevenness_of(const NoisySurface& surface, const NoiseWishes& wishes) {
     Unevenness found;
     const Sample sample = sample_of(surface, kLumpSample, {}, kLumpPatch);
     // All of a large surface takes long.
-    if (height_of_stairs(sample.surface) > 0) found.stairs = height_of_stairs(surface);
+    if (stairs_of(sample.surface).height > 0) found.stairs = stairs_of(surface).height;
     if (found.stairs > 0) return found;
     for (const double width : kLumpWidths) {
-        const NoiseOfWidth noise = noise_of_width(sample, wishes, width);
+        NoiseWishes of_width = wishes;
+        of_width.width = width;
+        const NoiseOfWidth noise = noise_of_width(sample, of_width);
         if (noise.taken >= kLeastTakenOfLumps && noise.correlation <= kMostCorrelated &&
             noise.height >= kLeastHeight) {
             found.width = width;

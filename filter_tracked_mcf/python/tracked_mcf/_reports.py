@@ -40,9 +40,10 @@ class NoiseReport(Report, _Quality):
 
     stop: str  # why no noise was removed, or "none"
     noise: float  # standard deviation along the normals
+    noise_size: float  # how wide what counts as noise is
     outliers: int  # vertices with so much more noise that they hardly counted
-    stairs: float  # height of stairs; 0 if there are none, or noise was removed
-    lump_width: float  # of what may be noise in lumps or waves, likewise
+    stairs: float  # height of stairs; 0 if there are none
+    lump_width: float  # where no noise was removed: of what may be noise in lumps or waves
     lump_height: float
     crease_share: float  # share of the area in triangles that a crease crosses
     steps: int

@@ -74,8 +74,8 @@ def _fair_results(report):
 
 def _noise_results(report):
     return {**_smoothing_results(report),
-            **{key: report[key] for key in ("noise", "outliers", "crease_share", "steps", "stairs", "lump_width",
-                                            "lump_height", "lost_area", "lost_volume")}}
+            **{key: report[key] for key in ("noise", "noise_size", "outliers", "crease_share", "steps", "stairs",
+                                            "lump_width", "lump_height", "lost_area", "lost_volume")}}
 
 
 def _flow_results(report):

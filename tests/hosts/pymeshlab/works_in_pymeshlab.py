@@ -85,7 +85,7 @@ def parameters_of(settings):
     """Returns the arguments of a script for settings in the program's words."""
     for name, text in runs.by_index(settings).items():
         value = {"true": True}.get(text) or (float(text) if re.search("[.e]", text) else int(text))
-        if name in ("detail_size", "noise", "largest_movement"):
+        if name in ("detail_size", "noise", "noise_size", "largest_movement"):
             value = pymeshlab.PureValue(value)
         yield name, float(value) if name == "step_size" else value
 

@@ -369,6 +369,7 @@ TEST(RemoveNoise, RefusesWhatItCannotDo) {
     for (const double value : {-1.0, infinity, std::numeric_limits<double>::quiet_NaN()}) {
         refuses(&NoiseParameters::crease_angle, value);
         refuses(&NoiseParameters::noise, value);
+        refuses(&NoiseParameters::noise_size, value);
         refuses(&NoiseParameters::detail_size, value);
         refuses(&NoiseParameters::largest_movement, value);
     }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "filter_tracked_mcf/core/mesh/mesh_topology.h"
+#include "filter_tracked_mcf/core/noise/clusters.h"
 #include "filter_tracked_mcf/core/noise/rim.h"
 #include "filter_tracked_mcf/core/noise/unevenness.h"
 #include "tests/support/shapes.h"
@@ -239,40 +240,8 @@ TEST(SmoothRim, KeepsToItsBox) {
     EXPECT_EQ(confined, surface.positions);
 }
 
-TEST(RemoveNoise, LeavesWhatHasNoNoise) {
-    const auto expect_kept = [](const TriangleMesh& mesh, NoiseStop stop) {
-        TriangleMesh after = mesh;
-        EXPECT_EQ(remove_noise(after, {}, {}).stop, stop);
-        EXPECT_TRUE(same_bits(after, mesh));
-    };
-    for (const int n : {1, 2, 3}) expect_kept(shapes::box(n, {1, 2, 3}), NoiseStop::TooFewVertices);
-    expect_kept(with_noise(shapes::box(5, {1, 1, 1}), 0.1), NoiseStop::TooManyCreases);
-    for (const TriangleMesh& mesh :
-         {shapes::geodesic_sphere(20), shapes::bumpy_sphere(20), hills(0), shapes::square(30)}) {
-        expect_kept(mesh, NoiseStop::NoNoise);
-    }
-}
-
-TEST(Stairs, HaveTheHeightOfTheirSteps) {
-    const auto height_of = [](const TriangleMesh& mesh) {
-        const SurfaceOfMesh surface = surface_of(Domain(mesh, BoundaryCondition::Free));
-        return surface.edge * height_of_stairs(surface.surface);
-    };
-    TriangleMesh stairs = shapes::square(60);
-    const double step = 0.7 / 60;  // every second quad is a tread, the others are risers
-    for (Eigen::Vector3d& p : stairs.positions) p.z() = step * std::floor(30.25 * p.x());
-    const Eigen::Affine3d turn(Eigen::AngleAxisd(1, Eigen::Vector3d(1, 2, 3).normalized()));
-    EXPECT_NEAR(height_of(stairs), step, 1e-9);
-    EXPECT_NEAR(height_of(shapes::transformed(stairs, turn)), step, 1e-9);
-    for (const TriangleMesh& mesh : {shapes::box(30, {1, 1, 1}), shapes::geodesic_sphere(20),
-                                     shapes::square(40), with_noise(stairs, 0.1)}) {
-        EXPECT_EQ(height_of(mesh), 0);
-    }
-}
-
-TEST(RemoveNoise, NamesLumps) {
-    // Noise averaged over neighbours, four times.
-    const TriangleMesh clean = shapes::box(40, {1, 1, 1});
+/// Moves vertices along their normals by noise averaged over neighbours, four times: 0.2 edges.
+TriangleMesh lumpy(const TriangleMesh& clean) {
     std::mt19937 random(1);
     std::normal_distribution<double> normal;
     std::vector<double> heights(clean.positions.size());
@@ -290,12 +259,133 @@ TEST(RemoveNoise, NamesLumps) {
     for (const double height : heights) squares += height * height;
     const double edge = mean_edge_length(clean);
     const double scale = 0.2 * edge / std::sqrt(squares / static_cast<double>(heights.size()));
-    TriangleMesh lumpy = clean;
+    TriangleMesh mesh = clean;
     const std::vector<Eigen::Vector3d> normals = vertex_normals(clean);
     for (std::size_t v = 0; v < heights.size(); ++v) {
-        lumpy.positions[v] += scale * heights[v] * normals[v];
+        mesh.positions[v] += scale * heights[v] * normals[v];
     }
-    const NoiseReport report = report_of(lumpy);
+    return mesh;
+}
+
+TEST(RemoveNoise, LeavesWhatHasNoNoise) {
+    const auto expect_kept = [](const TriangleMesh& mesh, NoiseStop stop) {
+        TriangleMesh after = mesh;
+        EXPECT_EQ(remove_noise(after, {}, {}).stop, stop);
+        EXPECT_TRUE(same_bits(after, mesh));
+    };
+    for (const int n : {1, 2, 3}) expect_kept(shapes::box(n, {1, 2, 3}), NoiseStop::TooFewVertices);
+    expect_kept(with_noise(shapes::box(5, {1, 1, 1}), 0.1), NoiseStop::TooManyCreases);
+    for (const TriangleMesh& mesh :
+         {shapes::geodesic_sphere(20), shapes::bumpy_sphere(20), hills(0), shapes::square(30)}) {
+        expect_kept(mesh, NoiseStop::NoNoise);
+    }
+}
+
+/// Returns a square of n x n cells that rises in steps of `step`, each `width` cells wide.
+TriangleMesh steps(int n, double step, double width) {
+    TriangleMesh mesh = shapes::square(n);
+    for (Eigen::Vector3d& p : mesh.positions) {
+        p.z() = step * std::floor((n * p.x() + 0.25) / width + 0.3 * n * p.y() / width);
+    }
+    return mesh;
+}
+
+TEST(Stairs, HaveTheHeightOfTheirSteps) {
+    const auto stairs_on = [](const TriangleMesh& mesh) {
+        const SurfaceOfMesh surface = surface_of(Domain(mesh, BoundaryCondition::Free));
+        Stairs stairs = stairs_of(surface.surface);
+        stairs.height *= surface.edge;
+        return stairs;
+    };
+    const double step = 0.7 / 60;
+    const TriangleMesh stairs = steps(60, step, 2);
+    const Eigen::Affine3d turn(Eigen::AngleAxisd(1, Eigen::Vector3d(1, 2, 3).normalized()));
+    for (const TriangleMesh& mesh : {stairs, shapes::transformed(stairs, turn)}) {
+        EXPECT_NEAR(stairs_on(mesh).height, step, 1e-9);
+        EXPECT_TRUE(stairs_on(mesh).are_certain);
+    }
+    // A model of four terraces may be meant.
+    EXPECT_NEAR(stairs_on(steps(60, step, 20)).height, step, 1e-9);
+    EXPECT_FALSE(stairs_on(steps(60, step, 20)).are_certain);
+    for (const TriangleMesh& mesh : {shapes::box(30, {1, 1, 1}), shapes::geodesic_sphere(20),
+                                     shapes::square(40), with_noise(stairs, 0.1)}) {
+        EXPECT_EQ(stairs_on(mesh).height, 0);
+    }
+}
+
+TEST(RemoveNoise, SmoothsStairs) {
+    const double step = 0.7 / 60;
+    const TriangleMesh stairs = steps(60, step, 2);
+    /// Returns the standard deviation from the slope that the stairs follow.
+    const auto error = [&](const TriangleMesh& mesh) {
+        double sum = 0, squares = 0;
+        for (const Eigen::Vector3d& p : mesh.positions) {
+            const double height = p.z() - step * (30 * p.x() + 9 * p.y());
+            sum += height;
+            squares += height * height;
+        }
+        const auto count = static_cast<double>(mesh.positions.size());
+        return std::sqrt(squares / count - sum / count * sum / count);
+    };
+    EXPECT_NEAR(report_of(stairs).stairs, step, 1e-9);
+    EXPECT_LT(error(denoised(stairs)), 0.4 * error(stairs));
+    NoiseParameters vertices;
+    vertices.noise_size = 1e-6;
+    const NoiseReport report = report_of(stairs, vertices);
+    EXPECT_NEAR(report.noise_size, mean_edge_length(stairs), 1e-9);
+    EXPECT_EQ(report.stairs, 0) << "they were not looked for";
+}
+
+TEST(RemoveNoise, RemovesNoiseOfASizeThatItIsTold) {
+    const TriangleMesh clean = shapes::box(40, {1, 1, 1});
+    const double edge = mean_edge_length(clean);
+    const TriangleMesh lumps = lumpy(clean);
+    NoiseParameters parameters;
+    parameters.noise_size = 4 * edge;
+    const std::vector<Eigen::Vector3d> normals = vertex_normals(clean);
+    const auto error = [&](const TriangleMesh& mesh) {
+        double squares = 0;
+        for (std::size_t i = 0; i < normals.size(); ++i) {
+            const double height = (mesh.positions[i] - clean.positions[i]).dot(normals[i]);
+            squares += height * height;
+        }
+        return std::sqrt(squares);
+    };
+    EXPECT_GT(error(denoised(lumps)), 0.99 * error(lumps)) << "lumps may be detail";
+    const TriangleMesh after = denoised(lumps, parameters);
+    EXPECT_LT(error(after), 0.5 * error(lumps));
+    EXPECT_DOUBLE_EQ(report_of(lumps, parameters).noise_size, 4 * edge);
+    parameters.noise_size = 1e300;
+    EXPECT_EQ(report_of(lumps, parameters).stop, NoiseStop::TooFewVertices);
+}
+
+TEST(Clusters, DoNotDependOnTheOrderOfVertices) {
+    TriangleMesh mesh = with_noise(shapes::torus(60, 24, 1, 0.4), 0.1), reversed = mesh;
+    std::reverse(reversed.positions.begin(), reversed.positions.end());
+    const auto last = static_cast<std::int32_t>(mesh.positions.size()) - 1;
+    for (Triangle& t : reversed.triangles) {
+        for (std::int32_t& vertex : t) vertex = last - vertex;
+    }
+    const auto clusters_on = [](const TriangleMesh& surface) {
+        return clusters_of(sample_of(surface_of_mesh(surface), 10000), 2);
+    };
+    const Clusters some = clusters_on(mesh), others = clusters_on(reversed);
+    EXPECT_NEAR(some.edge, others.edge, 1e-9);
+    EXPECT_GT(some.edge, 2);
+    ASSERT_EQ(some.sample.signs.size(), others.sample.signs.size());
+    EXPECT_EQ(some.sample.surface.stars.triangles.size(),
+              others.sample.surface.stars.triangles.size());
+    for (std::size_t i = 0; i < some.sample.signs.size(); ++i) {
+        EXPECT_LT((some.sample.surface.positions[i] - others.sample.surface.positions[i]).norm(),
+                  1e-9);
+        EXPECT_EQ(some.sample.signs[i], others.sample.signs[i]);
+    }
+}
+
+TEST(RemoveNoise, NamesLumps) {
+    const TriangleMesh clean = shapes::box(40, {1, 1, 1});
+    const double edge = mean_edge_length(clean);
+    const NoiseReport report = report_of(lumpy(clean));
     EXPECT_EQ(report.stop, NoiseStop::NoNoise);
     EXPECT_GT(report.lump_width, 1.3 * edge);
     EXPECT_LT(report.lump_width, 4.1 * edge);
