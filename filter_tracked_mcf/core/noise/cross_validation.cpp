@@ -33,6 +33,8 @@ constexpr double kSmallNoise = 0.2;
 
 /// The trial that measures the noise takes this length of the metric and this step size.
 constexpr double kTrialNormalLength = 2.6, kTrialStepSize = 0.15;
+/// With more noise than this it may vary so widely that it passes for detail.
+constexpr double kLargeNoise = 0.1;
 
 /// The weight γ of robust cross-validation; without it, noise is sometimes taken for detail.
 constexpr double kRobustness = 0.8;
@@ -126,6 +128,10 @@ public:
         const bool may_be_none =
             wishes_.detail_size == 0 && wishes_.noise == 0 && !wishes_.is_certain;
         if (may_be_none && noise_ < kNoNoise) return choice;
+        if (may_be_none && !wishes_.has_fidelities && noise_ > kLargeNoise && trial_varies()) {
+            choice.kind = NoiseKind::Varying;
+            return choice;
+        }
         if (wishes_.detail_size > 0) {
             for (const double length : kNormalLengths) try_detail_size(length);
         } else {
@@ -215,6 +221,13 @@ private:
             untreated_.perturbed[vertex] +=
                 perturbation / root(vertex) * signs_[vertex] * normal(vertex);
         });
+    }
+
+    /// Returns whether a trial without creases takes much more in some places than in others.
+    bool trial_varies() {
+        Twins twins = untreated_;
+        smoothing_.step(trial_settings(), box_, twins.plain);
+        return varies_widely(sample_.surface.stars, heights_of(twins), sample_.counts);
     }
 
     /// Returns the treatments beside the best one that suit some places of the sample better.
@@ -428,6 +441,10 @@ private:
 };
 
 }  // namespace
+
+StepSettings trial_settings() {
+    return {0, kTrialStepSize, kNormalStepSize};
+}
 
 Choice best_treatment(const Sample& sample, const NoiseWishes& wishes) {
     return Trials(sample, wishes).best();

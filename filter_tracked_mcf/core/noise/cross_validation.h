@@ -16,13 +16,15 @@ struct NoiseWishes {
     double detail_size = 0;   ///< see NoiseParameters::detail_size; 0: what the noise needs
     double width = 1;         ///< of the noise, at least 1
     bool is_certain = false;  ///< whether noise is removed even if it may be detail
-    bool is_quick = false;    ///< whether Choice::others are few and share the treatment's steps
+    bool has_fidelities = false;  ///< whether those of the sample show noise that varies
+    bool is_quick = false;  ///< whether Choice::others are few and share the treatment's steps
 };
 
 /// How to remove the noise of a surface, as a sample shows.
 struct Choice {
     Treatment treatment;  ///< without steps if there is hardly any noise
     double noise = 0;     ///< its standard deviation, in edges
+    /// If it varies, a treatment suits only a sample with fidelities, and there may be none.
     NoiseKind kind = NoiseKind::Even;
     /// Treatments that suit some places better, the most useful ones first. None if the noise is
     /// not even, or if one of the wishes sets how much is removed.
@@ -55,6 +57,9 @@ struct NoiseOfWidth {
     /// Correlation of what it takes over twice the width, relative to that of noise of this width.
     double correlation = 0;
 };
+
+/// Returns a short step that keeps no creases.
+StepSettings trial_settings();
 
 /// Tries a few treatments on a sample whose noise may have the width that is wished.
 NoiseOfWidth noise_of_width(const Sample& sample, const NoiseWishes& wishes);

@@ -37,10 +37,8 @@ constexpr double kSideways = 2;
 /// Larger surfaces have fewer treatments to choose from, and only such as share their steps.
 constexpr std::int32_t kLargeSurface = 100000;
 
-/// How often a surface is treated with fidelities.
-int rounds_of(NoiseKind kind) {
-    return kind == NoiseKind::Outliers ? 3 : 2;
-}
+/// How often a surface with outliers is treated anew.
+constexpr int kRounds = 3;
 
 /// A vertex with less fidelity than this is an outlier.
 constexpr float kFidelityOfOutliers = 0.1F;
@@ -94,32 +92,6 @@ std::vector<float> heights_of(const NoisySurface& surface, const Positions& trea
     return heights;
 }
 
-/// Treats a surface again and again, with the fidelities that its residuals show.
-void treat_with_fidelities(NoisySurface& surface, NoiseWishes wishes, NoiseKind kind,
-                           Treatment& treatment, Treated& treated, NoiseReport& report) {
-    wishes.is_certain = true;
-    const std::vector<float> strengths = surface.fidelity;
-    const double sideways = treatment.settings.sideways;
-    for (int round = 0; round < rounds_of(kind); ++round) {
-        const ProgressSpan span(1.0 * round / rounds_of(kind), (round + 1.0) / rounds_of(kind));
-        const std::vector<float> fidelities =
-            fidelities_of(surface.stars, heights_of(surface, treated.positions[0]), kind);
-        treatment = best_treatment(sample_of(surface, kSample, fidelities), wishes).treatment;
-        treatment.settings.sideways = sideways;
-        for (std::size_t i = 0; i < fidelities.size(); ++i) {
-            surface.fidelity[i] = fidelities[i] * strengths[i];
-        }
-        const int iterations = treated.iterations;
-        treated = treat(surface, {treatment}, surface.positions);
-        treated.iterations += iterations;
-        if (kind != NoiseKind::Outliers) continue;
-        report.outliers = std::count_if(fidelities.begin(), fidelities.end(), [](float fidelity) {
-            return fidelity < kFidelityOfOutliers;
-        });
-    }
-    surface.fidelity = strengths;
-}
-
 /// Returns clusters of vertices that are a little narrower than noise of some width, on a sample.
 Clusters clusters_of_width(const NoisySurface& surface, double width) {
     const double all = surface.stars.count(), vertices = std::min(width * width, all);
@@ -158,13 +130,160 @@ double width_of_noise(const NoisySurface& surface, const Sample& sample, double 
     return std::max(1.0, kWidthOfStairs * stairs.height);
 }
 
-/// Returns a choice's treatments, the one for the whole surface first.
-std::vector<Treatment> treatments_of(const Choice& choice, double sideways) {
-    std::vector<Treatment> treatments = {choice.treatment};
-    treatments.insert(treatments.end(), choice.others.begin(), choice.others.end());
-    for (Treatment& treatment : treatments) treatment.settings.sideways = sideways;
-    return treatments;
-}
+/// Removes the noise of a surface, and reports on it.
+class Denoising {
+public:
+    Denoising(NoisySurface& surface, double edge, const NoiseParameters& parameters,
+              NoiseReport& report)
+        : surface_(surface),
+          edge_(edge),
+          along_normals_(parameters.along_normals),
+          report_(report),
+          sample_(sample_of(surface, kSample, {}, kPatch)) {
+        wishes_.crease = crease_of(parameters.crease_angle);
+        wishes_.noise = parameters.noise / edge;
+        wishes_.detail_size = parameters.detail_size / edge;
+        wishes_.is_quick = surface.stars.count() > kLargeSurface;
+        wishes_.width = width_of_noise(surface, sample_, parameters.noise_size / edge, report);
+        wishes_.is_certain = wishes_.width > 1 || report.stairs > 0;
+        report.stairs *= edge;
+        report.noise_size = edge * wishes_.width;
+        report.noise = parameters.noise;
+    }
+
+    Positions result() {
+        const Choice choice = first_choice();
+        if (report_.stop != NoiseStop::None) return surface_.positions;
+        if (wishes_.noise == 0) report_.noise = edge_ * choice.noise;
+        NoiseKind kind = is_measured() ? choice.kind : NoiseKind::Even;
+        sideways_ = along_normals_ ? 0 : kSideways * choice.noise;
+        Perturbation perturbation;
+        if (kind != NoiseKind::Varying) {
+            if (!has_treatment(choice)) return surface_.positions;
+            std::vector<Treatment> treatments = {choice.treatment};
+            treatments.insert(treatments.end(), choice.others.begin(), choice.others.end());
+            if (treatments.size() > 1) {
+                perturbation = perturbation_of(surface_, choice.treatment.settings, choice.noise);
+            }
+            const ProgressSpan span(0.2, 0.5);
+            treat_with(treatments, wishes_.is_quick ? perturbation : Perturbation());
+        }
+        if (report_.stop != NoiseStop::None) return surface_.positions;
+        const ProgressSpan span(0.5, 1);
+        if (treated_.positions.size() > 1) {
+            if (is_uneven(surface_, perturbation, treated_.positions[0])) {
+                kind = NoiseKind::Varying;
+            } else {
+                choose_locally(perturbation);
+            }
+        }
+        if (kind == NoiseKind::Varying) treat_by_local_noise();
+        if (kind == NoiseKind::Outliers) treat_without_outliers();
+        if (report_.stop != NoiseStop::None) return surface_.positions;
+        report_.steps = treatments_[0].steps;
+        report_.sharpenings = treatments_[0].sharpening.iterations;
+        report_.iterations = treated_.iterations;
+        report_.detail_size = edge_ * detail_size_of(treatments_[0]);
+        return std::move(treated_.positions[0]);
+    }
+
+private:
+    /// Returns whether the mesh itself says what its noise is, from vertex to vertex.
+    bool is_measured() const {
+        return wishes_.noise == 0 && wishes_.detail_size == 0 && !wishes_.is_certain;
+    }
+
+    /// Returns the treatment that the sample shows, or sets why there is none.
+    Choice first_choice() {
+        enter_phase(0, "Measuring the noise");
+        const bool is_wide = wishes_.width > 1;
+        Clusters clusters{{{{{}, 0}, {}, {}}, {}, {}}, 1};
+        if (is_wide) clusters = clusters_of_width(surface_, wishes_.width);
+        report_.stop = NoiseStop::None;
+        if (wishes_.noise == 0 && wishes_.detail_size == 0) {
+            report_.stop = obstacle(is_wide ? clusters.sample : sample_);
+        }
+        if (report_.stop != NoiseStop::None) return {};
+        return is_wide ? treatment_of_width(clusters, wishes_) : best_treatment(sample_, wishes_);
+    }
+
+    /// Returns whether there is a treatment. If not, it is detail that the surface has.
+    bool has_treatment(const Choice& choice) {
+        if (choice.treatment.steps > 0) return true;
+        report_.stop = NoiseStop::NoNoise;
+        report_unevenness(surface_, wishes_, edge_, report_);
+        return false;
+    }
+
+    /// Treats the surface, and reports the creases that the first treatment leaves. Too many of
+    /// them are noise.
+    void treat_with(std::vector<Treatment> treatments, const Perturbation& perturbation = {}) {
+        for (Treatment& treatment : treatments) treatment.settings.sideways = sideways_;
+        treatments_ = std::move(treatments);
+        const int iterations = treated_.iterations;
+        treated_ = treat(surface_, treatments_, surface_.positions, perturbation);
+        treated_.iterations += iterations;
+        if (wishes_.crease == 0) return;
+        report_.crease_share =
+            crease_share(surface_.stars, treated_.positions[0], treated_.normals, wishes_.crease);
+        if (!is_measured() || report_.crease_share <= kMostCreases) return;
+        report_.stop = NoiseStop::TooManyCreases;
+        report_.noise = 0;
+    }
+
+    /// Treats the surface with fidelities, as suits a sample that has them, too.
+    void treat_with_fidelities(const std::vector<float>& fidelities, const NoiseWishes& wishes) {
+        const Choice choice = best_treatment(sample_of(surface_, kSample, fidelities), wishes);
+        if (!has_treatment(choice)) return;
+        const std::vector<float> strengths = surface_.fidelity;
+        for (std::size_t i = 0; i < fidelities.size(); ++i) surface_.fidelity[i] *= fidelities[i];
+        treat_with({choice.treatment});
+        surface_.fidelity = strengths;
+    }
+
+    void treat_by_local_noise() {
+        Positions moved = surface_.positions;
+        Smoothing(surface_).step(trial_settings(), confinement(surface_.positions), moved);
+        NoiseWishes wishes = wishes_;
+        wishes.has_fidelities = true;
+        treat_with_fidelities(fidelities_to_noise(surface_.stars, heights_of(surface_, moved)),
+                              wishes);
+    }
+
+    void treat_without_outliers() {
+        NoiseWishes wishes = wishes_;
+        wishes.is_certain = true;
+        for (int round = 0; round < kRounds; ++round) {
+            const ProgressSpan span(1.0 * round / kRounds, (round + 1.0) / kRounds);
+            const std::vector<float> fidelities =
+                fidelities_to_outliers(surface_.stars, heights_of(surface_, treated_.positions[0]));
+            treat_with_fidelities(fidelities, wishes);
+            report_.outliers =
+                std::count_if(fidelities.begin(), fidelities.end(),
+                              [](float fidelity) { return fidelity < kFidelityOfOutliers; });
+        }
+    }
+
+    void choose_locally(const Perturbation& perturbation) {
+        if (treated_.twins.empty()) {
+            Treated twins =
+                treat(surface_, treatments_, perturbed(surface_.positions, perturbation));
+            treated_.twins.swap(twins.positions);
+            treated_.iterations += twins.iterations;
+        }
+        treated_.positions[0] = chosen_locally(surface_, perturbation, treated_);
+    }
+
+    NoisySurface& surface_;
+    const double edge_;
+    const bool along_normals_;
+    NoiseReport& report_;
+    const Sample sample_;
+    NoiseWishes wishes_;
+    double sideways_ = 0;
+    std::vector<Treatment> treatments_;  ///< of treated_
+    Treated treated_;
+};
 
 }  // namespace
 
@@ -175,78 +294,7 @@ double crease_of(double angle) {
 
 Positions denoised(NoisySurface& surface, double edge, const NoiseParameters& parameters,
                    NoiseReport& report) {
-    enter_phase(0, "Measuring the noise");
-    NoiseWishes wishes;
-    wishes.crease = crease_of(parameters.crease_angle);
-    wishes.noise = parameters.noise / edge;
-    wishes.detail_size = parameters.detail_size / edge;
-    wishes.is_quick = surface.stars.count() > kLargeSurface;
-    const Sample sample = sample_of(surface, kSample, {}, kPatch);
-    wishes.width = width_of_noise(surface, sample, parameters.noise_size / edge, report);
-    wishes.is_certain = wishes.width > 1 || report.stairs > 0;
-    report.stairs *= edge;
-    report.noise_size = edge * wishes.width;
-    const bool is_measured = wishes.noise == 0 && wishes.detail_size == 0 && !wishes.is_certain;
-    report.noise = parameters.noise;
-    Clusters clusters{{{{{}, 0}, {}, {}}, {}, {}}, 1};
-    if (wishes.width > 1) clusters = clusters_of_width(surface, wishes.width);
-    if (wishes.noise == 0 && wishes.detail_size == 0) {
-        report.stop = obstacle(wishes.width > 1 ? clusters.sample : sample);
-    } else {
-        report.stop = NoiseStop::None;
-    }
-    if (report.stop != NoiseStop::None) return surface.positions;
-    const Choice choice =
-        wishes.width > 1 ? treatment_of_width(clusters, wishes) : best_treatment(sample, wishes);
-    if (wishes.noise == 0) report.noise = edge * choice.noise;
-    if (choice.treatment.steps == 0) {
-        report.stop = NoiseStop::NoNoise;
-        report_unevenness(surface, wishes, edge, report);
-        return surface.positions;
-    }
-    const std::vector<Treatment> treatments =
-        treatments_of(choice, parameters.along_normals ? 0 : kSideways * choice.noise);
-    Treatment treatment = treatments.front();
-    Perturbation perturbation;
-    if (treatments.size() > 1) {
-        perturbation = perturbation_of(surface, treatment.settings, choice.noise);
-    }
-    Treated treated;
-    {
-        const ProgressSpan span(0.2, 0.5);
-        treated = treat(surface, treatments, surface.positions,
-                        wishes.is_quick ? perturbation : Perturbation());
-    }
-    if (wishes.crease > 0) {
-        report.crease_share =
-            crease_share(surface.stars, treated.positions[0], treated.normals, wishes.crease);
-    }
-    if (is_measured && report.crease_share > kMostCreases) {
-        report.stop = NoiseStop::TooManyCreases;
-        report.noise = 0;
-        return surface.positions;
-    }
-    NoiseKind kind = choice.kind;
-    if (treatments.size() > 1 && is_uneven(surface, perturbation, treated.positions[0])) {
-        kind = NoiseKind::Varying;
-    }
-    Positions positions;
-    const ProgressSpan span(0.5, 1);
-    if (is_measured && kind != NoiseKind::Even) {
-        treat_with_fidelities(surface, wishes, kind, treatment, treated, report);
-    } else if (treatments.size() > 1) {
-        if (treated.twins.empty()) {
-            Treated twins = treat(surface, treatments, perturbed(surface.positions, perturbation));
-            treated.twins.swap(twins.positions);
-            treated.iterations += twins.iterations;
-        }
-        treated.positions[0] = chosen_locally(surface, perturbation, treated);
-    }
-    report.steps = treatment.steps;
-    report.sharpenings = treatment.sharpening.iterations;
-    report.iterations = treated.iterations;
-    report.detail_size = edge * detail_size_of(treatment);
-    return std::move(treated.positions[0]);
+    return Denoising(surface, edge, parameters, report).result();
 }
 
 }  // namespace tracked_mcf

@@ -10,8 +10,8 @@ namespace tracked_mcf {
 /// the length of an edge in mesh units. Changes fidelities meanwhile.
 ///
 /// A sample shows which treatment suits the whole surface. Single places then choose among a few.
-/// Where the noise of single vertices is larger than that of others, the surface is treated again
-/// and again instead, each time with the fidelities that the last result shows.
+/// Where noise varies, or single vertices have much more of it, the surface is treated with
+/// fidelities instead.
 Positions denoised(NoisySurface& surface, double edge, const NoiseParameters& parameters,
                    NoiseReport& report);
 

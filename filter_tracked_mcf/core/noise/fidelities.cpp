@@ -28,9 +28,14 @@ constexpr double kMostRobust = 0.8, kLeastNoise = 0.02;
 /// most 0.12 where it is the same everywhere, at least 0.34 where it varies threefold.
 constexpr double kMostSpread = 0.18;
 
-/// A fidelity is this power of the inverse square of the noise: surfaces have less and less of
-/// shorter waves, so that the square itself would smooth too much where noise is large.
-constexpr float kPower = 0.75F;
+/// Noise varies widely where the logarithm of what a trial takes varies by more than this: 1.2 for
+/// a depth camera; at most 0.66 on clean meshes with their creases.
+constexpr double kWideSpread = 0.8;
+
+/// A fidelity is this power of the inverse of the noise. It is less than 2 because surfaces have
+/// less and less of shorter waves, so that the square itself would smooth too much where noise is
+/// large.
+constexpr float kPower = 1.5F;
 
 /// Heights of so many deviations have a quarter of the weight.
 constexpr float kOutlier = 3;
@@ -59,14 +64,20 @@ double robust_deviation(const std::vector<float>& heights) {
     return kOverMedian * median_of(map(heights, [](float height) { return std::abs(height); }));
 }
 
-/// Returns the same within a window around each vertex.
-std::vector<float> robust_deviations(const Stars& stars, const std::vector<float>& heights,
-                                     double deviation) {
+/// Returns the mean logarithm of heights in windows around the vertices.
+std::vector<float> mean_logarithms(const Stars& stars, const std::vector<float>& heights,
+                                   double deviation, int steps) {
     const float least = static_cast<float>(kLeastShare * deviation) + kTiny;
     std::vector<float> logarithms =
         map(heights, [&](float height) { return std::log(std::abs(height) + least); });
-    diffuse(stars, kSmallWindow, logarithms);
-    return map(logarithms, [](float logarithm) {
+    diffuse(stars, steps, logarithms);
+    return logarithms;
+}
+
+/// Returns the deviation of most heights within a window around each vertex.
+std::vector<float> robust_deviations(const Stars& stars, const std::vector<float>& heights,
+                                     double deviation) {
+    return map(mean_logarithms(stars, heights, deviation, kSmallWindow), [](float logarithm) {
         return static_cast<float>(kOverLogarithm) * std::exp(logarithm);
     });
 }
@@ -102,20 +113,23 @@ bool has_outliers(const Stars& stars, const std::vector<float>& heights,
            median_of(counted(ratios, counts)) < kMostRobust;
 }
 
+double spread_of(const std::vector<float>& values) {
+    double sum = 0, squares = 0;
+    for (const float value : values) sum += double{value};
+    const auto count = static_cast<double>(values.size());
+    for (const float value : values) {
+        const double difference = double{value} - sum / count;
+        squares += difference * difference;
+    }
+    return count > 0 ? std::sqrt(squares / count) : 0;
+}
+
 bool varies(const Stars& stars, const std::vector<float>& heights,
             const std::vector<std::uint8_t>& counts) {
     const std::vector<float> logarithms =
-        counted(map(mean_squares(stars, heights, kWindow),
-                    [](float square) { return std::log(square + kTiny) / 2; }),
-                counts);
-    double sum = 0, squares = 0;
-    for (const float logarithm : logarithms) sum += double{logarithm};
-    const auto count = static_cast<double>(logarithms.size());
-    for (const float logarithm : logarithms) {
-        const double difference = double{logarithm} - sum / count;
-        squares += difference * difference;
-    }
-    return squares > kMostSpread * kMostSpread * count;
+        map(mean_squares(stars, heights, kWindow),
+            [](float square) { return std::log(square + kTiny) / 2; });
+    return spread_of(counted(logarithms, counts)) > kMostSpread;
 }
 
 }  // namespace
@@ -126,20 +140,25 @@ NoiseKind kind_of_noise(const Stars& stars, const std::vector<float>& heights,
     return varies(stars, heights, counts) ? NoiseKind::Varying : NoiseKind::Even;
 }
 
-std::vector<float> fidelities_of(const Stars& stars, const std::vector<float>& heights,
-                                 NoiseKind kind) {
-    if (kind == NoiseKind::Even) return std::vector<float>(heights.size(), 1);
-    if (kind == NoiseKind::Varying) {
-        const std::vector<float> squares = mean_squares(stars, heights, kWindow);
-        const double sum = sum_over_rows(stars.count(), [&](std::int32_t vertex) {
-            return std::log(double{squares[vertex]} + double{kTiny});
-        });
-        const auto mean = static_cast<float>(std::exp(sum / stars.count()));
-        return map(squares, [&](float square) {
-            return std::clamp(std::pow(mean / (square + kTiny), kPower), kLeastFidelity,
-                              kMostFidelity);
-        });
-    }
+bool varies_widely(const Stars& stars, const std::vector<float>& heights,
+                   const std::vector<std::uint8_t>& counts) {
+    const double deviation = robust_deviation(counted(heights, counts));
+    return spread_of(counted(mean_logarithms(stars, heights, deviation, kWindow), counts)) >
+           kWideSpread;
+}
+
+std::vector<float> fidelities_to_noise(const Stars& stars, const std::vector<float>& heights) {
+    const std::vector<float> logarithms =
+        mean_logarithms(stars, heights, robust_deviation(heights), kWindow);
+    const double sum = sum_over_rows(
+        stars.count(), [&](std::int32_t vertex) { return double{logarithms[vertex]}; });
+    const auto mean = static_cast<float>(sum / stars.count());
+    return map(logarithms, [&](float logarithm) {
+        return std::clamp(std::exp(kPower * (mean - logarithm)), kLeastFidelity, kMostFidelity);
+    });
+}
+
+std::vector<float> fidelities_to_outliers(const Stars& stars, const std::vector<float>& heights) {
     const double deviation = robust_deviation(heights);
     std::vector<float> fidelities = robust_deviations(stars, heights, deviation);
     parallel_for_rows(stars.count(), [&](std::int32_t vertex) {

@@ -20,13 +20,20 @@ enum class NoiseKind {
 NoiseKind kind_of_noise(const Stars& stars, const std::vector<float>& heights,
                         const std::vector<std::uint8_t>& counts);
 
+/// Returns whether the noise is so much larger in some places than in others that no treatment of
+/// the whole surface tells it from detail. `heights` are those of a trial, see below.
+bool varies_widely(const Stars& stars, const std::vector<float>& heights,
+                   const std::vector<std::uint8_t>& counts);
+
+/// Returns how much each vertex should keep its position, relative to others, where noise varies.
+/// This falls with the noise around the vertex. `heights` are how far a trial has moved each vertex
+/// along its normal: a short step that keeps no creases, as large noise passes for them.
+std::vector<float> fidelities_to_noise(const Stars& stars, const std::vector<float>& heights);
+
 /// Returns how much each vertex should keep its position in a new treatment, relative to others, by
-/// how far the last one has moved it.
-///
-/// Where noise varies, this falls with its deviation around the vertex. With outliers it is the
-/// weight of Geman and McClure, (1 + (h / c)²)⁻²: c is three deviations of the heights around the
-/// vertex, so that detail, which moves whole neighbourhoods, does not count as outliers.
-std::vector<float> fidelities_of(const Stars& stars, const std::vector<float>& heights,
-                                 NoiseKind kind);
+/// how far the last one has moved it along its normal: the weight of Geman and McClure,
+/// (1 + (h / c)²)⁻², where c is three deviations of the heights around the vertex, so that detail,
+/// which moves whole neighbourhoods, does not count as outliers.
+std::vector<float> fidelities_to_outliers(const Stars& stars, const std::vector<float>& heights);
 
 }  // namespace tracked_mcf

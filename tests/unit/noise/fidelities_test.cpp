@@ -28,10 +28,6 @@ struct Heights {
         }
     }
 
-    std::vector<float> fidelities(NoiseKind kind) const {
-        return fidelities_of(surface.stars, values, kind);
-    }
-
     NoiseKind kind() const { return kind_of_noise(surface.stars, values, counts); }
 
     std::mt19937 random{1};
@@ -71,8 +67,9 @@ TEST(Fidelities, AreThoseOfVerticesThatCount) {
 
 TEST(Fidelities, AreSmallAtOutliersAlone) {
     std::vector<bool> is_far;
+    const Heights heights = with_impulses(0.02, 0.4, is_far);
     const std::vector<float> fidelities =
-        with_impulses(0.02, 0.4, is_far).fidelities(NoiseKind::Outliers);
+        fidelities_to_outliers(heights.surface.stars, heights.values);
     for (std::size_t i = 0; i < fidelities.size(); ++i) {
         if (is_far[i]) {
             EXPECT_LT(fidelities[i], 0.1F);
@@ -84,7 +81,8 @@ TEST(Fidelities, AreSmallAtOutliersAlone) {
 
 TEST(Fidelities, FallWithNoiseThatVaries) {
     const Heights heights([](double x) { return x < 0.5 ? 0.1 : 0.3; });
-    const std::vector<float> fidelities = heights.fidelities(NoiseKind::Varying);
+    const std::vector<float> fidelities =
+        fidelities_to_noise(heights.surface.stars, heights.values);
     double left = 0, right = 0;
     for (std::size_t i = 0; i < fidelities.size(); ++i) {
         const double x = heights.surface.positions[i].x();
@@ -92,19 +90,30 @@ TEST(Fidelities, FallWithNoiseThatVaries) {
         if (x > 10) right += std::log(double{fidelities[i]});
     }
     const double count = static_cast<double>(fidelities.size()) / 3;
-    EXPECT_NEAR(std::exp((left - right) / count), std::pow(3, 1.5), 0.8);
+    EXPECT_NEAR(std::exp((left - right) / count), std::pow(3, 1.5), 1.2);
 }
 
 TEST(Fidelities, AreFiniteForAnyHeights) {
     for (const double deviation : {0.0, 1e-30, 1e15}) {
         const Heights heights([&](double x) { return x < 0.1 ? 0 : deviation; });
-        for (const NoiseKind kind : {NoiseKind::Even, NoiseKind::Varying, NoiseKind::Outliers}) {
-            for (const float fidelity : heights.fidelities(kind)) {
+        for (const std::vector<float>& fidelities :
+             {fidelities_to_noise(heights.surface.stars, heights.values),
+              fidelities_to_outliers(heights.surface.stars, heights.values)}) {
+            for (const float fidelity : fidelities) {
                 EXPECT_GE(fidelity, 0.003F);
                 EXPECT_LE(fidelity, 1000);
             }
         }
     }
+}
+
+TEST(Fidelities, TellNoiseThatVariesWidelyFromNoiseThatVaries) {
+    const auto vary = [](const Heights& heights) {
+        return varies_widely(heights.surface.stars, heights.values, heights.counts);
+    };
+    EXPECT_FALSE(vary(Heights([](double /*x*/) { return 0.2; })));
+    EXPECT_FALSE(vary(Heights([](double x) { return x < 0.5 ? 0.1 : 0.3; })));
+    EXPECT_TRUE(vary(Heights([](double x) { return 0.02 * std::exp(4 * x); })));
 }
 
 }  // namespace

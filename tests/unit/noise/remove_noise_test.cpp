@@ -89,6 +89,20 @@ TEST(RemoveNoise, SmoothsMoreWhereTheNoiseIsLarger) {
               0.4 * error(half_of(before, clean, 1), clean));
 }
 
+TEST(RemoveNoise, SmoothsAlsoWhereTheNoiseIsAHundredTimesAsLarge) {
+    TriangleMesh clean = shapes::square(70);
+    const double edge = mean_edge_length(clean);
+    for (Eigen::Vector3d& p : clean.positions) p.z() = 0.1 * std::sin(6 * p.x()) * p.y();
+    const TriangleMesh noisy = with_noise(clean, 1);
+    TriangleMesh before = clean;
+    for (std::size_t i = 0; i < before.positions.size(); ++i) {
+        const double deviation = 0.01 * std::exp(4.6 * clean.positions[i].x());
+        before.positions[i] += deviation * (noisy.positions[i] - clean.positions[i]);
+    }
+    EXPECT_LT(error(denoised(before), clean), 0.3 * error(before, clean));
+    EXPECT_LT(error(before, clean), edge);
+}
+
 TEST(RemoveNoise, KeepsTheCreasesOfACube) {
     const TriangleMesh before = with_noise(cube(), 0.2);
     NoiseParameters none;
