@@ -61,35 +61,41 @@ def torus_with_seam(n, m):
     return large * circle + small * normals, grid_faces(n, m, 1), normals, numpy.stack([first, first + m], 1)
 
 
-def cube_of_quads(n):
-    """Returns a cube with n quads along each of its edges."""
+def box_of_quads(sizes):
+    """Returns a box with so many quads along its edges."""
     index, quads = {}, []
 
     def vertex(axis, end, i, j):
-        at = numpy.roll([end * n, i, j], axis)
+        at = numpy.roll([end * sizes[axis], i, j], axis)
         return index.setdefault(tuple(at.tolist()), len(index))
 
-    for axis, end, i, j in itertools.product(range(3), (0, 1), range(n), range(n)):
-        a, b, c, d = (vertex(axis, end, i + x, j + y) for x, y in ((0, 0), (1, 0), (1, 1), (0, 1)))
-        quads.append((a, b, c, d) if end else (a, d, c, b))
+    for axis, end in itertools.product(range(3), (0, 1)):
+        for i, j in itertools.product(range(sizes[(axis + 1) % 3]), range(sizes[(axis + 2) % 3])):
+            a, b, c, d = (vertex(axis, end, i + x, j + y) for x, y in ((0, 0), (1, 0), (1, 1), (0, 1)))
+            quads.append((a, b, c, d) if end else (a, d, c, b))
     return numpy.array(list(index), float), numpy.array(quads)
+
+
+def box(sizes):
+    """Returns a box with so many times two triangles along its edges."""
+    vertices, quads = box_of_quads(sizes)
+    return vertices, quads[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)
 
 
 def cube(n):
     """Returns a cube with n times two triangles along each of its edges."""
-    vertices, quads = cube_of_quads(n)
-    return vertices, quads[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)
+    return box((n, n, n))
 
 
 def oblique_block():
     """Returns a block of 12 triangles, two sides of which are rhomboids."""
-    vertices, quads = cube_of_quads(1)
+    vertices, quads = box_of_quads((1, 1, 1))
     return vertices @ ((3, 0, 0), (6, 9, 0), (0, 0, 1)), quads[:, [0, 1, 3, 1, 2, 3]].reshape(-1, 3)
 
 
 def cube_with_middles():
     """Returns a cube whose sides have four triangles each, around a vertex in the middle."""
-    vertices, quads = cube_of_quads(1)
+    vertices, quads = box_of_quads((1, 1, 1))
     middles = numpy.repeat(len(vertices) + numpy.arange(len(quads)), 4)
     faces = numpy.stack([quads.ravel(), numpy.roll(quads, -1, axis=1).ravel(), middles], 1)
     return numpy.vstack([vertices, vertices[quads].mean(axis=1)]), faces

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""VTK's windowed sinc smoother over its settings, to compare with."""
+"""VTK's windowed sinc smoother over its settings, to compare with, and its surfaces of voxels."""
 
 import pathlib
 import sys
@@ -10,8 +10,8 @@ from experiment import processor_seconds, skip
 try:
     from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
     from vtkmodules.vtkCommonCore import vtkPoints, vtkVersion
-    from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
-    from vtkmodules.vtkFiltersCore import vtkWindowedSincPolyDataFilter
+    from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkImageData, vtkPolyData
+    from vtkmodules.vtkFiltersCore import vtkFlyingEdges3D, vtkWindowedSincPolyDataFilter
 except ImportError:
     skip(f"{pathlib.Path(sys.argv[0]).stem}: this Python has no VTK; pip install vtk")
 
@@ -49,3 +49,21 @@ def sinc_families(surface, vertices):
     return [[lambda: smoothed(surface, vertices)],
             *([lambda count=count, band=band: smoothed(surface, vertices, count, band) for band in PASS_BANDS]
               for count in ITERATIONS)]
+
+
+def isosurface(inside, spacing):
+    """Returns the vertices and triangles between the samples inside and outside, by marching cubes. The first sample is at
+    the origin."""
+    image, edges = vtkImageData(), vtkFlyingEdges3D()
+    image.SetDimensions(*inside.shape)
+    image.SetSpacing(*spacing)
+    image.GetPointData().SetScalars(numpy_to_vtk(inside.ravel(order="F").astype(numpy.float32), deep=True))
+    edges.SetInputData(image)
+    edges.SetValue(0, 0.5)
+    edges.ComputeNormalsOff()
+    edges.Update()
+    surface = edges.GetOutput()
+    vertices = vtk_to_numpy(surface.GetPoints().GetData()).astype(float)
+    faces = vtk_to_numpy(surface.GetPolys().GetConnectivityArray()).reshape(-1, 3).astype(int)
+    used, faces = numpy.unique(faces, return_inverse=True)
+    return vertices[used], faces.reshape(-1, 3)

@@ -24,12 +24,11 @@ constexpr double kLeastShare = 0.01, kLeastGap = 0.02;
 /// A real part with steps has its steps farther apart.
 constexpr std::size_t kLeastPlanes = 3;
 constexpr double kNearPlanes = 1;
-/// Stairs are certain if in every direction with this share of the triangles there are so many
-/// planes, and this share of their gaps are multiples of one gap, up to the tolerance; and if no
-/// edge is longer than so many mean edges. A pyramid of steps that is modelled with faces as wide
-/// as a step cannot be told from voxels.
-constexpr double kMainDirection = 0.05;
-constexpr std::size_t kManyPlanes = 6;
+/// Stairs are certain if at least so many directions have many planes each, this share of whose
+/// gaps are multiples of one gap, up to the tolerance; and if no edge is longer than so many mean
+/// edges. A plate with studs has only two such directions. A pyramid of steps that is modelled with
+/// faces as wide as a step cannot be told from voxels.
+constexpr std::size_t kEvenDirections = 3, kManyPlanes = 10;
 constexpr double kLeastEven = 0.9, kTolerance = 0.05, kLongestEdge = 3.6;
 
 /// Widths of lumps, in edges.
@@ -110,14 +109,14 @@ Stairs stairs_of(const NoisySurface& surface) {
     directions.resize(std::min(directions.size(), kDirections));
     std::size_t covered = 0, most_planes = 0;
     double nearest = 2 * kNearPlanes, farthest = 0;
-    bool are_certain = true;
+    std::size_t even = 0;
     for (const std::vector<double>& offsets : directions) {
         covered += offsets.size();
         const double share = static_cast<double>(offsets.size()) / static_cast<double>(count);
         if (share < kLeastShare) continue;
         const Planes planes = planes_of(offsets);
         most_planes = std::max(most_planes, planes.count);
-        are_certain &= share < kMainDirection || (planes.are_even && planes.count >= kManyPlanes);
+        if (planes.are_even && planes.count >= kManyPlanes) ++even;
         if (planes.distance == 0) continue;
         nearest = std::min(nearest, planes.distance);
         farthest = std::max(farthest, planes.distance);
@@ -126,7 +125,7 @@ Stairs stairs_of(const NoisySurface& surface) {
         static_cast<double>(covered) >= kLeastCovered * static_cast<double>(count) &&
         most_planes >= kLeastPlanes && nearest <= kNearPlanes;
     if (!are_stairs) return {};
-    return {farthest, are_certain && !has_long_edges(surface)};
+    return {farthest, even >= kEvenDirections && !has_long_edges(surface)};
 }
 
 Unevenness unevenness_of(const NoisySurface& surface, const NoiseWishes& wishes) {

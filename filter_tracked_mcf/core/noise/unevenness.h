@@ -14,8 +14,9 @@ struct Stairs {
 /// Returns the stairs of a surface.
 ///
 /// Stairs have few directions of triangles, at least three parallel planes in one of these, and
-/// planes that are nearer to each other than an edge. They are certain if there are many planes at
-/// equal distances, and no long edges, as of voxels, slices or whole numbers.
+/// planes that are nearer to each other than an edge. They are certain if three directions have
+/// many planes at equal distances, and if there are no long edges, as of voxels, slices or whole
+/// numbers.
 Stairs stairs_of(const NoisySurface& surface);
 
 /// What a surface without noise from vertex to vertex has instead. Lengths are in edges.
