@@ -24,9 +24,8 @@ const std::vector<ParameterOf<NoiseParameters>>& parameter_table() {
                   Type::Length,
                   {0, kFinite, ", in units of the mesh, where 0 is that of stairs or vertices"}),
               "noise_size", "Size of the noise (0: auto)",
-              "How wide noise is: the distance of voxels or slices, half the width of lumps, half "
-              "the length of ripples; rather too large than too small. 0 is the size of stairs, if "
-              "the mesh consists of them, or else of single vertices."),
+              "The distance of voxels or slices; half the width of lumps. 0: that of stairs, or of "
+              "vertices."),
         named(access<&P::detail_size>(
                   Type::Length,
                   {0, kFinite, ", in units of the mesh, where 0 takes what the noise needs"}),

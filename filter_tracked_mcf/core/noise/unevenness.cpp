@@ -61,8 +61,8 @@ Offsets offsets_of(const NoisySurface& surface) {
     return offsets;
 }
 
-/// The planes of one direction: their number, the median of their distances, and whether these are
-/// multiples of the least one.
+/// The planes of one direction: their number, and whether their distances are multiples of the
+/// least one. `distance` is the least one then, or else the median.
 struct Planes {
     std::size_t count = 0;
     double distance = 0;
@@ -77,15 +77,14 @@ Planes planes_of(std::vector<double> offsets) {
         if (gap > kLeastGap) gaps.push_back(gap);
     }
     if (gaps.empty()) return {1, 0, false};
-    const auto middle = gaps.begin() + static_cast<std::ptrdiff_t>(gaps.size() / 2);
-    std::nth_element(gaps.begin(), middle, gaps.end());
-    const double distance = *middle;
+    std::sort(gaps.begin(), gaps.end());
     const auto even = std::count_if(gaps.begin(), gaps.end(), [&](double gap) {
-        const double ratio = gap / distance;
-        return std::abs(ratio - std::max(1.0, std::round(ratio))) < kTolerance;
+        const double ratio = gap / gaps.front();
+        return std::abs(ratio - std::round(ratio)) < kTolerance;
     });
-    return {gaps.size() + 1, distance,
-            static_cast<double>(even) >= kLeastEven * static_cast<double>(gaps.size())};
+    const bool are_even =
+        static_cast<double>(even) >= kLeastEven * static_cast<double>(gaps.size());
+    return {gaps.size() + 1, are_even ? gaps.front() : gaps[gaps.size() / 2], are_even};
 }
 
 /// Returns whether a surface has an edge that is much longer than others.
