@@ -22,6 +22,9 @@ constexpr std::int32_t kSample = 4000, kPatch = 500;
 /// Stairs are noise of this width, relative to their height.
 constexpr double kWidthOfStairs = 1.5;
 
+/// The iterations of sharpening grow with the squared width, up to this number.
+constexpr double kMostSharpenings = 600;
+
 /// Clusters with a radius of one side are so many edges wide.
 constexpr double kWidthOfRadius = 3;
 
@@ -113,8 +116,9 @@ Choice treatment_of_width(const Clusters& clusters, NoiseWishes wishes) {
     settings.normal_length *= edge;
     settings.step_size *= edge * edge;
     settings.normal_step_size *= edge * edge;
-    choice.treatment.sharpening.iterations =
-        static_cast<int>(std::lround(choice.treatment.sharpening.iterations * edge * edge));
+    int& sharpenings = choice.treatment.sharpening.iterations;
+    sharpenings = static_cast<int>(
+        std::min<double>(std::lround(sharpenings * edge * edge), kMostSharpenings));
     choice.noise *= edge;
     return choice;
 }
@@ -200,8 +204,10 @@ private:
         Clusters clusters{{{{{}, 0}, {}, {}}, {}, {}}, 1};
         if (is_wide) clusters = clusters_of_width(surface_, wishes_.width);
         report_.stop = NoiseStop::None;
-        if (wishes_.noise == 0 && wishes_.detail_size == 0) {
-            report_.stop = obstacle(is_wide ? clusters.sample : sample_);
+        if (is_wide) {
+            report_.stop = obstacle(clusters.sample);
+        } else if (wishes_.noise == 0 && wishes_.detail_size == 0) {
+            report_.stop = obstacle(sample_);
         }
         if (report_.stop != NoiseStop::None) return {};
         return is_wide ? treatment_of_width(clusters, wishes_) : best_treatment(sample_, wishes_);

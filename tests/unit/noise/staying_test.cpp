@@ -355,7 +355,10 @@ TEST(RemoveNoise, RemovesNoiseOfASizeThatItIsTold) {
     const TriangleMesh after = denoised(lumps, parameters);
     EXPECT_LT(error(after), 0.5 * error(lumps));
     EXPECT_DOUBLE_EQ(report_of(lumps, parameters).noise_size, 4 * edge);
+    // Then there are too few lumps to see what they are, even if their height is known.
     parameters.noise_size = 1e300;
+    EXPECT_EQ(report_of(lumps, parameters).stop, NoiseStop::TooFewVertices);
+    parameters.noise = parameters.detail_size = edge;
     EXPECT_EQ(report_of(lumps, parameters).stop, NoiseStop::TooFewVertices);
 }
 
