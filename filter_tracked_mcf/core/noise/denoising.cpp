@@ -117,8 +117,8 @@ Choice treatment_of_width(const Clusters& clusters, NoiseWishes wishes) {
     settings.step_size *= edge * edge;
     settings.normal_step_size *= edge * edge;
     int& sharpenings = choice.treatment.sharpening.iterations;
-    sharpenings = static_cast<int>(
-        std::min<double>(std::lround(sharpenings * edge * edge), kMostSharpenings));
+    sharpenings =
+        static_cast<int>(std::min(std::round(sharpenings * edge * edge), kMostSharpenings));
     choice.noise *= edge;
     return choice;
 }
