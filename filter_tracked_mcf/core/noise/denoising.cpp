@@ -82,6 +82,22 @@ void report_unevenness(const NoisySurface& surface, const NoiseWishes& wishes, d
     report.lump_height = edge * found.height;
 }
 
+/// Gives vertices that stay the mean height of their neighbours that do not, so that windows know
+/// the noise beside them.
+void fill_fixed(const NoisySurface& surface, std::vector<float>& heights) {
+    const Stars& stars = surface.stars;
+    for (std::int32_t vertex = 0; vertex < stars.count(); ++vertex) {
+        if (!surface.is_fixed(vertex)) continue;
+        float sum = 0, count = 0;
+        for (auto i = stars.neighbour_begin[vertex]; i < stars.neighbour_begin[vertex + 1]; ++i) {
+            if (surface.is_fixed(stars.neighbours[i])) continue;
+            sum += std::abs(heights[stars.neighbours[i]]);
+            ++count;
+        }
+        if (count > 0) heights[vertex] = sum / count;
+    }
+}
+
 /// Returns how far a treatment has moved each vertex along the normals of its result.
 std::vector<float> heights_of(const NoisySurface& surface, const Positions& treated) {
     Smoothing smoothing(surface);
@@ -92,6 +108,7 @@ std::vector<float> heights_of(const NoisySurface& surface, const Positions& trea
         heights[vertex] =
             static_cast<float>((treated[vertex] - surface.positions[vertex]).dot(normal));
     });
+    fill_fixed(surface, heights);
     return heights;
 }
 
@@ -181,7 +198,7 @@ public:
                 choose_locally(perturbation);
             }
         }
-        if (kind == NoiseKind::Varying) treat_by_local_noise();
+        if (kind == NoiseKind::Varying) treat_by_local_noise(choice.treatment.steps > 0);
         if (kind == NoiseKind::Outliers) treat_without_outliers();
         if (report_.stop != NoiseStop::None) return surface_.positions;
         report_.steps = treatments_[0].steps;
@@ -247,11 +264,12 @@ private:
         surface_.fidelity = strengths;
     }
 
-    void treat_by_local_noise() {
+    void treat_by_local_noise(bool is_certain) {
         Positions moved = surface_.positions;
         Smoothing(surface_).step(trial_settings(), confinement(surface_.positions), moved);
         NoiseWishes wishes = wishes_;
         wishes.has_fidelities = true;
+        wishes.is_certain = is_certain;
         treat_with_fidelities(fidelities_to_noise(surface_.stars, heights_of(surface_, moved)),
                               wishes);
     }
