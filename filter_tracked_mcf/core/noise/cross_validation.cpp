@@ -33,7 +33,7 @@ constexpr double kSmallNoise = 0.2;
 
 /// The trial that measures the noise takes this length of the metric and this step size.
 constexpr double kTrialNormalLength = 2.6, kTrialStepSize = 0.15;
-/// With more noise than this it may vary so widely that it passes for detail.
+/// More noise than this that passes for detail may be noise that varies.
 constexpr double kLargeNoise = 0.1;
 
 /// The weight γ of robust cross-validation; without it, noise is sometimes taken for detail.
@@ -128,16 +128,15 @@ public:
         const bool may_be_none =
             wishes_.detail_size == 0 && wishes_.noise == 0 && !wishes_.is_certain;
         if (may_be_none && noise_ < kNoNoise) return choice;
-        if (may_be_none && !wishes_.has_fidelities && noise_ > kLargeNoise && trial_varies()) {
-            choice.kind = NoiseKind::Varying;
-            return choice;
-        }
         if (wishes_.detail_size > 0) {
             for (const double length : kNormalLengths) try_detail_size(length);
         } else {
             descend();
             const bool is_detail = std::sqrt(best_.effect.square) < kLeastTaken * noise_;
-            if (may_be_none && is_detail) return choice;
+            if (may_be_none && is_detail) {
+                if (noise_ > kLargeNoise && trial_varies()) choice.kind = NoiseKind::Varying;
+                return choice;
+            }
         }
         if (best_.treatment.steps == 0) return choice;
         if (wishes_.crease > 0) {

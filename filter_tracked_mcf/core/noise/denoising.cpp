@@ -268,7 +268,6 @@ private:
         Positions moved = surface_.positions;
         Smoothing(surface_).step(trial_settings(), confinement(surface_.positions), moved);
         NoiseWishes wishes = wishes_;
-        wishes.has_fidelities = true;
         wishes.is_certain = is_certain;
         treat_with_fidelities(fidelities_to_noise(surface_.stars, heights_of(surface_, moved)),
                               wishes);

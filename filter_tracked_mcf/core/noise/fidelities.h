@@ -20,8 +20,8 @@ enum class NoiseKind {
 NoiseKind kind_of_noise(const Stars& stars, const std::vector<float>& heights,
                         const std::vector<std::uint8_t>& counts);
 
-/// Returns whether the noise is so much larger in some places than in others that no treatment of
-/// the whole surface tells it from detail. `heights` are those of a trial, see below.
+/// Returns whether noise is so much larger in some places than in others that it passes for detail.
+/// `heights` are those of a trial, see below.
 bool varies_widely(const Stars& stars, const std::vector<float>& heights,
                    const std::vector<std::uint8_t>& counts);
 

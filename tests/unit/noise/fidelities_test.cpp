@@ -107,14 +107,5 @@ TEST(Fidelities, AreFiniteForAnyHeights) {
     }
 }
 
-TEST(Fidelities, TellNoiseThatVariesWidelyFromNoiseThatVaries) {
-    const auto vary = [](const Heights& heights) {
-        return varies_widely(heights.surface.stars, heights.values, heights.counts);
-    };
-    EXPECT_FALSE(vary(Heights([](double /*x*/) { return 0.2; })));
-    EXPECT_FALSE(vary(Heights([](double x) { return x < 0.5 ? 0.1 : 0.3; })));
-    EXPECT_TRUE(vary(Heights([](double x) { return 0.02 * std::exp(4 * x); })));
-}
-
 }  // namespace
 }  // namespace tracked_mcf

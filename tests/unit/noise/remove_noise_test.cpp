@@ -89,6 +89,29 @@ TEST(RemoveNoise, SmoothsMoreWhereTheNoiseIsLarger) {
               0.4 * error(half_of(before, clean, 1), clean));
 }
 
+TEST(RemoveNoise, SmoothsMoreWhereTheNoiseIsLargerThoughTheSampleDoesNotShowIt) {
+    TriangleMesh clean = shapes::square(120);  // the sample has a third of its vertices
+    for (Eigen::Vector3d& p : clean.positions) p.z() = 0.03 * std::sin(9 * p.x()) * p.y();
+    const TriangleMesh quiet = with_noise(clean, 0.08), loud = with_noise(clean, 0.4);
+    for (const double x : {0, 1}) {
+        for (const double y : {0, 1}) {
+            TriangleMesh before = quiet;
+            std::vector<std::size_t> corner;
+            for (std::size_t i = 0; i < clean.positions.size(); ++i) {
+                const Eigen::Vector3d& p = clean.positions[i];
+                if (std::max(std::abs(p.x() - x), std::abs(p.y() - y)) < 0.4) corner.push_back(i);
+            }
+            for (const std::size_t i : corner) before.positions[i] = loud.positions[i];
+            TriangleMesh after = denoised(before);
+            EXPECT_LT(error(after, clean), 0.3 * error(before, clean)) << x << y;
+            for (const std::size_t i : corner) {
+                after.positions[i] = before.positions[i] = clean.positions[i];
+            }
+            EXPECT_LT(error(after, clean), 0.6 * error(before, clean)) << x << y;
+        }
+    }
+}
+
 TEST(RemoveNoise, SmoothsAlsoWhereTheNoiseIsAHundredTimesAsLarge) {
     TriangleMesh clean = shapes::square(70);
     const double edge = mean_edge_length(clean);
