@@ -9,7 +9,7 @@ namespace tracked_mcf {
 
 namespace {
 
-constexpr std::int32_t kNone = -1;
+constexpr std::int32_t kNoCluster = -1;
 
 /// Calls visit(neighbour) for each vertex that a side joins to a vertex.
 template <class Visit>
@@ -24,7 +24,7 @@ void for_each_neighbour(const Stars& stars, std::int32_t vertex, const Visit& vi
 std::vector<std::int32_t> seeds_of(const NoisySurface& surface, int radius) {
     std::vector<std::int32_t> seeds;
     std::vector<std::uint8_t> is_taken(surface.positions.size(), 0);
-    std::vector<std::int32_t> visited_by(surface.positions.size(), kNone), near;
+    std::vector<std::int32_t> visited_by(surface.positions.size(), kNoCluster), near;
     for (const std::int32_t seed : in_rank(surface.positions)) {
         if (is_taken[seed] != 0) continue;
         seeds.push_back(seed);
@@ -49,7 +49,7 @@ std::vector<std::int32_t> seeds_of(const NoisySurface& surface, int radius) {
 /// Returns per vertex the nearest seed, counted in sides; of several, the first one.
 std::vector<std::int32_t> nearest_seeds(const Stars& stars,
                                         const std::vector<std::int32_t>& seeds) {
-    std::vector<std::int32_t> nearest(static_cast<std::size_t>(stars.count()), kNone);
+    std::vector<std::int32_t> nearest(static_cast<std::size_t>(stars.count()), kNoCluster);
     for (std::size_t i = 0; i < seeds.size(); ++i) {
         nearest[seeds[i]] = static_cast<std::int32_t>(i);
     }
@@ -59,12 +59,13 @@ std::vector<std::int32_t> nearest_seeds(const Stars& stars,
         std::vector<std::pair<std::int32_t, std::int32_t>> reached;  // vertex, seed
         for (const std::int32_t vertex : front) {
             for_each_neighbour(stars, vertex, [&](std::int32_t neighbour) {
-                if (nearest[neighbour] == kNone) reached.emplace_back(neighbour, nearest[vertex]);
+                if (nearest[neighbour] == kNoCluster)
+                    reached.emplace_back(neighbour, nearest[vertex]);
             });
         }
         std::sort(reached.begin(), reached.end());
         for (const auto& [vertex, seed] : reached) {
-            if (nearest[vertex] != kNone) continue;
+            if (nearest[vertex] != kNoCluster) continue;
             nearest[vertex] = seed;
             next.push_back(vertex);
         }
@@ -100,7 +101,7 @@ Clusters clusters_of(const Sample& sample, int radius) {
     for (const Triangle& t : triangles) {
         for (const std::int32_t cluster : t) used[cluster] = 1;
     }
-    std::vector<std::int32_t> numbers(seeds.size(), kNone);
+    std::vector<std::int32_t> numbers(seeds.size(), kNoCluster);
     std::int32_t count = 0;
     for (std::size_t i = 0; i < used.size(); ++i) {
         if (used[i] != 0) numbers[i] = count++;
@@ -115,8 +116,9 @@ Clusters clusters_of(const Sample& sample, int radius) {
     result.sample.counts.assign(surface.positions.size(), 1);
     std::vector<double> members(surface.positions.size(), 0);
     for (std::int32_t vertex = 0; vertex < fine.stars.count(); ++vertex) {
-        const std::int32_t cluster = nearest[vertex] == kNone ? kNone : numbers[nearest[vertex]];
-        if (cluster == kNone) continue;
+        const std::int32_t cluster =
+            nearest[vertex] == kNoCluster ? kNoCluster : numbers[nearest[vertex]];
+        if (cluster == kNoCluster) continue;
         surface.positions[cluster] += fine.positions[vertex];
         members[cluster] += 1;
         // A cluster moves if one of its vertices does, and counts if all do.

@@ -47,7 +47,7 @@ constexpr int kRounds = 3;
 constexpr float kFidelityOfOutliers = 0.1F;
 
 /// The size of normals' smoothing along which residuals are measured.
-constexpr double kNormalStepSize = 2;
+constexpr double kStepOfNormals = 2;
 
 /// Returns the share of the area in triangles whose vertices' normals differ by a crease.
 double crease_share(const Stars& stars, const Positions& positions, const Vectors& normals,
@@ -101,7 +101,7 @@ void fill_fixed(const NoisySurface& surface, std::vector<float>& heights) {
 /// Returns how far a treatment has moved each vertex along the normals of its result.
 std::vector<float> heights_of(const NoisySurface& surface, const Positions& treated) {
     Smoothing smoothing(surface);
-    const Vectors& normals = smoothing.smooth_normals(treated, {0, 0, kNormalStepSize});
+    const Vectors& normals = smoothing.smooth_normals(treated, {0, 0, kStepOfNormals});
     std::vector<float> heights(treated.size());
     parallel_for_rows(surface.stars.count(), [&](std::int32_t vertex) {
         const Eigen::Vector3d normal = normals[vertex].head<3>().cast<double>();

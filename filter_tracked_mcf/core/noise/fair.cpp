@@ -42,7 +42,8 @@ constexpr double kTolerance = 1e-3;
 constexpr int kIterationLimit = 2000;
 
 /// Bytes for each vertex and each triangle of the mesh, and for each vertex that moves.
-constexpr double kBytesPerVertex = 60, kBytesPerTriangle = 90, kBytesPerMoving = 1200;
+constexpr double kBytesPerVertexOfPatches = 60, kBytesPerTriangleOfPatches = 90,
+                 kBytesPerMoving = 1200;
 
 /// The integral of the squared mean curvature over an area.
 struct Bending {
@@ -272,8 +273,8 @@ FairReport fair(TriangleMesh& mesh, const Selection& selection, const FairParame
             "All faces are selected, so there is nothing around them to continue. Select the faces "
             "that fill the hole.");
     }
-    check_free_memory(kBytesPerVertex * static_cast<double>(mesh.positions.size()) +
-                          kBytesPerTriangle * static_cast<double>(mesh.triangles.size()) +
+    check_free_memory(kBytesPerVertexOfPatches * static_cast<double>(mesh.positions.size()) +
+                          kBytesPerTriangleOfPatches * static_cast<double>(mesh.triangles.size()) +
                           kBytesPerMoving / 2 * static_cast<double>(report.triangles),
                       "Fairing", "Select less, or simplify the mesh.");
     const double scale = longest_side(mesh);

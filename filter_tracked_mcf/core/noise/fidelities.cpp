@@ -18,7 +18,7 @@ constexpr int kSmallWindow = 28, kWindow = 83;
 /// relative to the exponential of the mean logarithm of its magnitude.
 constexpr double kOverMedian = 1.4826, kOverLogarithm = 1.887;
 /// Logarithms are those of heights plus this share of their deviation.
-constexpr double kLeastShare = 0.01;
+constexpr double kShareOfDeviation = 0.01;
 
 /// There are outliers where robust deviations within windows are less than this share of the root
 /// mean squares: 0.98 to 1.08 with normally distributed noise, 0.33 to 0.76 with impulses. With
@@ -68,7 +68,7 @@ double robust_deviation(const std::vector<float>& heights) {
 /// Returns the mean logarithm of heights in windows around the vertices.
 std::vector<float> mean_logarithms(const Stars& stars, const std::vector<float>& heights,
                                    double deviation, int steps) {
-    const float least = static_cast<float>(kLeastShare * deviation) + kTiny;
+    const float least = static_cast<float>(kShareOfDeviation * deviation) + kTiny;
     std::vector<float> logarithms =
         map(heights, [&](float height) { return std::log(std::abs(height) + least); });
     diffuse(stars, steps, logarithms);

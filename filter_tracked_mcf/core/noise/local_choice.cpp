@@ -12,7 +12,7 @@ namespace {
 
 /// A window is the solution of a smoothing step of this size: it averages over about so many
 /// vertices. The accuracy is that of a mean.
-constexpr double kWindow = 40, kVerticesOfWindow = 580, kTolerance = 5e-3,
+constexpr double kWindowOfChoice = 40, kVerticesOfWindow = 580, kToleranceOfMeans = 5e-3,
                  kToleranceOfSquares = 2e-2;
 /// Weights change over so much less.
 constexpr double kTransition = 5, kToleranceOfWeights = 2e-2;
@@ -24,7 +24,7 @@ constexpr std::size_t kFields = 4;
 constexpr double kUneven = 0.28;
 
 /// The perturbation of heights relative to the noise.
-constexpr double kPerturbation = 0.05;
+constexpr double kPerturbationOfTwins = 0.05;
 
 /// Averages four fields over windows of a surface.
 class Windows {
@@ -84,7 +84,7 @@ std::vector<std::uint8_t> best_of(const NoisySurface& surface, const std::vector
                 fields[vertex][field + 1] = difference * difference;
             }
         });
-        windows.average(kWindow, kTolerance, fields);
+        windows.average(kWindowOfChoice, kToleranceOfMeans, fields);
         parallel_for_rows(surface.stars.count(), [&](std::int32_t vertex) {
             for (std::size_t i = first; i < end; ++i) {
                 const auto field = static_cast<Eigen::Index>(2 * (i - first));
@@ -117,7 +117,7 @@ std::vector<std::size_t> best_few(const Sample& sample, const std::vector<Risks>
                     risks[i][vertex] - risks[first][vertex];
             }
         });
-        windows.average(kWindow, kTolerance, fields);
+        windows.average(kWindowOfChoice, kToleranceOfMeans, fields);
         parallel_for_rows(count, [&](std::int32_t vertex) {
             for (std::size_t i = begin; i < end; ++i) {
                 averages[i][vertex] = fields[vertex][static_cast<Eigen::Index>(i - begin)];
@@ -151,7 +151,7 @@ Perturbation perturbation_of(const NoisySurface& surface, const StepSettings& se
                              double noise) {
     Perturbation perturbation{random_signs(surface.positions),
                               Smoothing(surface).smooth_normals(surface.positions, settings),
-                              kPerturbation};
+                              kPerturbationOfTwins};
     for (float& height : perturbation.heights) height *= static_cast<float>(noise);
     return perturbation;
 }
@@ -164,7 +164,7 @@ bool is_uneven(const NoisySurface& surface, const Perturbation& perturbation,
         const double moved = height_of(surface, perturbation.normals, treated, vertex);
         squares[vertex] << static_cast<float>(moved * moved), 0, 0, 0;
     });
-    Windows(surface).average(kWindow, kToleranceOfSquares, squares);
+    Windows(surface).average(kWindowOfChoice, kToleranceOfSquares, squares);
     const auto logarithm = [&](std::int32_t vertex) {
         return std::log(std::max(double{squares[vertex][0]}, 1e-12)) / 2;
     };

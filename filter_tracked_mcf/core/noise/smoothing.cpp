@@ -10,7 +10,7 @@ namespace tracked_mcf {
 namespace {
 
 /// The accuracy of smooth normals: the metric averages them over triangles.
-constexpr double kTolerance = 2e-2;
+constexpr double kToleranceOfNormals = 2e-2;
 
 /// The normals of a star cancel each other if their squared sum is below this share of the sum of
 /// their squares.
@@ -65,7 +65,8 @@ const Vectors& Smoothing::smooth_normals(const Positions& positions, const StepS
     normals_ = vectors_;
     for (const double normal_length : {0.0, settings.normal_length}) {
         elements_.assemble(normals_, normal_length);
-        iterations_ += elements_.smooth(settings.normal_step_size, vectors_, kTolerance, normals_);
+        iterations_ +=
+            elements_.smooth(settings.normal_step_size, vectors_, kToleranceOfNormals, normals_);
         parallel_for_rows(stars.count(),
                           [&](std::int32_t vertex) { normals_[vertex].normalize(); });
     }

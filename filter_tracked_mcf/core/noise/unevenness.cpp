@@ -29,7 +29,7 @@ constexpr double kNearPlanes = 1;
 /// edges. A plate with studs has only two such directions. A pyramid of steps that is modelled with
 /// faces as wide as a step cannot be told from voxels.
 constexpr std::size_t kEvenDirections = 3, kManyPlanes = 10;
-constexpr double kLeastEven = 0.9, kTolerance = 0.05, kLongestEdge = 3.6;
+constexpr double kLeastEven = 0.9, kToleranceOfGaps = 0.05, kLongestEdge = 3.6;
 
 /// Widths of lumps, in edges.
 constexpr std::array<double, 4> kLumpWidths = {1.4, 2, 2.8, 4};
@@ -80,7 +80,7 @@ Planes planes_of(std::vector<double> offsets) {
     std::sort(gaps.begin(), gaps.end());
     const auto even = std::count_if(gaps.begin(), gaps.end(), [&](double gap) {
         const double ratio = gap / gaps.front();
-        return std::abs(ratio - std::round(ratio)) < kTolerance;
+        return std::abs(ratio - std::round(ratio)) < kToleranceOfGaps;
     });
     const bool are_even =
         static_cast<double>(even) >= kLeastEven * static_cast<double>(gaps.size());
