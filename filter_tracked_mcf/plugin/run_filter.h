@@ -53,9 +53,9 @@ std::string message_of(const Parameters& parameters, const Report& report);
 Outputs outputs_of(const FlowParameters& parameters, const FlowReport& report);
 
 /// Returns, in units of the mesh: `noise`, `noise_size`, `outliers`, `crease_share`, `stairs`,
-/// `lump_width`, `lump_height`, `lost_area`, `lost_volume`, `detail_size`, `steps`, `largest_displacement`,
-/// `rms_displacement`, `area_before`, `area_after`, `volume_change` (NaN unless the faces are
-/// oriented consistently). See NoiseReport.
+/// `lump_width`, `lump_height`, `lost_area`, `lost_volume`, `detail_size`, `steps`,
+/// `largest_displacement`, `rms_displacement`, `area_before`, `area_after`, `volume_change` (NaN
+/// unless the faces are oriented consistently). See NoiseReport.
 Outputs outputs_of(const NoiseParameters& parameters, const NoiseReport& report);
 
 /// Returns, in units of the mesh: `patches`, `flatter_patches`, `rough_patches`, `seam_curvature`,
