@@ -65,6 +65,18 @@ TEST(RemoveNoise, HardlyBelievesOutliers) {
     }
 }
 
+TEST(RemoveNoise, HardlyBelievesOutliersBesideALockedRim) {
+    const TriangleMesh clean = shapes::square(40), far = with_noise(clean, 0.4);
+    TriangleMesh before = clean;
+    for (std::size_t i = 0; i < before.positions.size(); i += 6) {
+        before.positions[i] = far.positions[i];
+    }
+    NoiseParameters parameters;
+    parameters.boundary = NoiseBoundary::Locked;
+    EXPECT_GT(report_of(before, parameters).outliers, 100);
+    EXPECT_LT(error(denoised(before, parameters), clean), 0.6 * error(before, clean));
+}
+
 /// Returns the mesh with the vertices of `clean` where x does not have this sign.
 TriangleMesh half_of(TriangleMesh mesh, const TriangleMesh& clean, double sign) {
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
