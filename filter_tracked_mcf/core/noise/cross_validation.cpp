@@ -33,8 +33,6 @@ constexpr double kSmallNoise = 0.2;
 
 /// The trial that measures the noise takes this length of the metric and this step size.
 constexpr double kTrialNormalLength = 2.6, kTrialStepSize = 0.15;
-/// More noise than this that passes for detail may be noise that varies.
-constexpr double kLargeNoise = 0.1;
 
 /// The weight γ of robust cross-validation; without it, noise is sometimes taken for detail.
 constexpr double kRobustness = 0.8;
@@ -46,6 +44,10 @@ constexpr double kNoNoise = 1e-4;
 /// Where the best treatment takes less than this share of the noise, it is detail: at most 0.51 on
 /// 20 clean meshes, 0.02 to 0.31 on 9 with lumps or waves, at least 0.58 on 105 noisy ones.
 constexpr double kLeastTaken = 0.55;
+/// More noise than this that passes for detail may be noise that varies. If so, a treatment with
+/// fidelities takes more than this share of it: at least 0.81 on a depth camera's map and on sheets
+/// with five times the noise in a corner, at most 0.69 on clean meshes.
+constexpr double kLargeNoise = 0.1, kLeastTakenIfDoubtful = 0.75;
 
 /// What is tried for noise of some width: step sizes, and a length of the metric.
 constexpr std::array<double, 4> kStepSizesOfWidth = {0.04, 0.15, 0.6, 2.4};
@@ -132,9 +134,9 @@ public:
             for (const double length : kNormalLengths) try_detail_size(length);
         } else {
             descend();
-            const bool is_detail = std::sqrt(best_.effect.square) < kLeastTaken * noise_;
-            if (may_be_none && is_detail) {
-                if (noise_ > kLargeNoise && trial_varies()) choice.kind = NoiseKind::Varying;
+            const double least = wishes_.is_doubtful ? kLeastTakenIfDoubtful : kLeastTaken;
+            if (may_be_none && std::sqrt(best_.effect.square) < least * noise_) {
+                if (noise_ > kLargeNoise) choice.kind = NoiseKind::Varying;
                 return choice;
             }
         }
@@ -220,13 +222,6 @@ private:
             untreated_.perturbed[vertex] +=
                 perturbation / root(vertex) * signs_[vertex] * normal(vertex);
         });
-    }
-
-    /// Returns whether a trial without creases takes much more in some places than in others.
-    bool trial_varies() {
-        Twins twins = untreated_;
-        smoothing_.step(trial_settings(), box_, twins.plain);
-        return varies_widely(sample_.surface.stars, heights_of(twins), sample_.counts);
     }
 
     /// Returns the treatments beside the best one that suit some places of the sample better.

@@ -16,7 +16,8 @@ struct NoiseWishes {
     double detail_size = 0;   ///< see NoiseParameters::detail_size; 0: what the noise needs
     double width = 1;         ///< of the noise, at least 1
     bool is_certain = false;  ///< whether noise is removed even if it may be detail
-    bool is_quick = false;    ///< whether Choice::others are few and share the treatment's steps
+    bool is_doubtful = false;  ///< whether what may be detail passed for detail before
+    bool is_quick = false;     ///< whether Choice::others are few and share the treatment's steps
 };
 
 /// How to remove the noise of a surface, as a sample shows.

@@ -43,9 +43,6 @@ constexpr std::int32_t kLargeSurface = 100000;
 /// How often a surface with outliers is treated anew.
 constexpr int kRounds = 3;
 
-/// A vertex with less fidelity than this is an outlier.
-constexpr float kFidelityOfOutliers = 0.1F;
-
 /// The size of normals' smoothing along which residuals are measured.
 constexpr double kStepOfNormals = 2;
 
@@ -269,6 +266,7 @@ private:
         Smoothing(surface_).step(trial_settings(), confinement(surface_.positions), moved);
         NoiseWishes wishes = wishes_;
         wishes.is_certain = is_certain;
+        wishes.is_doubtful = !is_certain;
         treat_with_fidelities(fidelities_to_noise(surface_.stars, heights_of(surface_, moved)),
                               wishes);
     }
@@ -281,9 +279,7 @@ private:
             const std::vector<float> fidelities =
                 fidelities_to_outliers(surface_.stars, heights_of(surface_, treated_.positions[0]));
             treat_with_fidelities(fidelities, wishes);
-            report_.outliers =
-                std::count_if(fidelities.begin(), fidelities.end(),
-                              [](float fidelity) { return fidelity < kFidelityOfOutliers; });
+            report_.outliers = std::count_if(fidelities.begin(), fidelities.end(), is_outlier);
         }
     }
 

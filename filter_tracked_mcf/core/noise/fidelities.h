@@ -20,11 +20,6 @@ enum class NoiseKind {
 NoiseKind kind_of_noise(const Stars& stars, const std::vector<float>& heights,
                         const std::vector<std::uint8_t>& counts);
 
-/// Returns whether noise is so much larger in some places than in others that it passes for detail.
-/// `heights` are those of a trial, see below.
-bool varies_widely(const Stars& stars, const std::vector<float>& heights,
-                   const std::vector<std::uint8_t>& counts);
-
 /// Returns how much each vertex should keep its position, relative to others, where noise varies.
 /// This falls with the noise around the vertex. `heights` are how far a trial has moved each vertex
 /// along its normal: a short step that keeps no creases, as large noise passes for them.
@@ -35,5 +30,10 @@ std::vector<float> fidelities_to_noise(const Stars& stars, const std::vector<flo
 /// (1 + (h / c)²)⁻², where c is three deviations of the heights around the vertex, so that detail,
 /// which moves whole neighbourhoods, does not count as outliers.
 std::vector<float> fidelities_to_outliers(const Stars& stars, const std::vector<float>& heights);
+
+/// Returns whether a vertex with this fidelity to outliers is one.
+inline bool is_outlier(float fidelity) {
+    return fidelity < 0.1F;
+}
 
 }  // namespace tracked_mcf

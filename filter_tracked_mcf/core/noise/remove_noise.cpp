@@ -70,6 +70,7 @@ std::vector<Eigen::Vector3d> moved_positions(const TriangleMesh& mesh, const Sur
                                              const Positions& to, double bound,
                                              NoiseReport& report) {
     std::vector<Eigen::Vector3d> after = mesh.positions;
+    std::vector<std::uint8_t> is_stopped(to.size(), 0);  // copies of a vertex count once
     for (std::size_t i = 0; i < after.size(); ++i) {
         const std::int32_t vertex = from.vertices[i];
         if (vertex < 0 || from.surface.is_fixed(vertex)) continue;
@@ -79,19 +80,26 @@ std::vector<Eigen::Vector3d> moved_positions(const TriangleMesh& mesh, const Sur
         const double margin = mesh.single_precision ? float_rounding(after[i]) : 0;
         bool stopped = false;
         after[i] = bounded(mesh.positions[i], movement, std::max(0.0, bound - margin), stopped);
-        if (stopped) ++report.bounded_vertices;
+        if (stopped) is_stopped[vertex] = 1;
     }
+    report.bounded_vertices = std::count(is_stopped.begin(), is_stopped.end(), 1);
     return after;
 }
 
-void report_losses(const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& after,
-                   const SurfaceOfMesh& from, NoiseReport& report) {
-    Positions to = from.surface.positions;
+/// Returns how far each vertex of the surface has moved, in mesh units. Its copies move alike.
+Positions movements(const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& after,
+                    const SurfaceOfMesh& from) {
+    Positions moved(from.surface.positions.size(), Eigen::Vector3d::Zero());
     for (std::size_t i = 0; i < after.size(); ++i) {
         const std::int32_t vertex = from.vertices[i];
-        if (vertex < 0) continue;
-        to[vertex] = from.surface.positions[vertex] + (after[i] - mesh.positions[i]) / from.edge;
+        if (vertex >= 0) moved[vertex] = after[i] - mesh.positions[i];
     }
+    return moved;
+}
+
+void report_losses(const SurfaceOfMesh& from, const Positions& moved, NoiseReport& report) {
+    Positions to = from.surface.positions;
+    for (std::size_t i = 0; i < to.size(); ++i) to[i] += moved[i] / from.edge;
     const Losses losses = losses_of(from.surface, to);
     report.shrunken_parts = losses.parts;
     report.lost_area = losses.area;
@@ -100,10 +108,10 @@ void report_losses(const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>&
 
 void measure_change(const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& after,
                     const SurfaceOfMesh& from, const Selection& selection, NoiseReport& report) {
+    const Positions moved = movements(mesh, after, from);
     double squares = 0;
-    for (std::size_t i = 0; i < after.size(); ++i) {
-        if (!after[i].allFinite()) continue;  // a vertex that no triangle uses
-        const double distance = (after[i] - mesh.positions[i]).norm();
+    for (const Eigen::Vector3d& movement : moved) {
+        const double distance = movement.norm();
         report.largest_displacement = std::max(report.largest_displacement, distance);
         squares += distance * distance;
     }
@@ -115,7 +123,7 @@ void measure_change(const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>
         report.volume_change += swept_volume(corners_of(mesh.positions, mesh.triangles[i]),
                                              corners_of(after, mesh.triangles[i]));
     }
-    if (report.largest_displacement > 0) report_losses(mesh, after, from, report);
+    if (report.largest_displacement > 0) report_losses(from, moved, report);
     report.area_before = surface_area(mesh, selection);
     report.area_after = surface_area({after, mesh.triangles}, selection);
 }

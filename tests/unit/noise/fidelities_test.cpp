@@ -57,6 +57,17 @@ TEST(Fidelities, TellWhatNoiseThereIs) {
         << "what stands out by so little is detail";
 }
 
+TEST(Fidelities, TakeALineOfLargeHeightsForDetail) {
+    Heights heights([](double /*x*/) { return 0.02; });
+    for (std::size_t i = 0; i < heights.values.size(); ++i) {
+        const double x = std::abs(heights.surface.positions[i].x());
+        if (std::fmod(x + 0.1, 8) < 0.5) heights.values[i] = 0.4F;
+    }
+    EXPECT_NE(heights.kind(), NoiseKind::Outliers);
+    std::shuffle(heights.values.begin(), heights.values.end(), heights.random);
+    EXPECT_EQ(heights.kind(), NoiseKind::Outliers) << "the same heights, at random places";
+}
+
 TEST(Fidelities, AreThoseOfVerticesThatCount) {
     Heights heights([](double x) { return x < 0.5 ? 0.1 : 0.3; });
     for (std::size_t i = 0; i < heights.counts.size(); ++i) {

@@ -218,8 +218,29 @@ TEST(RemoveNoise, TakesASoupAsItsMesh) {
     const TriangleMesh before = with_noise(cube(), 0.2);
     const TriangleMesh after = denoised(before);
     TriangleMesh soup = denoised(shapes::soup(before));
-    EXPECT_EQ(report_of(shapes::soup(before)).vertices, report_of(before).vertices);
-    EXPECT_LT(rms_distance(soup, shapes::soup(after)), 1e-3 * mean_edge_length(before));
+    const double edge = mean_edge_length(before);
+    EXPECT_LT(rms_distance(soup, shapes::soup(after)), 1e-3 * edge);
+    // Outliers, so that these are counted, too.
+    TriangleMesh noisy = cube();
+    for (std::size_t i = 0; i < noisy.positions.size(); i += 5) {
+        noisy.positions[i] = before.positions[i];
+    }
+    NoiseParameters parameters;
+    parameters.largest_movement = 0.2 * edge;
+    const NoiseReport of_mesh = report_of(noisy, parameters);
+    const NoiseReport of_soup = report_of(shapes::soup(noisy), parameters);
+    EXPECT_EQ(of_soup.vertices, of_mesh.vertices);
+    EXPECT_EQ(of_soup.steps, of_mesh.steps);
+    EXPECT_NEAR(static_cast<double>(of_soup.outliers), static_cast<double>(of_mesh.outliers), 2);
+    EXPECT_NEAR(static_cast<double>(of_soup.bounded_vertices),
+                static_cast<double>(of_mesh.bounded_vertices), 2);
+    EXPECT_GT(of_mesh.bounded_vertices, 0);
+    EXPECT_NEAR(of_soup.noise, of_mesh.noise, 1e-3 * edge);
+    EXPECT_NEAR(of_soup.noise_size, of_mesh.noise_size, 1e-9);
+    EXPECT_NEAR(of_soup.rms_displacement, of_mesh.rms_displacement, 1e-3 * edge);
+    EXPECT_NEAR(of_soup.largest_displacement, of_mesh.largest_displacement, 1e-3 * edge);
+    EXPECT_NEAR(of_soup.area_after, of_mesh.area_after, 1e-3);
+    EXPECT_NEAR(of_soup.lost_area, of_mesh.lost_area, 1e-3);
 }
 
 TEST(RemoveNoise, KeepsTheBitsOfVerticesThatStay) {
