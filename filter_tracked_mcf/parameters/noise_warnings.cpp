@@ -50,6 +50,19 @@ std::string stairs_text(const NoiseReport& report) {
            " wide. If they are the shape, give a smaller size of the noise.";
 }
 
+/// Empty unless the size of the noise that the user gives is too small for what the mesh has. Then
+/// treatments take less than a quarter of the noise, RMS, else more than half.
+std::string too_small(const NoiseParameters& parameters, const NoiseReport& report) {
+    constexpr double least = 0.4;
+    if (report.stop != NoiseStop::None || parameters.noise_size == 0 ||
+        report.noise_size > parameters.noise_size ||
+        report.rms_displacement >= least * report.noise) {
+        return {};
+    }
+    return "Hardly any noise of the size " + rounded(parameters.noise_size) +
+           " was removed. If there is noise, it is wider: give a larger size of the noise.";
+}
+
 std::string stop_text(const NoiseReport& report) {
     switch (report.stop) {
         case NoiseStop::None:
@@ -90,10 +103,11 @@ std::string loss(const NoiseReport& report) {
 
 }  // namespace
 
-std::vector<std::string> warnings_of(const NoiseParameters& /*parameters*/,
-                                     const NoiseReport& report, const std::string& /*advice*/) {
+std::vector<std::string> warnings_of(const NoiseParameters& parameters, const NoiseReport& report,
+                                     const std::string& /*advice*/) {
     std::vector<std::string> warnings = surface_warnings(report);
-    for (const std::string& warning : {stop_text(report), stairs_text(report), loss(report)}) {
+    for (const std::string& warning :
+         {stop_text(report), stairs_text(report), too_small(parameters, report), loss(report)}) {
         if (!warning.empty()) warnings.push_back(warning);
     }
     return warnings;

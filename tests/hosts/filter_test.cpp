@@ -259,6 +259,15 @@ TEST(NoiseWarnings, SayWhyNothingWasRemovedAndWhatToDo) {
     EXPECT_THAT(warning(report), HasSubstr("stairs 3 high, as of voxels"));
     EXPECT_THAT(warning(report), HasSubstr("They were smoothed as noise that is 4.5 wide."));
     report = {};
+    NoiseParameters given;
+    given.noise_size = report.noise_size = 4;
+    report.noise = 1;
+    report.rms_displacement = 0.2;
+    EXPECT_THAT(warnings_of(given, report, ""),
+                testing::ElementsAre(HasSubstr("Hardly any noise of the size 4 was removed.")));
+    report.rms_displacement = 0.6;
+    EXPECT_TRUE(warnings_of(given, report, "").empty());
+    report = {};
     report.shrunken_parts = 2;
     report.lost_area = 0.12;
     EXPECT_THAT(warning(report),
