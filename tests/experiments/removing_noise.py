@@ -2,16 +2,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Measures the filter Remove Noise with its default parameters, beside other smoothers at their best.
 
-Four lists: meshes on which the filter's constants were chosen, other parts (CAD models), other scans, and public pairs
-of noisy and original meshes (--pairs). Noise is normally distributed; its standard deviation is in mean edge lengths of
-the clean mesh. It moves the vertices along their normals, in each coordinate ("isotropic"), or every fifth vertex along
-its normal ("impulsive"). Each entry is the RMS displacement from the clean vertices along the clean normals, in mean
-edge lengths, and the mean angle between normals of faces and those of the clean mesh, in degrees. MeshLab's Taubin and
-two-step smoothers and a bilateral filter of normals have the best of many settings, for the distance and for the angle
-each, which only somebody can choose who has the clean mesh; the last two are measured with noise of 0.2 edges and on
-the pairs. Guided normal filtering is quoted: its authors' code, measured in November 2026. Our seconds include reading
-and writing files, the others' do not. A second table has what the first cannot see, for our results: measures.py
-defines its columns. Each entry is the worst over all noise of a mesh.
+Lists: meshes on which the filter's constants were chosen, other parts (CAD models), other scans, and public pairs of
+noisy and original meshes, one for each folder of --pairs. A folder may also have NAME_gcn.ply: results of GCN-Denoiser,
+a network that was trained for this, by its authors. Noise is normally distributed; its standard deviation is in mean
+edge lengths of the clean mesh. It moves the vertices along their normals, in each coordinate ("isotropic"), or every
+fifth vertex along its normal ("impulsive"). Each entry is the RMS displacement from the clean vertices along the clean
+normals, in mean edge lengths, and the mean angle between normals of faces and those of the clean mesh, in degrees.
+MeshLab's Taubin and two-step smoothers and a bilateral filter of normals have the best of many settings, for the
+distance and for the angle each, which only somebody can choose who has the clean mesh; the last two are measured with
+noise of 0.2 edges and on the pairs. Guided normal filtering is quoted: its authors' code, measured in November 2026.
+Our seconds include reading and writing files, the others' do not. A second table has what the first cannot see, for our
+results: measures.py defines its columns. Each entry is the worst over all noise of a mesh.
 
 Needs PyMeshLab: external/pymeshlab.sh build/pymeshlab, then build/pymeshlab/bin/python removing_noise.py.
 """
@@ -25,6 +26,7 @@ import tempfile
 import numpy
 from experiment import TOP, Experiment, geometric_mean
 from measures import angles
+from ply import read_mesh
 from scan import Scan, loaded, mesh_set, pymeshlab
 from shapes import cube
 from smoothers import STEPS, best, bilateral_families, result, taubin_families, two_step_families
@@ -39,8 +41,8 @@ CUBE = 40  # edges along each of its own
 NOISES = ["0", "0.1", "0.2", "0.3", "0.2 isotropic", "0.3 impulsive"]
 WITH_ALL_PEERS = ["0.2", ""]  # noise of these rows; the pairs' is theirs
 OURS, TAUBIN, TAUBIN_DEFAULT, TWO_STEP, BILATERAL = "ours", "Taubin", "Taubin, default", "two-step", "bilateral"
-GUIDED, GUIDED_DEFAULT = "guided", "guided, default"
-PEERS = [TAUBIN, TAUBIN_DEFAULT, TWO_STEP, BILATERAL, GUIDED, GUIDED_DEFAULT]
+GUIDED, GUIDED_DEFAULT, NETWORK = "guided", "guided, default", "GCN-Denoiser"
+PEERS = [TAUBIN, TAUBIN_DEFAULT, TWO_STEP, BILATERAL, GUIDED, GUIDED_DEFAULT, NETWORK]
 
 # Zhang, Deng, Zhang, Bouaziz and Liu, "Guided Mesh Normal Filtering" (2015): RMS and angle of their code at its default
 # and at its best.
@@ -145,6 +147,9 @@ def rows_of_pairs(experiment, folder):
             draw(experiment, scan, row)
         for (rms, angle), smoother in zip(OF_GUIDED.get(name, ()), (GUIDED_DEFAULT, GUIDED)):
             row[smoother] = {"RMS": rms, "angle": angle, "seconds": numpy.nan}
+        network = folder / f"{name}_gcn.ply"
+        if network.exists():
+            row[NETWORK] = result(scan, vertices.current_mesh().vertex_matrix(), read_mesh(network)[0], numpy.nan)
         rows[name, ""] = without_vertices(row)
     return rows
 
@@ -205,7 +210,8 @@ def tell_of_ours(experiment, rows):
 
 # The ratio to a peer that the filter should reach.
 TARGETS = {(TAUBIN, "RMS"): 0.8, (TAUBIN, "angle"): 0.7, (BILATERAL, "RMS"): 1, (BILATERAL, "angle"): 1,
-           (GUIDED_DEFAULT, "RMS"): 0.8, (GUIDED_DEFAULT, "angle"): 0.75, (GUIDED, "RMS"): 1, (GUIDED, "angle"): 1}
+           (GUIDED_DEFAULT, "RMS"): 0.8, (GUIDED_DEFAULT, "angle"): 0.75, (GUIDED, "RMS"): 1, (GUIDED, "angle"): 1,
+           (NETWORK, "RMS"): 1.05, (NETWORK, "angle"): 1.03}
 
 
 def compare(experiment, title, rows, peer, figure):
@@ -225,7 +231,7 @@ def compare(experiment, title, rows, peer, figure):
 
 def main():
     def add_options(parser):
-        parser.add_argument("--pairs", type=pathlib.Path, metavar="FOLDER",
+        parser.add_argument("--pairs", type=pathlib.Path, metavar="FOLDER", nargs="+",
                             help="pairs NAME_noisy.ply and NAME_original.ply")
         parser.add_argument("--peers", type=pathlib.Path, metavar="FILE",
                             help="results of an earlier run, of which the other smoothers' are taken")
@@ -248,8 +254,9 @@ def main():
         for scan in surfaces:
             rows.update(rows_of(experiment, scan, noises))
         report(experiment, title, rows)
-    if options.pairs:
-        report(experiment, "Public pairs", rows_of_pairs(experiment, options.pairs))
+    for folder in options.pairs or []:
+        title = "Public pairs, with a network's results" if any(folder.glob("*_gcn.ply")) else "Public pairs"
+        report(experiment, title, rows_of_pairs(experiment, folder))
     experiment.finish()
 
 
