@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 
 #include "filter_tracked_mcf/core/flow/flow.h"
+#include "filter_tracked_mcf/core/flow/mesh_flow.h"
 #include "filter_tracked_mcf/core/memory/process_memory.h"
 #include "filter_tracked_mcf/core/mesh/measures.h"
 #include "filter_tracked_mcf/core/parallel/parallel.h"
@@ -28,13 +30,18 @@ double progress_before(int step, int iterations) {
     return (kSetupInSteps + step) / (kSetupInSteps + iterations + kFinishInSteps);
 }
 
-/// Sets the flow up; returns it in place, since it cannot be moved. Sets the triangles that flow.
-Flow set_up(const TriangleMesh& mesh, const Inputs& inputs, const FlowParameters& parameters,
+/// Sets the flow up. Sets the triangles that flow.
+std::unique_ptr<SurfaceFlow> set_up(const TriangleMesh& mesh, const Inputs& inputs, const FlowParameters& parameters,
             Selection& moving) {
     const ProgressSpan span(0, progress_before(0, parameters.iterations));
+    if (parameters.solver == Solver::Converged) {
+        MeshPlan plan = mesh_plan_of(mesh, inputs, parameters);
+        moving = plan.domain.selection();
+        return std::make_unique<MeshFlow>(std::move(plan));
+    }
     Plan plan = plan_of(mesh, inputs, parameters);
     moving = plan.domain.selection();
-    return Flow(std::move(plan));
+    return std::make_unique<Flow>(std::move(plan));
 }
 
 /// Positions to which a flow has moved the mesh, and the area of the triangles that flow.
@@ -43,7 +50,7 @@ struct Moved {
     double area;
 };
 
-Moved moved_by(const Flow& flow, const TriangleMesh& mesh, const Selection& selection) {
+Moved moved_by(const SurfaceFlow& flow, const TriangleMesh& mesh, const Selection& selection) {
     Moved moved{mesh.positions, 0};
     flow.move_vertices(moved.positions);
     moved.area = surface_area({moved.positions, mesh.triangles}, selection);
@@ -51,7 +58,7 @@ Moved moved_by(const Flow& flow, const TriangleMesh& mesh, const Selection& sele
 }
 
 /// Makes all steps, or fewer if nothing is left to do.
-void make_steps(Flow& flow, const TriangleMesh& mesh, int iterations, const StepObserver& on_step) {
+void make_steps(SurfaceFlow& flow, const TriangleMesh& mesh, int iterations, const StepObserver& on_step) {
     for (int step = 0; step < iterations; ++step) {
         const ProgressSpan span(progress_before(step, iterations),
                                 progress_before(step + 1, iterations));
@@ -93,15 +100,13 @@ void compare(const TriangleMesh& before, const std::vector<Eigen::Vector3d>& aft
 }
 
 /// Returns what FlowReport::quality holds after the surface has moved from `before` to `after`.
-std::vector<double> measure_quality(Quality quality, Flow& flow, const TriangleMesh& before,
+std::vector<double> measure_quality(Quality quality, SurfaceFlow& flow, const TriangleMesh& before,
                                     const std::vector<Eigen::Vector3d>& after,
                                     const Selection& selection) {
     if (quality == Quality::None) return {};
     if (quality == Quality::Displacement)
         return displacements_along_normals(before, after, selection);
-    std::vector<Eigen::Vector3d> curvatures = flow.velocities(after.size());
-    for (Eigen::Vector3d& curvature : curvatures) curvature *= -0.5;
-    return along_normals(curvatures, {after, before.triangles}, selection);
+    return flow.mean_curvatures({after, before.triangles}, selection);
 }
 
 }  // namespace
@@ -121,7 +126,8 @@ FlowReport evolve(TriangleMesh& mesh, const Inputs& inputs, const FlowParameters
     enter_setup_phase(kCheckMesh);
     validate(mesh, inputs);
     Selection moving;
-    Flow flow = set_up(mesh, inputs, parameters, moving);
+    const std::unique_ptr<SurfaceFlow> flow_owner = set_up(mesh, inputs, parameters, moving);
+    SurfaceFlow& flow = *flow_owner;
     const double setup_seconds = setup.seconds();
 
     const double area_before = surface_area(mesh, moving);

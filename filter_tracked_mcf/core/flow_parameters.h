@@ -40,7 +40,10 @@ enum class Cubature {
 
 /// How each step's linear system is solved.
 enum class Solver {
-    Converged,  ///< conjugate gradients with a V-cycle as preconditioner, to a tolerance
+    /// Conjugate gradients on the mesh's own linear elements, to a tolerance. The tracked octree
+    /// preconditions them. A cell limits nothing.
+    Converged,
+    Grid,  ///< conjugate gradients on the octree's elements, to a tolerance
     OneWCycle   ///< the paper's solver (section 5.2): a fixed number of W-cycles from zero
 };
 
@@ -50,8 +53,8 @@ enum class Quality {
     /// How far the vertex has moved along the normal of the result, mesh units.
     Displacement,
     /// Mean curvature, half the sum of the principal curvatures, in 1 / mesh units; positive on a
-    /// sphere whose normals point outwards. It is that of the surface after the last step, from
-    /// d = 2 δ H n, and so leaves out what the step has removed.
+    /// sphere whose normals point outwards. It is that of the surface after the last step, smoothed
+    /// over about an edge. The Grid and OneWCycle solvers measure it by the last step, d = 2 δ H n.
     MeanCurvature
 };
 
@@ -80,7 +83,7 @@ struct StepParameters {
     double tolerance = 1e-3;
 
     /// Whether pinched unknowns are constrained (pinches.h). Without that, thin parts explode once
-    /// they have pinched. For comparison only.
+    /// they have pinched. Not with the Converged solver, whose functions do not pinch.
     bool constrain_pinches = true;
 };
 
@@ -131,8 +134,8 @@ struct FlowParameters : StepParameters {
     Solver solver = Solver::Converged;
 
     /// Weight κ of the stabilisation (stabilization.h), 0 to kMaximumStabilization; 0 is the
-    /// paper's system. If unset, it is kDefaultStabilization for the Converged solver, which needs
-    /// it, and 0 for the other.
+    /// paper's system. If unset, it is kDefaultStabilization for the Grid solver, which needs it, and 0 for
+    /// OneWCycle.
     std::optional<double> stabilization;
 
     /// OneWCycle: number of W-cycles per step, 1 to 1000; the paper uses one.

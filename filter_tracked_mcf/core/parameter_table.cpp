@@ -38,16 +38,17 @@ ParameterOf<P> method() {
         {"Converged", "converged"}, {"Shared cells", "shared-cells"}, {"Paper", "paper"}};
     row.get = [](const P& p) -> ParameterValue {
         if (p.solver == Solver::OneWCycle) return Paper;
-        if (p.solver == Solver::Converged) return p.separate_sheets ? Converged : SharedCells;
+        if (p.solver == Solver::Grid) return SharedCells;
         return static_cast<int>(p.solver);
     };
     row.set = [](P& p, const ParameterValue& value) {
         const int method = std::get<int>(value);
         const bool is_method = method >= Converged && method <= Paper;
         // Another number stays one that validate() refuses.
-        p.solver = !is_method        ? static_cast<Solver>(method)
-                   : method == Paper ? Solver::OneWCycle
-                                     : Solver::Converged;
+        p.solver = !is_method              ? static_cast<Solver>(method)
+                   : method == Paper       ? Solver::OneWCycle
+                   : method == SharedCells ? Solver::Grid
+                                           : Solver::Converged;
         p.separate_sheets = method == Converged;
     };
     return row;

@@ -73,7 +73,7 @@ ReportValue stop_name(NoiseStop stop) {
 }
 
 ReportValue step_values(const StepReport& step, Solver solver) {
-    const bool no_tolerance = solver != Solver::Converged;
+    const bool no_tolerance = solver == Solver::OneWCycle;
     return {ReportObject{{"assemble_seconds", {step.assemble_seconds}},
                          {"solve_seconds", {step.solve_seconds}},
                          {"residual_before", {step.residual_before}},

@@ -78,7 +78,7 @@ double volume_change(const Report& report) {
 }
 
 double error_estimate(Solver solver, const StepReport& step) {
-    if (solver == Solver::Converged) return step.error_estimate;
+    if (solver != Solver::OneWCycle) return step.error_estimate;
     return step.residual_before == 0 ? 0 : step.residual_after / step.residual_before;
 }
 

@@ -35,6 +35,7 @@ TEST(Evolve, SmallFragmentsAreSampledAccurately) {
     const auto flowed = [&](Cubature cubature) {
         TriangleMesh mesh = initial;
         FlowParameters p = parameters(6, 1e-3, 3);
+        p.solver = Solver::Grid;
         p.cubature = cubature;
         evolve(mesh, p);
         return mesh;
@@ -47,7 +48,9 @@ TEST(Evolve, SmallFragmentsAreSampledAccurately) {
 
 TEST(Evolve, ReportsSizesAndResiduals) {
     TriangleMesh mesh = shapes::bumpy_sphere(20);
-    const FlowReport report = evolve(mesh, parameters(5, 1e-3, 3));
+    FlowParameters p = parameters(5, 1e-3, 3);
+    p.solver = Solver::Grid;
+    const FlowReport report = evolve(mesh, p);
     EXPECT_EQ(report.vertices, 4002);
     EXPECT_EQ(report.triangles, 8000);
     EXPECT_EQ(report.depth, 5);
@@ -66,6 +69,25 @@ TEST(Evolve, ReportsSizesAndResiduals) {
         EXPECT_EQ(step.collapsed_samples, 0);
     }
     EXPECT_NEAR(report.steps[0].area, report.area_before, 1e-6 * report.area_before);
+}
+
+TEST(Evolve, ReportsTheOctreeOnlyIfThereIsOne) {
+    TriangleMesh mesh = shapes::bumpy_sphere(20);
+    const FlowReport report = evolve(mesh, parameters(5, 1e-3, 3));
+    EXPECT_EQ(report.vertices, 4002);
+    EXPECT_EQ(report.triangles, 8000);
+    EXPECT_EQ(report.unknowns, 4002);
+    EXPECT_EQ(report.depth, 5);
+    EXPECT_GT(report.cells, 1000);
+    EXPECT_EQ(report.elements, report.cells);
+    EXPECT_EQ(report.samples, 0);
+    EXPECT_NEAR(report.steps[0].area, report.area_before, 1e-6 * report.area_before);
+    for (const StepReport& step : report.steps) {
+        EXPECT_LT(step.residual_after, 0.01 * step.residual_before);
+    }
+    const FlowReport of_default = evolve(mesh, FlowParameters());  // removes waves of 2.5 edges
+    EXPECT_EQ(of_default.depth, 0);
+    EXPECT_EQ(of_default.cells, 0);
 }
 
 TEST(Evolve, ReportsHowTheSurfaceChanged) {
@@ -233,7 +255,7 @@ TEST(Evolve, RejectsParametersOutOfRangeAndNamesThem) {
         expect_rejected<InvalidParameter>(mesh, p, "tolerance");
     }
     p.tolerance = 1e-3;
-    for (const Solver solver : {Solver::Converged, Solver::OneWCycle}) {
+    for (const Solver solver : {Solver::Converged, Solver::Grid, Solver::OneWCycle}) {
         p.solver = solver;
         for (const double weight : {-1e-9, 1001.0, kNaN, kInfinity, -kInfinity}) {
             p.stabilization = weight;
@@ -292,29 +314,33 @@ TEST(Evolve, AcceptsAnyAbsoluteStepSize) {
     EXPECT_TRUE(same_bits(far, evolved(cap, p)));
 }
 
-TEST(Evolve, StabilizesTheConvergedSolverByDefault) {
+TEST(Evolve, StabilizesTheGridByDefault) {
     FlowParameters p;
+    p.solver = Solver::Grid;
     EXPECT_EQ(stabilization_of(p), kDefaultStabilization);
     p.solver = Solver::OneWCycle;
     EXPECT_EQ(stabilization_of(p), 0);
     p.stabilization = 0.1;
     EXPECT_EQ(stabilization_of(p), 0.1);
-    p.solver = Solver::Converged;
+    p.solver = Solver::Grid;
     p.stabilization = 0;
     EXPECT_EQ(stabilization_of(p), 0);
 }
 
 TEST(Evolve, ReachesATightToleranceOrReportsThatItDidNot) {
     FlowParameters p = parameters(4, 1e-3, 2);
-    for (const double tolerance : {1e-10, 1e-30}) {  // double precision cannot reach the second
-        p.tolerance = tolerance;
-        TriangleMesh mesh = shapes::bumpy_sphere(10);
-        for (const StepReport& step : evolve(mesh, p).steps) {
-            EXPECT_EQ(step.reached_tolerance, tolerance == 1e-10);
-            EXPECT_EQ(step.reached_tolerance, step.error_estimate <= tolerance);
-            EXPECT_GT(step.solver_iterations, 3);
-            EXPECT_LE(step.solver_iterations, kMaximumSolverIterations);
+    for (p.solver = Solver::Converged;; p.solver = Solver::Grid) {
+        for (const double tolerance : {1e-10, 1e-30}) {  // double precision cannot reach the second
+            p.tolerance = tolerance;
+            TriangleMesh mesh = shapes::bumpy_sphere(10);
+            for (const StepReport& step : evolve(mesh, p).steps) {
+                EXPECT_EQ(step.reached_tolerance, tolerance == 1e-10);
+                EXPECT_EQ(step.reached_tolerance, step.error_estimate <= tolerance);
+                EXPECT_GT(step.solver_iterations, 3);
+                EXPECT_LE(step.solver_iterations, kMaximumSolverIterations);
+            }
         }
+        if (p.solver == Solver::Grid) break;
     }
 }
 
@@ -394,7 +420,7 @@ TEST(Evolve, HugeStepsAndTinyMeshesStayFinite) {
 TEST(Evolve, ClosedMeshesStayInTheirBoxAtAnyStepSize) {
     const TriangleMesh mesh = shapes::bumpy_sphere(16);
     const Grid box = enclosing_grid(mesh, 0);
-    for (const Solver solver : {Solver::Converged, Solver::OneWCycle}) {
+    for (const Solver solver : {Solver::Converged, Solver::Grid, Solver::OneWCycle}) {
         for (const double step : {1.0, 1e2, 1e4, 1e6, 1e9}) {
             FlowParameters p = parameters(6, step, 2);
             p.solver = solver;

@@ -59,7 +59,7 @@ struct System : FirstStep {
 struct ElementSystem : FirstStep {
     ElementSystem(const TriangleMesh& mesh, int depth, float step,
                   const SystemOptions& options = {})
-        : FirstStep(mesh, depth, step, options), multigrid(elements, constrained) {
+        : FirstStep(mesh, depth, step, options), multigrid(elements.levels, constrained) {
         multigrid.refresh(systems.matrices, step);
         multigrid.assemble(systems.right_sides, right_side);
     }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "filter_tracked_mcf/core/mesh/measures.h"
 #include "filter_tracked_mcf/core/mesh/mesh_topology.h"
 
 namespace tracked_mcf {
@@ -123,6 +124,12 @@ void Flow::end_before_last_step(Stop reason) {
 
 void Flow::move_vertices(std::vector<Eigen::Vector3d>& positions) const {
     add_at_vertices(stepper_.elements(), state_.displacement, positions);
+}
+
+std::vector<double> Flow::mean_curvatures(const SurfaceView& after, const Selection& selection) {
+    std::vector<Eigen::Vector3d> curvatures = velocities(after.positions.size());
+    for (Eigen::Vector3d& curvature : curvatures) curvature *= -0.5;
+    return along_normals(curvatures, after, selection);
 }
 
 std::vector<Eigen::Vector3d> Flow::velocities(std::size_t vertex_count) {

@@ -11,6 +11,7 @@
 #include "filter_tracked_mcf/core/elements/tracked_elements.h"
 #include "filter_tracked_mcf/core/flow/confinement.h"
 #include "filter_tracked_mcf/core/flow/flow_state.h"
+#include "filter_tracked_mcf/core/flow/surface_flow.h"
 #include "filter_tracked_mcf/core/flow_report.h"
 #include "filter_tracked_mcf/core/plan/plan.h"
 #include "filter_tracked_mcf/core/solver/step_solver.h"
@@ -19,9 +20,6 @@
 #include "filter_tracked_mcf/core/system/stabilization.h"
 
 namespace tracked_mcf {
-
-/// A surface whose area is below this fraction of its initial area has vanished.
-inline constexpr double kVanishedArea = 1e-3;
 
 /// How carefully a step is made.
 struct Care {

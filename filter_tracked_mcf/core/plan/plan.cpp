@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "filter_tracked_mcf/core/errors.h"
+#include "filter_tracked_mcf/core/memory/process_memory.h"
 #include "filter_tracked_mcf/core/mesh/measures.h"
 #include "filter_tracked_mcf/core/parallel/setup_phases.h"
 #include "filter_tracked_mcf/core/plan/automatic_depth.h"
@@ -75,6 +76,13 @@ void check_preservable(const Domain& domain, Preserve preserve, FlowKind flow) {
     check_encloses_volume(domain);
 }
 
+/// Beyond this δ, in squared mean edge lengths, single precision loses the mass beside the
+/// stiffness.
+constexpr double kLargestStepSizeInEdges = 5e4;
+
+/// Bytes for each vertex and each triangle of a flow on the mesh's own elements, beside the mesh.
+constexpr double kBytesPerVertex = 320, kBytesPerTriangle = 120;
+
 /// Returns the step size that the parameters ask for.
 StepSize asked_size(const FlowParameters& parameters, const TriangleMesh& mesh, double mean_edge,
                     const Grid& grid) {
@@ -123,6 +131,30 @@ Plan plan_of(const TriangleMesh& mesh, const Inputs& inputs, FlowParameters para
     plan.resolving_depth = resolving;
     plan.expected_bytes = memory.flow_bytes(plan.surface.grid.depth);
     return plan;
+}
+
+MeshPlan mesh_plan_of(const TriangleMesh& mesh, const Inputs& inputs,
+                      const FlowParameters& parameters) {
+    if (parameters.boundary == BoundaryCondition::LockedCells) {
+        throw InvalidParameter("boundary",
+                               "locks cells, which the default method does not have; lock the "
+                               "boundary itself, or take the method paper.");
+    }
+    const double bytes = kBytesPerVertex * static_cast<double>(mesh.positions.size()) +
+                         kBytesPerTriangle * static_cast<double>(mesh.triangles.size());
+    check_free_memory(bytes, "The flow", "Simplify the mesh, or take a part of it.");
+    enter_setup_phase(kFindEdges);
+    Domain domain(mesh, inputs, parameters.boundary);
+    enter_setup_phase(kMeasureSurface);
+    check_preservable(domain, parameters.preserve, parameters.flow);
+    const double mean_edge = mean_edge_length(domain.surface());
+    const double asked =
+        asked_size(parameters, mesh, mean_edge, enclosing_grid(domain.surface(), 0)).in_mesh_units;
+    const double limit = kLargestStepSizeInEdges * mean_edge * mean_edge;
+    auto densities = triangle_densities(domain, parameters.local_detail_size, mean_edge);
+    return {std::move(domain), std::move(densities), parameters,       std::min(asked, limit),
+            asked,             parameters.preserve,  parameters.iterations, parameters.depth,
+            mean_edge,         bytes};
 }
 
 Plan plan_of(Domain domain, ClippedSurface surface, double mean_edge,

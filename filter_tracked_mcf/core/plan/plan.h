@@ -48,6 +48,25 @@ struct Plan {
     double expected_bytes;  ///< of the whole flow
 };
 
+/// All that follows from a mesh, inputs and parameters before a flow on the mesh's own elements is
+/// set up.
+struct MeshPlan {
+    Domain domain;                  ///< its mesh must outlive the plan
+    std::vector<double> densities;  ///< per triangle of the surface (densities.h); empty if all 1
+    StepParameters steps;
+    double step_size;        ///< δ, mesh units²
+    double asked_step_size;  ///< larger if δ was limited, see FlowParameters::step_size
+    Preserve preserve;
+    int iterations;
+    int depth;              ///< of the octree, as asked for; 0 chooses it
+    double mean_edge;       ///< of the surface, mesh units
+    double expected_bytes;  ///< of the whole flow
+};
+
+/// Plans a flow on the mesh's own elements; otherwise like plan_of().
+MeshPlan mesh_plan_of(const TriangleMesh& mesh, const Inputs& inputs,
+                      const FlowParameters& parameters);
+
 /// Plans a flow on a grid that encloses the surface, at the depth that the parameters ask for. The
 /// mesh, the inputs and the parameters must have passed validate().
 ///

@@ -40,10 +40,10 @@ ElementMultigrid::LevelData::LevelData(const Level& of_level)
       partition(of_level),
       smoother(of_level, bricks, partition) {}
 
-ElementMultigrid::ElementMultigrid(const TrackedElements& elements,
+ElementMultigrid::ElementMultigrid(const std::vector<Level>& levels,
                                    std::vector<std::vector<std::uint8_t>> constrained)
-    : constrained_(std::move(constrained)), coarse_solver_(elements.levels.front()) {
-    for (const Level& level : elements.levels) levels_.emplace_back(level);
+    : constrained_(std::move(constrained)), coarse_solver_(levels.front()) {
+    for (const Level& level : levels) levels_.emplace_back(level);
     for (std::size_t l = 1; l < levels_.size(); ++l) {
         levels_[l].transfer = ElementTransfer(levels_[l].level, levels_[l - 1].level);
         levels_[l - 1].own_matrices.resize(levels_[l - 1].level.element_count());

@@ -37,8 +37,8 @@ enum class Effort {
 class ElementMultigrid {
 public:
     /// `constrained` are the flags of the constrained unknowns of each level, coarsest first.
-    /// `elements` must outlive this.
-    ElementMultigrid(const TrackedElements& elements,
+    /// `levels`, coarsest first, must outlive this.
+    ElementMultigrid(const std::vector<Level>& levels,
                      std::vector<std::vector<std::uint8_t>> constrained);
     ElementMultigrid(const ElementMultigrid&) = delete;
     ElementMultigrid& operator=(const ElementMultigrid&) = delete;

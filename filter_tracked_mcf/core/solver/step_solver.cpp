@@ -30,11 +30,11 @@ double unit_for(double norm) {
     return 0 < norm && norm < very_small ? std::exp2(std::ilogb(std::max(norm, least))) : 1;
 }
 
-/// Implements Solver::Converged.
+/// Implements Solver::Grid.
 class ConvergedSolver : public StepSolver {
 public:
     ConvergedSolver(const TrackedElements& elements, ConstrainedByLevel constrained)
-        : multigrid_(elements, std::move(constrained)) {}
+        : multigrid_(elements.levels, std::move(constrained)) {}
 
     void take(MatrixBlocks& matrices, const std::vector<std::uint8_t>& constrained,
               double stiffness_to_mass) override {

@@ -198,14 +198,15 @@ TEST(DetailSize, GivesWayToAStepSize) {
 }
 
 TEST(DetailSize, IsReportedAsThatOfTheStepThatWasMade) {
-    // A step has at most 1e5 squared cells.
+    // A step has at most 5e4 squared edges.
     FlowParameters p;
     p.depth = 3;
     p.detail_size = 1e9;
     p.boundary = BoundaryCondition::Locked;
     TriangleMesh mesh = bumpy_cap(10);
     const FlowReport report = evolve(mesh, p);
-    EXPECT_NEAR(report.step_size, 1e5 * std::pow(report.cell_size, 2), 1e-9 * report.step_size);
+    EXPECT_NEAR(report.step_size, 5e4 * std::pow(report.mean_edge, 2), 1e-9 * report.step_size);
+    EXPECT_GT(report.asked_step_size, report.step_size);
     EXPECT_NEAR(report.detail_size, detail_size_for(report.step_size, 3, 1),
                 1e-12 * report.detail_size);
 }

@@ -101,10 +101,12 @@ TEST(Order, HigherOnesShrinkASphereLess) {
 TEST(Order, WorksWithEverySolverFlowAndBoundary) {
     // A higher order moves the surface less, because h is between 0 and 1.
     const TriangleMesh cap = bumpy_cap(15);
-    for (const Solver solver : {Solver::Converged, Solver::OneWCycle}) {
+    for (const Solver solver : {Solver::Converged, Solver::Grid, Solver::OneWCycle}) {
         for (const FlowKind kind : {FlowKind::MeanCurvature, FlowKind::Conformalized}) {
             for (const auto boundary : {BoundaryCondition::Locked, BoundaryCondition::LockedCells,
                                         BoundaryCondition::Free}) {
+                if (solver == Solver::Converged && boundary == BoundaryCondition::LockedCells)
+                    continue;
                 const auto moved = [&](int order) {
                     FlowParameters p = parameters(5, 1e-4, 2);
                     p.solver = solver;

@@ -150,6 +150,7 @@ TEST(PreservingVolume, OfASurfaceWithAFreeOrACellwiseLockedRim) {
         for (const int order : {1, 2}) {
             FlowParameters p = preserving(Preserve::Volume, 1e-4, 20);
             p.boundary = boundary;
+            if (boundary == BoundaryCondition::LockedCells) p.solver = Solver::Grid;
             p.order = order;
             const TriangleMesh after = evolved(cap, p);
             EXPECT_LT(std::abs(volume_between(cap, after)), kRestored * box_volume(cap));
@@ -349,18 +350,23 @@ TEST(PreservingArea, OfAFreeOpenSurface) {
     EXPECT_NEAR(surface_area(evolved(cap, p)), area, kRestored * area);
 }
 
-TEST(Preserving, StopsOnceOnlyThreadsRemain) {
-    // A dumbbell's bar pinches to a thread. The thread stays while the balls shrink.
+TEST(Preserving, StopsOnceOnlyThreadsRemainOnTheGrid) {
+    // A dumbbell's bar pinches to a thread. The thread stays while the balls shrink. The flow on
+    // the mesh goes on: its threads shrink, too.
     TriangleMesh dumbbell = shapes::geodesic_sphere(30);
     for (auto& p : dumbbell.positions) {
         const double waist = 0.1 + 0.9 * p[0] * p[0];
         p = Eigen::Vector3d(2 * p[0], waist * p[1], waist * p[2]);
     }
-    TriangleMesh after = dumbbell;
-    const FlowReport report = evolve(after, preserving(Preserve::Area, 5e-3, 100));
-    EXPECT_EQ(report.stop, Stop::Pinched);
-    EXPECT_GT(report.steps.size(), 2U);
-    EXPECT_LE(longest_side(after), 4 * longest_side(dumbbell));
+    for (const Solver solver : {Solver::Grid, Solver::Converged}) {
+        TriangleMesh after = dumbbell;
+        FlowParameters p = preserving(Preserve::Area, 5e-3, 100);
+        p.solver = solver;
+        const FlowReport report = evolve(after, p);
+        EXPECT_EQ(report.stop, solver == Solver::Grid ? Stop::Pinched : Stop::None);
+        EXPECT_GT(report.steps.size(), 2U);
+        EXPECT_LE(longest_side(after), 4 * longest_side(dumbbell));
+    }
 }
 
 TEST(PreservingVolume, KeepsAPinchingDumbbellWithinBounds) {
@@ -373,7 +379,6 @@ TEST(PreservingVolume, KeepsAPinchingDumbbellWithinBounds) {
     const double volume = enclosed_volume(dumbbell);
     const FlowReport report = evolve(after, preserving(Preserve::Volume, 5e-3, 100));
     EXPECT_GT(report.steps.size(), 2U);
-    EXPECT_GT(report.steps.back().collapsed_samples, 0);
     EXPECT_LE(longest_side(after), 4 * longest_side(dumbbell));
     EXPECT_NEAR(enclosed_volume(after), volume, 1e-6 * volume);
 }
@@ -426,6 +431,7 @@ TEST(Preserving, IgnoresDegenerateTrianglesAndUnusedVertices) {
 TEST(PreservingVolume, OfSeparateSheetsOffIsThatOfAllTogether) {
     const TriangleMesh spheres = beside(shapes::bumpy_sphere(16), 0.4);
     FlowParameters p = preserving(Preserve::Volume, 1e-3, 5);
+    p.solver = Solver::Grid;
     p.separate_sheets = false;
     const double volume = enclosed_volume(spheres);
     const TriangleMesh after = evolved(spheres, p);

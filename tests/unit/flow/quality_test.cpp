@@ -122,6 +122,23 @@ TEST(Quality, MeanCurvatureDoesNotSeeWhatIsPreserved) {
     }
 }
 
+TEST(Quality, MeanCurvatureIsAccurateEverywhere) {
+    // Also at the vertices of a regular sphere that have five triangles, on the boundary, and in
+    // the ring beside it, whether the boundary is locked or not.
+    const TriangleMesh whole = shapes::geodesic_sphere(30);
+    for (const TriangleMesh& mesh : {whole, part_of(whole, above(whole, 0.1))}) {
+        for (const auto boundary : {BoundaryCondition::Locked, BoundaryCondition::Free}) {
+            FlowParameters p = measuring(Quality::MeanCurvature);
+            p.boundary = boundary;
+            p.step_size = 1e-9;
+            const std::vector<double> quality = quality_of(mesh, p);
+            for (const Triangle& triangle : mesh.triangles) {
+                for (const std::int32_t vertex : triangle) EXPECT_NEAR(quality[vertex], 1, 0.02);
+            }
+        }
+    }
+}
+
 TEST(Quality, OfATriangleSoupIsThatOfTheMesh) {
     const TriangleMesh mesh = shapes::bumpy_sphere(8);
     for (const Quality quality : {Quality::Displacement, Quality::MeanCurvature}) {
@@ -133,7 +150,7 @@ TEST(Quality, OfATriangleSoupIsThatOfTheMesh) {
     }
 }
 
-TEST(Quality, IsZeroWhereNothingMoves) {
+TEST(Quality, IsZeroWhereNothingFlows) {
     // Half of the faces are selected; one vertex is used by none, and is not a number.
     TriangleMesh mesh = sphere();
     mesh.positions.emplace_back(
@@ -142,17 +159,19 @@ TEST(Quality, IsZeroWhereNothingMoves) {
     for (const Triangle& triangle : mesh.triangles) {
         selection.push_back(mesh.positions[triangle[0]].z() > 0 ? 1 : 0);
     }
-    std::vector<bool> may_move(mesh.positions.size(), true);
-    may_move.back() = false;
+    std::vector<bool> flows(mesh.positions.size(), false), stays(mesh.positions.size(), false);
     for (std::size_t i = 0; i < selection.size(); ++i) {
         for (const std::int32_t vertex : mesh.triangles[i]) {
-            if (selection[i] == 0) may_move[vertex] = false;
+            (selection[i] != 0 ? flows : stays)[vertex] = true;
         }
     }
-    for (const Quality kind : {Quality::Displacement, Quality::MeanCurvature}) {
-        const auto quality = quality_of(mesh, measuring(kind), selection);
-        ASSERT_EQ(quality.size(), mesh.positions.size());
-        for (std::size_t i = 0; i < quality.size(); ++i) EXPECT_EQ(quality[i] != 0, may_move[i]);
+    const auto moved = quality_of(mesh, measuring(Quality::Displacement), selection);
+    const auto curvature = quality_of(mesh, measuring(Quality::MeanCurvature), selection);
+    ASSERT_EQ(moved.size(), mesh.positions.size());
+    ASSERT_EQ(curvature.size(), mesh.positions.size());
+    for (std::size_t i = 0; i < moved.size(); ++i) {
+        EXPECT_EQ(moved[i] != 0, flows[i] && !stays[i]);
+        EXPECT_EQ(curvature[i] != 0, flows[i]);
     }
 }
 

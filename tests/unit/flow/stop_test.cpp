@@ -14,7 +14,7 @@ namespace {
 
 TEST(Stop, UndoesTheStepInWhichASphereVanishes) {
     for (const FlowKind flow : {FlowKind::MeanCurvature, FlowKind::Conformalized}) {
-        for (const Solver solver : {Solver::Converged, Solver::OneWCycle}) {
+        for (const Solver solver : {Solver::Converged, Solver::Grid, Solver::OneWCycle}) {
             const TriangleMesh sphere = shapes::bumpy_sphere(20);
             TriangleMesh mesh = sphere;
             FlowParameters p = parameters(5, 1e-2, 200);
@@ -57,6 +57,7 @@ TEST(Stop, NothingMovesIfAllUnknownsAreConstrained) {
     const TriangleMesh square = shapes::square(10);
     TriangleMesh mesh = square;
     FlowParameters p = parameters(1, 1e-2, 5);
+    p.solver = Solver::Grid;
     p.boundary = BoundaryCondition::LockedCells;
     const FlowReport report = evolve(mesh, p);
     EXPECT_EQ(report.stop, Stop::NothingMoves);
@@ -77,6 +78,7 @@ TEST(Stop, IsFoundOnTheCoarsestGridIfAllVerticesAreConstrained) {
     one_face[0] = 1;
     for (const auto boundary : {BoundaryCondition::Locked, BoundaryCondition::LockedCells}) {
         FlowParameters p = parameters(12, 1e-2, 5);  // takes too long
+        p.solver = Solver::Grid;
         p.boundary = boundary;
         TriangleMesh mesh = triangles;
         const FlowReport report = evolve(mesh, p);

@@ -151,6 +151,7 @@ TEST(AutomaticDepth, RemovesNearlyAsMuchNoiseAsTwoDepthsMore) {
     for (Eigen::Vector3d& position : mesh.positions) position *= 1 + noise(random) * edge;
     for (const int order : {1, 2}) {
         FlowParameters p;
+        p.solver = Solver::Grid;
         p.order = order;
         p.detail_size = 1.5 * edge;
         TriangleMesh automatic = mesh, finer = mesh;
@@ -165,6 +166,7 @@ TEST(AutomaticDepth, IsThatOfTheVerticesForTheDefaultDetailAndForAStepSize) {
     for (const TriangleMesh& mesh : {shapes::geodesic_sphere(8), shapes::bumpy_sphere(20)}) {
         TriangleMesh after = mesh;
         FlowParameters p;
+        p.solver = Solver::Grid;
         EXPECT_EQ(evolve(after, p).depth, automatic_depth(mesh));
         p.detail_size = kDefaultDetailInEdges * mean_edge_length(mesh);
         EXPECT_EQ(evolve(after = mesh, p).depth, automatic_depth(mesh));

@@ -145,6 +145,7 @@ struct Fit {
 
 FlowParameters with_option(const std::string& option, int depth) {
     FlowParameters p;
+    p.solver = Solver::Grid;
     p.depth = depth;
     p.iterations = 3;
     p.threads = 2;

@@ -23,6 +23,7 @@ namespace {
 
 FlowParameters free_at(int depth) {
     FlowParameters p = parameters(depth, 1e-5, 1);
+    p.solver = Solver::Grid;
     p.boundary = BoundaryCondition::Free;
     return p;
 }
@@ -171,6 +172,21 @@ TEST(MemoryOfAFlow, ThatMeasuresTheDisplacement) {
     FlowParameters p = free_at(0);
     p.quality = Quality::Displacement;
     expect_estimate(shapes::bumpy_sphere(100), p);
+}
+
+TEST(MemoryOfAFlow, OnTheMesh) {
+    FlowParameters p = free_at(0);
+    p.solver = Solver::Converged;
+    p.order = 2;
+    expect_estimate(shapes::bumpy_sphere(200), p, 0.9, 1.5);
+}
+
+TEST(MemoryOfAFlow, OnTheMeshWithAnOctree) {
+    FlowParameters p = free_at(0);
+    p.solver = Solver::Converged;
+    p.step_size = 1e-3;
+    p.preserve = Preserve::Volume;
+    expect_estimate(shapes::bumpy_sphere(200), p, 0.9, 1.5);
 }
 
 TEST(MemoryOfAFlow, OfFewLargeTriangles) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "filter_tracked_mcf/core/noise/stars.h"
+#include "filter_tracked_mcf/core/surface/stars.h"
 
 #include <algorithm>
 #include <numeric>

@@ -1,0 +1,314 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "filter_tracked_mcf/core/flow/mesh_flow.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "filter_tracked_mcf/core/mesh/measures.h"
+#include "filter_tracked_mcf/core/mesh/mesh_topology.h"
+#include "filter_tracked_mcf/core/parallel/parallel.h"
+#include "filter_tracked_mcf/core/parallel/progress_meter.h"
+#include "filter_tracked_mcf/core/parallel/setup_phases.h"
+#include "filter_tracked_mcf/core/parallel/stopwatch.h"
+#include "filter_tracked_mcf/core/surface/triangle_elements.h"
+
+namespace tracked_mcf {
+
+namespace {
+
+/// The fraction of a step's time before the solver begins.
+constexpr double kShareOfAssembly = 0.2;
+
+/// A solve whose error is more than this part of its solution has failed.
+constexpr double kUseless = 0.5;
+
+/// The tolerance where components are scaled after the step, relative to the usual one.
+constexpr double kToleranceOfScaled = 0.1;
+
+/// A step of order 2 or more overshoots at corners. It may leave the box of the surface by this
+/// part of the length of the waves that it halves and of the box's diagonal.
+constexpr double kOvershootInDetail = 0.1, kOvershootInDiagonals = 0.02;
+
+/// Where waves are shorter than this, in edges, coarser functions than the mesh's cost more than
+/// they save.
+constexpr double kShortWaves = 16;
+
+/// The side of the octree's cells is at least this, in edges.
+constexpr double kSmallestCell = 4;
+
+/// The length of the step, in squared edges, by which mean curvatures are smoothed. They scatter by
+/// 5 % on a sphere of regular triangles otherwise.
+constexpr double kShortStep = 2;
+
+/// The octree has at most this share of the vertices as elements.
+constexpr double kMostElements = 0.25;
+
+using Boxes = std::vector<Eigen::AlignedBox3d>;
+
+/// Returns the box of each component.
+Boxes boxes_of(const FlowSurface& surface, const std::vector<Eigen::Vector3d>& positions) {
+    Boxes boxes(static_cast<std::size_t>(surface.component_count));
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+        boxes[surface.components[i]].extend(positions[i]);
+    }
+    return boxes;
+}
+
+/// Returns the box of all components.
+Eigen::AlignedBox3d box_of(const Boxes& boxes) {
+    Eigen::AlignedBox3d all;
+    for (const Eigen::AlignedBox3d& box : boxes) all.extend(box);
+    return all;
+}
+
+/// Returns the octree of a surface, or none if the waves that a step halves, in edges, do not need
+/// it. A depth of 0 chooses it.
+std::unique_ptr<VertexOctree> octree_of(const FlowSurface& surface, double halved, int depth) {
+    enter_setup_phase(kBuildOctree);
+    const Grid cube = cube_around(box_of(boxes_of(surface, surface.positions)));
+    if (depth > 0) {
+        return std::make_unique<VertexOctree>(surface.stars, surface.positions,
+                                              with_depth(cube, depth));
+    }
+    if (halved < kShortWaves) return nullptr;
+    const double finest = std::floor(std::log2(cube.cell_size / kSmallestCell));
+    for (int l = static_cast<int>(std::min(finest, double{kMaximumDepth})); l >= 1; --l) {
+        auto octree = std::make_unique<VertexOctree>(surface.stars, surface.positions,
+                                                     with_depth(cube, l));
+        if (octree->finest().element_count() <= kMostElements * surface.stars.count())
+            return octree;
+    }
+    return nullptr;
+}
+
+/// Gives the vertices of a rim the mean value of their neighbours inside, or of other neighbours
+/// that have one by then. Their own is that of the surface's edge, which has no curvature.
+void continue_to_rim(const Stars& stars, std::vector<double>& values) {
+    if (stars.on_rim.empty()) return;
+    std::vector<std::uint8_t> has_value(values.size());
+    for (std::size_t i = 0; i < values.size(); ++i) has_value[i] = stars.on_rim[i] != 0 ? 0 : 1;
+    for (bool goes_on = true; goes_on;) {
+        goes_on = false;
+        const std::vector<std::uint8_t> had_value = has_value;
+        for (std::int32_t vertex = 0; vertex < stars.count(); ++vertex) {
+            if (had_value[vertex] != 0) continue;
+            double sum = 0;
+            int count = 0;
+            for (auto i = stars.neighbour_begin[vertex]; i < stars.neighbour_begin[vertex + 1];
+                 ++i) {
+                if (had_value[stars.neighbours[i]] == 0) continue;
+                sum += values[stars.neighbours[i]];
+                ++count;
+            }
+            values[vertex] = count > 0 ? sum / count : 0;
+            has_value[vertex] = count > 0 ? 1 : 0;
+            goes_on = goes_on || count > 0;
+        }
+        poll_progress();
+    }
+}
+
+}  // namespace
+
+MeshFlow::MeshFlow(MeshPlan plan)
+    : surface_(flow_surface_of(plan.domain, plan.densities)),
+      steps_(plan.steps),
+      step_size_(plan.step_size / (surface_.edge * surface_.edge)),
+      initial_(surface_.positions),
+      solver_(surface_.stars, surface_.fixed, surface_.components,
+              octree_of(surface_, detail_size_for(step_size_, 1, steps_.order), plan.depth)) {
+    enter_setup_phase(kPrepareSolver);
+    const double diagonal = box_of(boxes_of(surface_, initial_)).diagonal().norm();
+    const double halved = detail_size_for(step_size_, 1, steps_.order);
+    margin_ = kOvershootInDetail * std::min(halved, diagonal) + kOvershootInDiagonals * diagonal;
+    if (plan.preserve != Preserve::None)
+        preserver_.emplace(surface_, plan.preserve, plan.steps.flow);
+    fill_report(plan);
+}
+
+void MeshFlow::fill_report(const MeshPlan& plan) {
+    const Domain& domain = plan.domain;
+    report_.vertices = count_vertices(domain.topology());
+    report_.triangles = static_cast<std::int64_t>(domain.surface().triangles.size());
+    report_.has_strengths = domain.has_strengths();
+    report_.zero_strength_triangles = domain.zero_strength_count();
+    report_.unselected_triangles = static_cast<std::int64_t>(domain.mesh().triangles.size()) -
+                                   report_.triangles - report_.zero_strength_triangles;
+    report_.degenerate_triangles = surface_.degenerate_count;
+    report_.oriented_consistently = domain.topology().is_oriented_consistently();
+    report_.boundary_edges = domain.boundary_edge_count();
+    report_.cracks = domain.topology().cracks;
+    report_.constrained_vertices = surface_.constrained_count;
+    if (const VertexOctree* const octree = solver_.octree()) {
+        report_.depth = octree->finest().depth;
+        report_.cell_size = octree->cell_size() * surface_.edge;
+        report_.cells = count_cells(octree->finest());
+        report_.elements = octree->finest().element_count();
+    }
+    report_.step_size = plan.step_size;
+    report_.asked_step_size = plan.asked_step_size;
+    report_.detail_size = detail_size_for(plan.step_size, plan.iterations, steps_.order);
+    report_.mean_edge = plan.mean_edge;
+    if (steps_.flow == FlowKind::Conformalized) report_.genus = genus_of(domain.topology());
+    report_.estimated_memory_bytes = static_cast<std::int64_t>(plan.expected_bytes);
+    report_.unknowns = surface_.stars.count();
+}
+
+double MeshFlow::area_of(const Positions& positions) const {
+    const RawVector<Triangle>& triangles = surface_.stars.triangles;
+    return parallel_sum(static_cast<std::int64_t>(triangles.size()), 0.0,
+                        [&](std::int64_t begin, std::int64_t end) {
+                            double sum = 0;
+                            for (std::int64_t i = begin; i < end; ++i) {
+                                const auto [a, b, c] = corners_of(positions, triangles[i]);
+                                sum += twice_vector_area(a, b, c).norm() / 2;
+                            }
+                            return sum;
+                        });
+}
+
+void MeshFlow::solve(StepReport& report, Positions* response) {
+    // Once components have been scaled, most of a step is given back, but not its errors.
+    const bool scales = preserver_ && !preserver_->pushes() && !report_.steps.empty();
+    const double tolerance = (scales ? kToleranceOfScaled : 1) * steps_.tolerance;
+    const int solves = steps_.order + (response != nullptr ? 1 : 0);
+    const auto solve_one = [&](int number, Positions& x) {
+        const ProgressSpan span(1.0 * number / solves, (number + 1.0) / solves);
+        const MeshConvergence result = solver_.solve(right_side_, tolerance, x);
+        report.solver_iterations += result.iterations;
+        report.residual_before = std::hypot(report.residual_before, result.residual_before);
+        report.residual_after = std::hypot(report.residual_after, result.residual_after);
+        // Written so that a NaN is kept.
+        if (!(result.error_estimate <= report.error_estimate)) {
+            report.error_estimate = result.error_estimate;
+        }
+    };
+    solver_.system().multiply_stiffness(surface_.positions, -1, right_side_);
+    for (int i = 0; i < steps_.order; ++i) {
+        // A d = δ L d', where d' is the displacement of a step of one order less
+        if (i > 0) solver_.system().multiply_stiffness(d_, 1, right_side_);
+        solve_one(i, d_);
+    }
+    if (response != nullptr) {
+        preserver_->pressure(surface_.positions, right_side_);
+        solve_one(steps_.order, *response);
+    }
+    report.reached_tolerance = report.error_estimate <= steps_.tolerance;
+}
+
+std::vector<Eigen::Vector3d> MeshFlow::displaced() const {
+    Positions to(surface_.positions.size());
+    parallel_for_rows(static_cast<std::int64_t>(to.size()), [&](std::int32_t i) {
+        to[i] = surface_.positions[i] + d_[i];
+    });
+    if (steps_.order > 1) return to;
+    // Order 1 obeys a maximum principle for each coordinate, but for the tolerance.
+    const Boxes boxes = boxes_of(surface_, surface_.positions);
+    parallel_for_rows(static_cast<std::int64_t>(to.size()), [&](std::int32_t i) {
+        const Eigen::AlignedBox3d& box = boxes[surface_.components[i]];
+        Eigen::AlignedBox3d wide(box.min().array() - margin_, box.max().array() + margin_);
+        if (wide.contains(to[i])) to[i] = to[i].cwiseMax(box.min()).cwiseMin(box.max());
+    });
+    return to;
+}
+
+Stop MeshFlow::advance(Positions& to, StepReport& report) {
+    const Stopwatch assembling;
+    const double area = area_of(surface_.positions);
+    report.area = area * surface_.edge * surface_.edge;
+    if (first_area_ == 0) first_area_ = area;
+    if (area < kVanishedArea * first_area_) return Stop::Vanished;
+    if (surface_.constrained_count == report_.vertices) return Stop::NothingMoves;
+    const bool takes_stiffness = steps_.flow == FlowKind::MeanCurvature || report_.steps.empty();
+    solver_.take(elements_in_own_metric(surface_.stars, surface_.positions, surface_.densities),
+                 step_size_, takes_stiffness);
+    report.assemble_seconds = assembling.seconds();
+    const ProgressSpan solving(kShareOfAssembly, 1);
+    const Stopwatch stopwatch;
+    Positions response;
+    solve(report, preserver_ && preserver_->pushes() ? &response : nullptr);
+    poll_progress();
+    report.solve_seconds = stopwatch.seconds();
+    if (!(report.error_estimate <= kUseless)) return Stop::StepFailed;
+    to = displaced();
+    const Boxes boxes = boxes_of(surface_, surface_.positions);
+    const auto is_outside = [&](std::int64_t i) {
+        const Eigen::AlignedBox3d& box = boxes[surface_.components[i]];
+        return !Eigen::AlignedBox3d(box.min().array() - margin_, box.max().array() + margin_)
+                    .contains(to[i]);
+    };
+    if (parallel_count(static_cast<std::int64_t>(to.size()), is_outside) > 0)
+        return Stop::StepFailed;
+    return preserver_ ? preserver_->restore(response, to) : Stop::None;
+}
+
+bool MeshFlow::step() {
+    StepReport report;
+    Positions to;
+    const Stop stop = advance(to, report);
+    if (stop == Stop::Vanished && to.empty()) {
+        end_before_last_step(Stop::Vanished);
+        return false;
+    }
+    if (stop != Stop::None) {
+        report_.stop = stop;
+        return false;
+    }
+    before_ = std::exchange(surface_.positions, std::move(to));
+    report_.steps.push_back(report);
+    return true;
+}
+
+void MeshFlow::end_before_last_step(Stop reason) {
+    surface_.positions = std::move(before_);
+    report_.steps.pop_back();
+    report_.stop = reason;
+}
+
+void MeshFlow::move_vertices(Positions& positions) const {
+    parallel_for_rows(static_cast<std::int64_t>(positions.size()), [&](std::int32_t i) {
+        const std::int32_t vertex = surface_.vertices[i];
+        if (vertex < 0 || surface_.fixed[vertex] != 0) return;
+        const Eigen::Vector3d moved = surface_.positions[vertex] - initial_[vertex];
+        if (!moved.isZero(0)) positions[i] += surface_.edge * moved;
+    });
+}
+
+std::vector<double> MeshFlow::mean_curvatures(const SurfaceView& after,
+                                              const Selection& /*selection*/) {
+    const Stars& stars = surface_.stars;
+    const Positions& positions = surface_.positions;
+    // Vertices that stay have a curvature, too.
+    const std::vector<std::uint8_t> fixed(surface_.fixed.size(), 0);
+    MeshSolver solver(stars, fixed, surface_.components, nullptr);
+    solver.take(elements_in_own_metric(stars, positions, {}), kShortStep);
+    solver.system().multiply_stiffness(positions, 1 / kShortStep, right_side_);
+    std::vector<double> values(positions.size());  // L x = 2 M H n
+    parallel_for_rows(stars.count(), [&](std::int32_t vertex) {
+        Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+        for_each_corner(stars, vertex, [&](std::uint32_t triangle, std::uint32_t /*corner*/) {
+            const auto [a, b, c] = corners_of(positions, stars.triangles[triangle]);
+            normal += twice_vector_area(a, b, c);
+        });
+        const Eigen::Vector3d force = right_side_.col(vertex).head<3>().cast<double>();
+        values[vertex] = force.dot(normal.normalized()) / (2 * double{solver.system().mass(vertex)});
+    });
+    continue_to_rim(stars, values);
+    parallel_for_rows(stars.count(), [&](std::int32_t vertex) {
+        const double integral = double{solver.system().mass(vertex)} * values[vertex];
+        right_side_.col(vertex) << static_cast<float>(integral), 0, 0, 0;
+    });
+    solver.solve(right_side_, steps_.tolerance, d_);
+    std::vector<double> curvatures(after.positions.size(), 0);
+    parallel_for_rows(static_cast<std::int64_t>(curvatures.size()), [&](std::int32_t i) {
+        const std::int32_t vertex = surface_.vertices[i];
+        if (vertex >= 0) curvatures[i] = d_[vertex].x() / surface_.edge;
+    });
+    return curvatures;
+}
+
+}  // namespace tracked_mcf

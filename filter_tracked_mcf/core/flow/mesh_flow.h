@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "filter_tracked_mcf/core/flow/flow_surface.h"
+#include "filter_tracked_mcf/core/flow/mesh_preserving.h"
+#include "filter_tracked_mcf/core/flow/surface_flow.h"
+#include "filter_tracked_mcf/core/flow_report.h"
+#include "filter_tracked_mcf/core/plan/plan.h"
+#include "filter_tracked_mcf/core/solver/mesh_solver.h"
+
+namespace tracked_mcf {
+
+/// A flow on the mesh's own linear elements. A step of order 1 solves (M + δ L) d = -δ L x for the
+/// displacement d, with mass M and stiffness L in the present metric (equation 2 with the
+/// functions of the mesh); one of order m solves m times, see FlowParameters::order.
+///
+/// The finest functions are the mesh's, so the flow is the same for all wavelengths that the mesh
+/// has, and sheets that are close move apart. The tracked octree only makes its solver fast.
+class MeshFlow : public SurfaceFlow {
+public:
+    /// Throws InvalidMesh if all triangles are degenerate.
+    explicit MeshFlow(MeshPlan plan);
+
+    bool step() override;
+    void end_before_last_step(Stop reason) override;
+    void move_vertices(std::vector<Eigen::Vector3d>& positions) const override;
+    /// Measures the surface as it is, also at vertices that stay. Curvatures are smoothed as by a
+    /// step of two squared edges, and continued to the boundary from beside it.
+    std::vector<double> mean_curvatures(const SurfaceView& after,
+                                        const Selection& selection) override;
+    const FlowReport& report() const override { return report_; }
+
+private:
+    using Positions = std::vector<Eigen::Vector3d>;
+
+    void fill_report(const MeshPlan& plan);
+    double area_of(const Positions& positions) const;  ///< in squared edges
+    /// Solves for the displacement of one step, and for the response to a pressure if `response` is
+    /// not null.
+    void solve(StepReport& report, Positions* response);
+    /// Returns the positions after the displacement d_, where a step of order 1 can lead.
+    Positions displaced() const;
+    Stop advance(Positions& to, StepReport& report);
+
+    FlowSurface surface_;  ///< as it is now
+    const StepParameters steps_;
+    const double step_size_;  ///< δ, in squared edges
+    const Positions initial_;
+    std::optional<MeshPreserver> preserver_;
+    MeshSolver solver_;
+    Positions before_;  ///< the positions before the last step
+    double first_area_ = 0, margin_ = 0;
+    Field right_side_;
+    Positions d_;  ///< the displacement of the last step
+    FlowReport report_;
+};
+
+}  // namespace tracked_mcf

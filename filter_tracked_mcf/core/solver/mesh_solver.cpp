@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "filter_tracked_mcf/core/solver/mesh_solver.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "filter_tracked_mcf/core/parallel/parallel.h"
+#include "filter_tracked_mcf/core/parallel/progress_meter.h"
+
+namespace tracked_mcf {
+
+namespace {
+
+constexpr int kMostMeshIterations = 1000;
+
+/// Below this fraction of its initial norm, a residual from recurrences in single precision differs
+/// from the true residual.
+constexpr double kSinglePrecisionOfMesh = 1e-5;
+
+/// A round of refinement makes progress if it reduces the error by this factor.
+constexpr double kWorthAnotherRound = 0.5;
+
+std::vector<std::vector<std::uint8_t>> nothing_constrained(const std::vector<Level>& levels) {
+    std::vector<std::vector<std::uint8_t>> flags;
+    for (const Level& level : levels) {
+        flags.emplace_back(static_cast<std::size_t>(level.unknown_count()), std::uint8_t{0});
+    }
+    return flags;
+}
+
+/// Returns the power of two by which a right-hand side of this norm is divided: conjugate gradients
+/// square numbers, and single precision loses the squares of very small and large ones.
+double power_of_two_of(double norm) {
+    return norm > 0 && std::isfinite(norm) ? std::exp2(std::ilogb(norm)) : 1;
+}
+
+}  // namespace
+
+MeshSolver::MeshSolver(const Stars& stars, const std::vector<std::uint8_t>& fixed,
+                       const std::vector<std::int32_t>& components,
+                       std::unique_ptr<VertexOctree> octree)
+    : system_(stars, fixed), components_(components), octree_(std::move(octree)) {
+    for (std::size_t i = 0; i < fixed.size(); ++i) {
+        const auto component = static_cast<std::size_t>(components[i]);
+        if (component >= is_held_.size()) is_held_.resize(component + 1);
+        if (fixed[i] != 0) is_held_[component] = 1;
+    }
+    if (octree_) multigrid_.emplace(octree_->levels(), nothing_constrained(octree_->levels()));
+}
+
+void MeshSolver::take(const TriangleElements& elements, double step_size, bool takes_stiffness) {
+    system_.take(elements, step_size, takes_stiffness);
+    if (!octree_) return;
+    octree_->assemble(system_, elements, matrices_);
+    const double cell = octree_->cell_size();
+    multigrid_->refresh(matrices_, step_size / (cell * cell));
+}
+
+void MeshSolver::remove_drift(std::vector<Eigen::Vector3d>& x) const {
+    struct Sums {
+        Eigen::Vector3d residual = Eigen::Vector3d::Zero();
+        double mass = 0;
+    };
+    std::vector<Sums> sums(is_held_.size());
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        const auto vertex = static_cast<std::int32_t>(i);
+        Sums& of_component = sums[components_[i]];
+        of_component.residual += r_.col(vertex).head<3>().cast<double>();
+        of_component.mass += double{system_.mass(vertex)};
+    }
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+        if (is_held_[i] != 0) sums[i].residual.setZero();
+    }
+    parallel_for_rows(static_cast<std::int64_t>(x.size()), [&](std::int32_t i) {
+        const Sums& of_component = sums[components_[i]];
+        x[i] += of_component.residual / of_component.mass;
+    });
+}
+
+double MeshSolver::precondition(float step) {
+    const double square = parallel_sum(r_.cols(), 0.0, [&](std::int64_t begin, std::int64_t end) {
+        if (step != 0) {
+            for (auto row = begin; row < end; ++row) {
+                x_.col(row) += step * p_.col(row);
+                r_.col(row) -= step * q_.col(row);
+            }
+        }
+        return system_.relax(static_cast<std::int32_t>(begin), static_cast<std::int32_t>(end), r_,
+                             z_);
+    });
+    if (!octree_) return square;
+    octree_->restrict(r_, coarse_b_);
+    multigrid_->cycle(coarse_b_, coarse_x_);
+    octree_->add_prolongated(system_, coarse_x_, z_);
+    return square + dot(coarse_b_, coarse_x_).sum();
+}
+
+double MeshSolver::descend(double square, double limit, int& iterations) {
+    set_zero(x_, r_.cols());
+    set_zero(p_, r_.cols());
+    set_zero(q_, r_.cols());
+    const double start = square;
+    float keep = 0;
+    while (square > limit && iterations < kMostMeshIterations) {
+        const double energy = system_.advance(z_, keep, p_, q_);
+        if (!(energy > 0)) break;
+        ++iterations;
+        const double before = square;
+        square = precondition(static_cast<float>(square / energy));
+        keep = static_cast<float>(square / before);
+        // Every iteration reduces the error by about the same factor.
+        if (square > 0) advance_progress(std::log(start / square) / std::log(start / limit));
+    }
+    return square;
+}
+
+MeshConvergence MeshSolver::solve(const Field& b, double tolerance,
+                                  std::vector<Eigen::Vector3d>& x) {
+    MeshConvergence result;
+    result.residual_before = norm(b);
+    const double unit = power_of_two_of(result.residual_before);
+    Field scaled = static_cast<float>(1 / unit) * b;
+    r_ = scaled;
+    z_.resize(4, r_.cols());
+    x.assign(static_cast<std::size_t>(r_.cols()), Eigen::Vector3d::Zero());
+    const double first = precondition(0);
+    const double goal = tolerance * tolerance * first;
+    const bool refines = tolerance < kSinglePrecisionOfMesh;
+    double square = first;
+    while (square > goal) {
+        const double before = square;
+        constexpr double reach = kSinglePrecisionOfMesh * kSinglePrecisionOfMesh;
+        square = descend(square, refines ? std::max(goal, reach * square) : goal,
+                         result.iterations);
+        parallel_for_rows(r_.cols(), [&](std::int32_t row) {
+            x[row] += x_.col(row).head<3>().cast<double>();
+        });
+        if (!refines || result.iterations == kMostMeshIterations) break;
+        system_.residual(scaled, x, r_);
+        square = precondition(0);
+        if (!(square < kWorthAnotherRound * kWorthAnotherRound * before)) break;
+    }
+    remove_drift(x);
+    parallel_for_rows(r_.cols(), [&](std::int32_t row) { x[row] *= unit; });
+    result.error_estimate = first > 0 ? std::sqrt(square / first) : std::sqrt(first);
+    result.residual_after = unit * norm(r_);
+    return result;
+}
+
+}  // namespace tracked_mcf
