@@ -36,12 +36,12 @@ double detail_size_of(const FlowParameters& parameters, double mean_edge) {
 
 Discretisation discretisation_of(const FlowParameters& parameters) {
     const bool whole =
-        parameters.cubature == Cubature::ThreePoints && parameters.solver == Solver::Grid;
+        parameters.cubature == Cubature::ThreePoints && parameters.solver != Solver::OneWCycle;
     return {parameters.cubature, whole, parameters.separate_sheets};
 }
 
 double stabilization_of(const FlowParameters& parameters) {
-    const bool needed = parameters.solver == Solver::Grid;
+    const bool needed = parameters.solver != Solver::OneWCycle;
     return parameters.stabilization.value_or(needed ? kDefaultStabilization : 0.0);
 }
 

@@ -33,6 +33,7 @@ enum class Stop {
     Pinched,       ///< preserving would have inflated what has pinched; the step was undone
     NotPreserved,  ///< no pressure restores the volume after a step this large; it was undone
     StepFailed,    ///< the next step failed, even in substeps (Flow::step), and was undone
+    Grew,          ///< the next step would have made the surface larger, and was undone
     NothingMoves,  ///< all vertices or all unknowns are constrained
 };
 
@@ -52,6 +53,7 @@ struct FlowReport {
     std::int64_t constrained_vertices = 0;  ///< referenced vertices that keep their bits
     double detail_size = 0;  ///< length of the waves whose amplitude all steps halve, mesh units
     double mean_edge = 0;    ///< mean edge length of the triangles that flow, mesh units
+    double longest_side = 0;     ///< of their bounding box, mesh units
     double step_size = 0;    ///< δ, mesh units²
     double asked_step_size = 0;  ///< larger if δ was limited, see FlowParameters::step_size
     int depth = 0;               ///< 1 if all vertices are constrained

@@ -98,8 +98,8 @@ const std::vector<ParameterOf<P>>& parameter_table() {
             choice<&P::boundary, P>(
                 {{"Locked", "locked"}, {"Locked cells (paper)", "locked-cells"}, {"Free", "free"}}),
             "boundary", "Boundary",
-            "Locked holds the rim's vertices. Locked cells holds all that is in their grid cells. "
-            "Free moves all."),
+            "Locked holds the rim's vertices. Free moves them. Locked cells, only with other methods, "
+            "holds cells."),
         named(choice<&P::quality>({{"Kept", "none"},
                                    {"Displacement", "displacement"},
                                    {"Mean curvature", "mean-curvature"}}),
@@ -115,36 +115,33 @@ const std::vector<ParameterOf<P>>& parameter_table() {
               "The step size is in squared units of the mesh."),
         named(integer<&P::depth>(0, kMaximumDepth, ", where 0 chooses automatically"), "depth",
               "Octree depth (expert)",
-              "1 to 12: 2^depth cells a side. One more needs 4 times the memory. 0 is automatic."),
+              "1 to 12: 2^depth cells a side, which only speed the default method up. 0 is "
+              "automatic."),
         named(choice<&P::flow, P>(
                   {{"Mean curvature", "mean-curvature"}, {"Conformalized", "conformalized"}}),
               "flow", "Flow (expert)",
               "Mean curvature pinches thin parts. Conformalized makes closed surfaces spheres."),
         named(method(), "method", "Method (expert)",
-              "Shared cells lets close parts stick together. Paper does, too, and is only to "
+              "Shared cells leaves detail finer than its grid, and so does Paper, which is only to "
               "compare."),
         named(access<&P::tolerance, P>(Type::Real, {0, 1, ", such as 1e-3", true}), "tolerance", "",
               "Except with method paper: a step is solved when the error estimate, relative to the "
               "step in the energy norm, is at most this number; greater than 0, less than 1. A "
-              "smaller "
-              "one takes more iterations. With the default, the grid's own error is larger."),
+              "smaller one takes more iterations. With the default, no wave keeps more or less of "
+              "its height by 0.2 %."),
         named(stabilization(), "stabilization", "",
-              "Weight of the volume stabilisation, without unit, 0 to 1000. The stabilisation lets "
-              "the "
-              "solver converge; a much larger weight slows the surface down. 0 is the paper's "
-              "system, "
-              "for which the solver takes more iterations and may stop short. With method paper it "
-              "is 0 unless given."),
+              "With methods shared-cells and paper: weight of the volume stabilisation, without unit, "
+              "0 to 1000. The stabilisation lets the solver of shared-cells converge; a much larger "
+              "weight slows the surface down. 0 is the paper's system, for which that solver takes "
+              "more iterations and may stop short. With method paper it is 0 unless given."),
         named(integer<&P::cycles>(1, 1000), "cycles", "",
               "With method paper: W-cycles of multigrid in each step, 1 to 1000. The paper uses "
               "one. More solve the equations more exactly, and the time grows in proportion."),
         named(
             choice<&P::cubature>({{"", "1"}, {"", "3"}, {"", "12"}}), "cubature", "",
-            "Samples on each split triangle: 3 as in the paper, or 3 on a whole fragment of up to "
-            "half "
-            "a cell unless --method paper is given. Take 1, which is inaccurate, or 12, which is "
-            "slow "
-            "and exact to degree 6, only to compare."),
+            "With methods shared-cells and paper: samples on each split triangle: 3 as in the paper, "
+            "or with shared-cells 3 on a whole fragment of up to half a cell. Take 1, which is "
+            "inaccurate, or 12, which is slow and exact to degree 6, only to compare."),
         threads<&P::threads>(),
     };
     return table;

@@ -39,9 +39,14 @@ std::string early_stop(const FlowReport& report, int iterations) {
         case Stop::StepFailed:
             return (made > 0 ? stopped : "Nothing has moved: ") + "step " +
                    std::to_string(made + 1) +
-                   " failed, even in 16 smaller steps: the surface left its bounds, or the "
-                   "equations could not be solved. Take a smaller detail size or step size, or a "
-                   "greater depth.";
+                   " failed: the surface left its bounds, or the equations could not be solved. "
+                   "Take a smaller detail size or step size.";
+        case Stop::Grew:
+            return (made > 0 ? stopped : "Nothing has moved: ") + "step " +
+                   std::to_string(made + 1) +
+                   " would have made the surface larger, which no such flow does: needles are "
+                   "nearly as long as the mesh. Remesh them, or take a smaller detail size or step "
+                   "size.";
         case Stop::NotPreserved:
             return (made > 0 ? stopped : "Nothing has moved: ") + "step " +
                    std::to_string(made + 1) +
@@ -62,7 +67,7 @@ std::string limited_step_size(const FlowReport& report) {
     text.precision(3);
     text << "The step size is limited to " << report.step_size << " squared units of the mesh, "
          << "instead of " << report.asked_step_size << ": waves longer than " << report.detail_size
-         << " keep more than half of their amplitude. A smaller depth or more steps go further.";
+         << " keep more than half of their amplitude. More steps go further.";
     return text.str();
 }
 
@@ -79,9 +84,9 @@ std::string unresolved_detail(const FlowReport& report) {
 }
 
 /// Empty unless the detail is finer than that of the mesh.
-std::string fine_detail(const FlowReport& report) {
+std::string fine_detail(const FlowParameters& parameters, const FlowReport& report) {
     const double edges = report.detail_size / report.mean_edge;
-    const bool is_fine = report.resolving_depth > 0 && edges < 0.99 * kFinestDetailInEdges;
+    const bool is_fine = parameters.step_size == 0 && edges < 0.99 * kFinestDetailInEdges;
     if (!is_fine || report.stop == Stop::NothingMoves) return {};
     std::ostringstream text;
     text.precision(3);
@@ -107,8 +112,7 @@ constexpr double kLost = 0.1;
 
 /// Empty unless waves as long as a closed surface were removed, and almost all of it with them.
 std::string lost_shape(const FlowReport& report) {
-    const double grid = std::ldexp(report.cell_size, report.depth);
-    if (report.detail_size <= grid || report.boundary_edges > 0 || report.steps.empty() ||
+    if (report.detail_size <= report.longest_side || report.boundary_edges > 0 || report.steps.empty() ||
         report.area_after >= kLost * report.area_before)
         return {};
     std::ostringstream text;
@@ -120,10 +124,9 @@ std::string lost_shape(const FlowReport& report) {
 }
 
 /// Empty unless a step removed much of the area, though the shape was to be kept: waves as long as
-/// the grid are all of it.
+/// the mesh are all of it.
 std::string sudden_loss(const FlowReport& report) {
-    const double grid = std::ldexp(report.cell_size, report.depth);
-    if (report.stop == Stop::Vanished || report.detail_size > grid) return {};
+    if (report.stop == Stop::Vanished || report.detail_size > report.longest_side) return {};
     for (std::size_t i = 0; i < report.steps.size(); ++i) {
         const double before = report.steps[i].area;
         const double after =
@@ -167,7 +170,7 @@ std::vector<std::string> warnings_of(const FlowParameters& parameters, const Flo
     std::vector<std::string> warnings = surface_warnings(report);
     for (const std::string& warning :
          {early_stop(report, parameters.iterations), limited_step_size(report),
-          unresolved_detail(report), fine_detail(report), handles(report), lost_shape(report),
+          unresolved_detail(report), fine_detail(parameters, report), handles(report), lost_shape(report),
           sudden_loss(report)}) {
         if (!warning.empty()) warnings.push_back(warning);
     }

@@ -56,6 +56,7 @@ ReportValue stop_name(Stop stop) {
         if (stop == Stop::Vanished) return "vanished";
         if (stop == Stop::Pinched) return "pinched";
         if (stop == Stop::StepFailed) return "step failed";
+        if (stop == Stop::Grew) return "area grew";
         if (stop == Stop::NotPreserved) return "volume not preserved";
         return stop == Stop::NothingMoves ? "nothing moves" : "none";
     };

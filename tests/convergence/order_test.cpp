@@ -14,6 +14,7 @@ namespace {
 
 TriangleMesh flowed(TriangleMesh mesh, int depth) {
     FlowParameters parameters;
+    parameters.solver = Solver::Grid;
     parameters.depth = depth;
     parameters.step_size = 1e-3;
     parameters.iterations = 2;

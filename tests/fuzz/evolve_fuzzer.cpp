@@ -72,7 +72,7 @@ FlowParameters parameters_of(Bytes& bytes) {
     p.quality = bytes.pick({Quality::None, Quality::Displacement, Quality::MeanCurvature});
     p.cubature = bytes.pick({Cubature::ThreePoints, Cubature::OnePoint, Cubature::Degree6});
     p.separate_sheets = bytes.flag();
-    p.solver = bytes.pick({Solver::Converged, Solver::OneWCycle});
+    p.solver = bytes.pick({Solver::Converged, Solver::Grid, Solver::OneWCycle});
     p.cycles = bytes.integer(0, 3);
     if (bytes.flag()) p.tolerance = bytes.number();
     if (bytes.flag()) p.stabilization = bytes.number();

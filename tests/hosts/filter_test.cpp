@@ -315,10 +315,13 @@ TEST(EarlyStop, NamesTheStepTheReasonAndTheRemedy) {
               "cannot be restored. Take more steps, or a smaller detail size or step size.");
     report.stop = Stop::StepFailed;
     EXPECT_EQ(early_stop(),
-              "Nothing has moved: step 1 failed, even in 16 smaller steps: the surface left its "
-              "bounds, or "
-              "the equations could not be solved. Take a smaller detail size or step size, or a "
-              "greater depth.");
+              "Nothing has moved: step 1 failed: the surface left its bounds, or the equations could "
+              "not be solved. Take a smaller detail size or step size.");
+    report.stop = Stop::Grew;
+    EXPECT_EQ(early_stop(),
+              "Nothing has moved: step 1 would have made the surface larger, which no such flow "
+              "does: needles are nearly as long as the mesh. Remesh them, or take a smaller detail "
+              "size or step size.");
     report.stop = Stop::NothingMoves;
     EXPECT_EQ(
         early_stop(),
@@ -359,14 +362,14 @@ TEST(Warnings, TellOfALimitedStepADetailBelowACellAndASuddenLoss) {
     report.steps.resize(2);
     report.steps[0].area = 10;
     report.steps[1].area = report.area_after = 9.1;
+    report.longest_side = 1024;
     const auto warnings = [&] { return warnings_of({}, report, ""); };
     EXPECT_TRUE(warnings().empty());
     report.asked_step_size = 4;
     ASSERT_EQ(warnings().size(), 1U);
     EXPECT_EQ(warnings()[0],
               "The step size is limited to 1 squared units of the mesh, instead of 4: waves longer "
-              "than 1 keep more than half of their amplitude. A smaller depth or more steps go "
-              "further.");
+              "than 1 keep more than half of their amplitude. More steps go further.");
     report.asked_step_size = 1;
     report.cell_size = 2;
     report.depth = 7;
@@ -389,7 +392,7 @@ TEST(Warnings, TellOfALimitedStepADetailBelowACellAndASuddenLoss) {
     EXPECT_EQ(warnings()[0],
               "The surface has 2 handles, so it cannot become a sphere. Close its tunnels first.");
     report.genus = 0;
-    report.cell_size = 1.0 / 1024;
+    report.longest_side = 0.5;
     report.area_before = 10;
     report.area_after = 0.5;
     ASSERT_EQ(warnings().size(), 1U);
@@ -398,7 +401,7 @@ TEST(Warnings, TellOfALimitedStepADetailBelowACellAndASuddenLoss) {
               "smaller one, such as 2 % of the diagonal.");
     report.boundary_edges = 3;  // a minimal surface may be small
     EXPECT_TRUE(warnings().empty());
-    report.cell_size = 2;
+    report.longest_side = 1024;
     report.area_after = 8;
     ASSERT_EQ(warnings().size(), 1U);
     EXPECT_EQ(warnings()[0],

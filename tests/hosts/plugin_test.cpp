@@ -278,6 +278,7 @@ TEST_F(Plugin, EveryBoundaryHasAnEffectOnAnOpenMesh) {
     const auto with_boundary = [&](int boundary) {
         for (std::size_t i = 0; i < original.size(); ++i) layer.cm.vert[i].P() = original[i].cP();
         parameters.setValue("boundary", *host::choice(boundary));
+        parameters.setValue("method", *host::choice(boundary == 1 ? 2 : 0));  // cells: the paper's
         EXPECT_TRUE(apply()) << outcome.message;
         return position_bits(layer);
     };

@@ -20,7 +20,6 @@ RUNS = [
     "step_size=STEP absolute=true",
     "step_size=3.0517578125e-05",
     "depth=5",
-    "boundary=locked-cells",
     "boundary=free",
     "flow=conformalized",
     "method=shared-cells",

@@ -14,7 +14,7 @@ SCRIPT = TOP / ".ci" / "check_includes"
 CORE = "filter_tracked_mcf/core"
 
 # Lowest first. A room of one line does not include a room of a later line.
-ROOMS = ["kernels parallel", "mesh", "cells", "memory", "plan", "octree", "elements", "system", "solver", "flow"]
+ROOMS = ["kernels parallel", "mesh", "cells", "memory", "plan", "surface", "octree", "elements", "system", "solver", "flow"]
 
 KERNELS_ALONE = "kernels include only kernels"
 PAPER = "only step_solver.cpp includes solver/paper"

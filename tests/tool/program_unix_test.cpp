@@ -91,7 +91,7 @@ TEST_F(ProgramOnUnix, TooLittleMemoryExitsWith1BeforeTheWork) {
     if (TRACKED_MCF_SANITIZED) GTEST_SKIP() << "sanitizers need the whole address space";
     write_file(folder_ / "b.ply", "before");
     const ProgramRun result =
-        run_program(folder_, "a.off b.ply --depth 12 --iterations 1000000 --report r.json",
+        run_program(folder_, "a.off b.ply --method shared-cells --depth 12 --report r.json",
                     "ulimit -v 2000000;");
     EXPECT_EQ(result.exit_code, 1);
     EXPECT_THAT(result.errors, StartsWith("tracked_mcf: Depth 12 would need about "));

@@ -316,7 +316,6 @@ TEST(Evolve, AcceptsAnyAbsoluteStepSize) {
 
 TEST(Evolve, StabilizesTheGridByDefault) {
     FlowParameters p;
-    p.solver = Solver::Grid;
     EXPECT_EQ(stabilization_of(p), kDefaultStabilization);
     p.solver = Solver::OneWCycle;
     EXPECT_EQ(stabilization_of(p), 0);

@@ -63,6 +63,7 @@ void Flow::fill_report(const Plan& plan) {
     report_.asked_step_size = plan.steps.size.in_mesh_units;
     report_.detail_size = detail_size_for(report_.step_size, plan.iterations, plan.steps.order);
     report_.mean_edge = plan.mean_edge;
+    report_.longest_side = longest_side(domain.surface());
     if (plan.steps.flow == FlowKind::Conformalized) report_.genus = genus_of(domain.topology());
     report_.resolving_depth = plan.resolving_depth;
     report_.estimated_memory_bytes = static_cast<std::int64_t>(plan.expected_bytes);

@@ -23,6 +23,9 @@ namespace {
 /// The fraction of a step's time before the solver begins.
 constexpr double kShareOfAssembly = 0.2;
 
+/// The area after a step may be so many times that before it.
+constexpr double kMostGrowth = 1.001;
+
 /// A solve whose error is more than this part of its solution has failed.
 constexpr double kUseless = 0.5;
 
@@ -37,6 +40,9 @@ constexpr double kOvershootInDetail = 0.1, kOvershootInDiagonals = 0.02;
 /// they save.
 constexpr double kShortWaves = 16;
 
+/// An octree is used from a step on whose solves take more iterations than this.
+constexpr int kManyIterations = 50;
+
 /// The side of the octree's cells is at least this, in edges.
 constexpr double kSmallestCell = 4;
 
@@ -47,10 +53,11 @@ constexpr double kShortStep = 2;
 /// The octree has at most this share of the vertices as elements.
 constexpr double kMostElements = 0.25;
 
+using Positions = std::vector<Eigen::Vector3d>;
 using Boxes = std::vector<Eigen::AlignedBox3d>;
 
 /// Returns the box of each component.
-Boxes boxes_of(const FlowSurface& surface, const std::vector<Eigen::Vector3d>& positions) {
+Boxes boxes_of(const FlowSurface& surface, const Positions& positions) {
     Boxes boxes(static_cast<std::size_t>(surface.component_count));
     for (std::size_t i = 0; i < positions.size(); ++i) {
         boxes[surface.components[i]].extend(positions[i]);
@@ -65,20 +72,18 @@ Eigen::AlignedBox3d box_of(const Boxes& boxes) {
     return all;
 }
 
-/// Returns the octree of a surface, or none if the waves that a step halves, in edges, do not need
-/// it. A depth of 0 chooses it.
-std::unique_ptr<VertexOctree> octree_of(const FlowSurface& surface, double halved, int depth) {
-    enter_setup_phase(kBuildOctree);
-    const Grid cube = cube_around(box_of(boxes_of(surface, surface.positions)));
+/// Returns an octree for the vertices at these positions. A depth of 0 chooses it. Returns none if
+/// the surface consists of parts of so few vertices that an octree is of no use.
+std::unique_ptr<VertexOctree> octree_of(const FlowSurface& surface, const Positions& positions,
+                                        int depth) {
+    const Grid cube = cube_around(box_of(boxes_of(surface, positions)));
     if (depth > 0) {
-        return std::make_unique<VertexOctree>(surface.stars, surface.positions,
-                                              with_depth(cube, depth));
+        return std::make_unique<VertexOctree>(surface.stars, positions, with_depth(cube, depth));
     }
-    if (halved < kShortWaves) return nullptr;
     const double finest = std::floor(std::log2(cube.cell_size / kSmallestCell));
     for (int l = static_cast<int>(std::min(finest, double{kMaximumDepth})); l >= 1; --l) {
-        auto octree = std::make_unique<VertexOctree>(surface.stars, surface.positions,
-                                                     with_depth(cube, l));
+        auto octree =
+            std::make_unique<VertexOctree>(surface.stars, positions, with_depth(cube, l));
         if (octree->finest().element_count() <= kMostElements * surface.stars.count())
             return octree;
     }
@@ -119,8 +124,11 @@ MeshFlow::MeshFlow(MeshPlan plan)
       steps_(plan.steps),
       step_size_(plan.step_size / (surface_.edge * surface_.edge)),
       initial_(surface_.positions),
-      solver_(surface_.stars, surface_.fixed, surface_.components,
-              octree_of(surface_, detail_size_for(step_size_, 1, steps_.order), plan.depth)) {
+      solver_(surface_.stars, surface_.fixed, surface_.components) {
+    enter_setup_phase(kBuildOctree);
+    if (plan.depth > 0 || detail_size_for(step_size_, 1, steps_.order) >= kShortWaves) {
+        use_octree(plan.depth);
+    }
     enter_setup_phase(kPrepareSolver);
     const double diagonal = box_of(boxes_of(surface_, initial_)).diagonal().norm();
     const double halved = detail_size_for(step_size_, 1, steps_.order);
@@ -143,19 +151,24 @@ void MeshFlow::fill_report(const MeshPlan& plan) {
     report_.boundary_edges = domain.boundary_edge_count();
     report_.cracks = domain.topology().cracks;
     report_.constrained_vertices = surface_.constrained_count;
-    if (const VertexOctree* const octree = solver_.octree()) {
-        report_.depth = octree->finest().depth;
-        report_.cell_size = octree->cell_size() * surface_.edge;
-        report_.cells = count_cells(octree->finest());
-        report_.elements = octree->finest().element_count();
-    }
     report_.step_size = plan.step_size;
     report_.asked_step_size = plan.asked_step_size;
     report_.detail_size = detail_size_for(plan.step_size, plan.iterations, steps_.order);
     report_.mean_edge = plan.mean_edge;
+    report_.longest_side = longest_side(domain.surface());
     if (steps_.flow == FlowKind::Conformalized) report_.genus = genus_of(domain.topology());
     report_.estimated_memory_bytes = static_cast<std::int64_t>(plan.expected_bytes);
     report_.unknowns = surface_.stars.count();
+}
+
+void MeshFlow::use_octree(int depth) {
+    std::unique_ptr<VertexOctree> octree = octree_of(surface_, initial_, depth);
+    if (!octree) return;
+    report_.depth = octree->finest().depth;
+    report_.cell_size = octree->cell_size() * surface_.edge;
+    report_.cells = count_cells(octree->finest());
+    report_.elements = octree->finest().element_count();
+    solver_.use(std::move(octree));
 }
 
 double MeshFlow::area_of(const Positions& positions) const {
@@ -243,7 +256,11 @@ Stop MeshFlow::advance(Positions& to, StepReport& report) {
     };
     if (parallel_count(static_cast<std::int64_t>(to.size()), is_outside) > 0)
         return Stop::StepFailed;
-    return preserver_ ? preserver_->restore(response, to) : Stop::None;
+    if (preserver_) return preserver_->restore(response, to);
+    // A step lowers the energy of the metric that it takes, which bounds the area. Only triangles
+    // that are longer in that metric can make it larger. A conformalized flow keeps its metric.
+    const double most = steps_.flow == FlowKind::MeanCurvature ? area : first_area_;
+    return area_of(to) > kMostGrowth * most ? Stop::Grew : Stop::None;
 }
 
 bool MeshFlow::step() {
@@ -257,6 +274,10 @@ bool MeshFlow::step() {
     if (stop != Stop::None) {
         report_.stop = stop;
         return false;
+    }
+    // A surface that has shrunk has longer waves, in its edges.
+    if (!solver_.octree() && report.solver_iterations > kManyIterations * steps_.order) {
+        use_octree(0);
     }
     before_ = std::exchange(surface_.positions, std::move(to));
     report_.steps.push_back(report);
@@ -284,7 +305,7 @@ std::vector<double> MeshFlow::mean_curvatures(const SurfaceView& after,
     const Positions& positions = surface_.positions;
     // Vertices that stay have a curvature, too.
     const std::vector<std::uint8_t> fixed(surface_.fixed.size(), 0);
-    MeshSolver solver(stars, fixed, surface_.components, nullptr);
+    MeshSolver solver(stars, fixed, surface_.components);
     solver.take(elements_in_own_metric(stars, positions, {}), kShortStep);
     solver.system().multiply_stiffness(positions, 1 / kShortStep, right_side_);
     std::vector<double> values(positions.size());  // L x = 2 M H n

@@ -38,6 +38,7 @@ private:
     using Positions = std::vector<Eigen::Vector3d>;
 
     void fill_report(const MeshPlan& plan);
+    void use_octree(int depth);
     double area_of(const Positions& positions) const;  ///< in squared edges
     /// Solves for the displacement of one step, and for the response to a pressure if `response` is
     /// not null.

@@ -206,7 +206,7 @@ double estimate_clip_bytes(const SurfaceSize& size, const Grid& grid,
 double estimate_flow_bytes(const SurfaceSize& size, const Grid& grid,
                            const FlowParameters& parameters) {
     const ExpectedCounts counts = expected_counts(size, grid, discretisation_of(parameters));
-    const BytesPer& solver = parameters.solver == Solver::Grid ? kConverged : kOneWCycle;
+    const BytesPer& solver = parameters.solver != Solver::OneWCycle ? kConverged : kOneWCycle;
     double bytes = bytes_of(solver, size, counts);
     if (parameters.preserve == Preserve::Area) bytes += bytes_of(kArea, size, counts);
     if (parameters.preserve == Preserve::Volume) bytes += bytes_of(kVolume, size, counts);

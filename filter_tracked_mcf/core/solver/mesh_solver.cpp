@@ -38,15 +38,18 @@ double power_of_two_of(double norm) {
 }  // namespace
 
 MeshSolver::MeshSolver(const Stars& stars, const std::vector<std::uint8_t>& fixed,
-                       const std::vector<std::int32_t>& components,
-                       std::unique_ptr<VertexOctree> octree)
-    : system_(stars, fixed), components_(components), octree_(std::move(octree)) {
+                       const std::vector<std::int32_t>& components)
+    : system_(stars, fixed), components_(components) {
     for (std::size_t i = 0; i < fixed.size(); ++i) {
         const auto component = static_cast<std::size_t>(components[i]);
         if (component >= is_held_.size()) is_held_.resize(component + 1);
         if (fixed[i] != 0) is_held_[component] = 1;
     }
-    if (octree_) multigrid_.emplace(octree_->levels(), nothing_constrained(octree_->levels()));
+}
+
+void MeshSolver::use(std::unique_ptr<VertexOctree> octree) {
+    octree_ = std::move(octree);
+    multigrid_.emplace(octree_->levels(), nothing_constrained(octree_->levels()));
 }
 
 void MeshSolver::take(const TriangleElements& elements, double step_size, bool takes_stiffness) {

@@ -34,10 +34,12 @@ struct MeshConvergence {
 class MeshSolver {
 public:
     /// `components` has the connected component of each vertex. Components without a vertex that
-    /// stays keep their centroids. All arguments but the octree, which may be null, must outlive
-    /// this.
+    /// stays keep their centroids. All arguments must outlive this.
     MeshSolver(const Stars& stars, const std::vector<std::uint8_t>& fixed,
-               const std::vector<std::int32_t>& components, std::unique_ptr<VertexOctree> octree);
+               const std::vector<std::int32_t>& components);
+
+    /// Makes the next systems use an octree; without one, waves of many edges take many iterations.
+    void use(std::unique_ptr<VertexOctree> octree);
 
     /// Takes the system of the next step, see MeshSystem::take().
     void take(const TriangleElements& elements, double step_size, bool takes_stiffness = true);
