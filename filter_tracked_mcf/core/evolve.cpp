@@ -31,8 +31,8 @@ double progress_before(int step, int iterations) {
 }
 
 /// Sets the flow up. Sets the triangles that flow.
-std::unique_ptr<SurfaceFlow> set_up(const TriangleMesh& mesh, const Inputs& inputs, const FlowParameters& parameters,
-            Selection& moving) {
+std::unique_ptr<SurfaceFlow> set_up(const TriangleMesh& mesh, const Inputs& inputs,
+                                    const FlowParameters& parameters, Selection& moving) {
     const ProgressSpan span(0, progress_before(0, parameters.iterations));
     if (parameters.solver == Solver::Converged) {
         MeshPlan plan = mesh_plan_of(mesh, inputs, parameters);
@@ -58,7 +58,8 @@ Moved moved_by(const SurfaceFlow& flow, const TriangleMesh& mesh, const Selectio
 }
 
 /// Makes all steps, or fewer if nothing is left to do.
-void make_steps(SurfaceFlow& flow, const TriangleMesh& mesh, int iterations, const StepObserver& on_step) {
+void make_steps(SurfaceFlow& flow, const TriangleMesh& mesh, int iterations,
+                const StepObserver& on_step) {
     for (int step = 0; step < iterations; ++step) {
         const ProgressSpan span(progress_before(step, iterations),
                                 progress_before(step + 1, iterations));

@@ -43,8 +43,8 @@ enum class Solver {
     /// Conjugate gradients on the mesh's own linear elements, to a tolerance. The tracked octree
     /// preconditions them. A cell limits nothing.
     Converged,
-    Grid,  ///< conjugate gradients on the octree's elements, to a tolerance
-    OneWCycle   ///< the paper's solver (section 5.2): a fixed number of W-cycles from zero
+    Grid,      ///< conjugate gradients on the octree's elements, to a tolerance
+    OneWCycle  ///< the paper's solver (section 5.2): a fixed number of W-cycles from zero
 };
 
 /// What a flow measures at each vertex, beside moving it.
@@ -134,8 +134,8 @@ struct FlowParameters : StepParameters {
     Solver solver = Solver::Converged;
 
     /// Weight κ of the stabilisation (stabilization.h), 0 to kMaximumStabilization; 0 is the
-    /// paper's system. If unset, it is kDefaultStabilization for the Grid solver, which needs it, and 0 for
-    /// OneWCycle.
+    /// paper's system. If unset, it is kDefaultStabilization for the Grid solver, which needs it,
+    /// and 0 for OneWCycle.
     std::optional<double> stabilization;
 
     /// OneWCycle: number of W-cycles per step, 1 to 1000; the paper uses one.

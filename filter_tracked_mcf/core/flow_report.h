@@ -51,10 +51,10 @@ struct FlowReport {
     /// Handles of all components of a closed surface under a conformalized flow, else 0.
     std::int64_t genus = 0;
     std::int64_t constrained_vertices = 0;  ///< referenced vertices that keep their bits
-    double detail_size = 0;  ///< length of the waves whose amplitude all steps halve, mesh units
-    double mean_edge = 0;    ///< mean edge length of the triangles that flow, mesh units
-    double longest_side = 0;     ///< of their bounding box, mesh units
-    double step_size = 0;    ///< δ, mesh units²
+    double detail_size = 0;   ///< length of the waves whose amplitude all steps halve, mesh units
+    double mean_edge = 0;     ///< mean edge length of the triangles that flow, mesh units
+    double longest_side = 0;  ///< of their bounding box, mesh units
+    double step_size = 0;     ///< δ, mesh units²
     double asked_step_size = 0;  ///< larger if δ was limited, see FlowParameters::step_size
     int depth = 0;               ///< 1 if all vertices are constrained
     int resolving_depth = 0;     ///< the least that resolves the detail size; 0 for a step size

@@ -98,7 +98,8 @@ const std::vector<ParameterOf<P>>& parameter_table() {
             choice<&P::boundary, P>(
                 {{"Locked", "locked"}, {"Locked cells (paper)", "locked-cells"}, {"Free", "free"}}),
             "boundary", "Boundary",
-            "Locked holds the rim's vertices. Free moves them. Locked cells, only with other methods, "
+            "Locked holds the rim's vertices. Free moves them. Locked cells, only with other "
+            "methods, "
             "holds cells."),
         named(choice<&P::quality>({{"Kept", "none"},
                                    {"Displacement", "displacement"},
@@ -129,19 +130,21 @@ const std::vector<ParameterOf<P>>& parameter_table() {
               "step in the energy norm, is at most this number; greater than 0, less than 1. A "
               "smaller one takes more iterations. With the default, no wave keeps more or less of "
               "its height by 0.2 %."),
-        named(stabilization(), "stabilization", "",
-              "With methods shared-cells and paper: weight of the volume stabilisation, without unit, "
-              "0 to 1000. The stabilisation lets the solver of shared-cells converge; a much larger "
-              "weight slows the surface down. 0 is the paper's system, for which that solver takes "
-              "more iterations and may stop short. With method paper it is 0 unless given."),
+        named(
+            stabilization(), "stabilization", "",
+            "With methods shared-cells and paper: weight of the volume stabilisation, without "
+            "unit, "
+            "0 to 1000. The stabilisation lets the solver of shared-cells converge; a much larger "
+            "weight slows the surface down. 0 is the paper's system, for which that solver takes "
+            "more iterations and may stop short. With method paper it is 0 unless given."),
         named(integer<&P::cycles>(1, 1000), "cycles", "",
               "With method paper: W-cycles of multigrid in each step, 1 to 1000. The paper uses "
               "one. More solve the equations more exactly, and the time grows in proportion."),
-        named(
-            choice<&P::cubature>({{"", "1"}, {"", "3"}, {"", "12"}}), "cubature", "",
-            "With methods shared-cells and paper: samples on each split triangle: 3 as in the paper, "
-            "or with shared-cells 3 on a whole fragment of up to half a cell. Take 1, which is "
-            "inaccurate, or 12, which is slow and exact to degree 6, only to compare."),
+        named(choice<&P::cubature>({{"", "1"}, {"", "3"}, {"", "12"}}), "cubature", "",
+              "With methods shared-cells and paper: samples on each split triangle: 3 as in the "
+              "paper, "
+              "or with shared-cells 3 on a whole fragment of up to half a cell. Take 1, which is "
+              "inaccurate, or 12, which is slow and exact to degree 6, only to compare."),
         threads<&P::threads>(),
     };
     return table;

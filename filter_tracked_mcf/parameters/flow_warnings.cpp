@@ -112,8 +112,8 @@ constexpr double kLost = 0.1;
 
 /// Empty unless waves as long as a closed surface were removed, and almost all of it with them.
 std::string lost_shape(const FlowReport& report) {
-    if (report.detail_size <= report.longest_side || report.boundary_edges > 0 || report.steps.empty() ||
-        report.area_after >= kLost * report.area_before)
+    if (report.detail_size <= report.longest_side || report.boundary_edges > 0 ||
+        report.steps.empty() || report.area_after >= kLost * report.area_before)
         return {};
     std::ostringstream text;
     text.precision(3);
@@ -170,8 +170,8 @@ std::vector<std::string> warnings_of(const FlowParameters& parameters, const Flo
     std::vector<std::string> warnings = surface_warnings(report);
     for (const std::string& warning :
          {early_stop(report, parameters.iterations), limited_step_size(report),
-          unresolved_detail(report), fine_detail(parameters, report), handles(report), lost_shape(report),
-          sudden_loss(report)}) {
+          unresolved_detail(report), fine_detail(parameters, report), handles(report),
+          lost_shape(report), sudden_loss(report)}) {
         if (!warning.empty()) warnings.push_back(warning);
     }
     const std::string short_steps = shortfall(report, parameters.tolerance);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <string>
 #include <tuple>
+#include <utility>
 
 #include "filter_tracked_mcf/core/evolve.h"
 #include "filter_tracked_mcf/core/flow/flow.h"
@@ -108,6 +109,26 @@ TEST_F(CatenoidFlow, ConvergesForAnyStepSize) {
         const double distance = normal_distance(flowed_tube(5, kLocked, step_size), usual).rms;
         std::printf("step size %g: %.1e\n", step_size, distance);
         EXPECT_LT(distance, 2e-5) << step_size;
+    }
+}
+
+TEST(FlowOnTheMesh, ReachesTheCatenoidInAnyNumberOfStepsWithoutAFold) {
+    const Catenoid catenoid(0.8);
+    const TriangleMesh tube = shapes::tube(96, 40, catenoid.height());
+    const double chords = 1 - std::cos(std::acos(-1.0) / 96);
+    for (const auto& [step_size, steps] : {std::pair{1.0, 20}, {0.01, 200}, {0.002, 1000}}) {
+        FlowParameters parameters;
+        parameters.step_size = step_size;
+        parameters.absolute = true;
+        parameters.iterations = steps;
+        TriangleMesh after = tube;
+        EXPECT_EQ(evolve(after, parameters).stop, Stop::None);
+        const double offset = catenoid.rms_offset(after.positions);
+        std::printf("%d steps of %g: %.2e\n", steps, step_size, offset);
+        EXPECT_LT(offset, 2 * chords) << steps;
+        for (const Triangle& t : tube.triangles) {
+            EXPECT_GT(twice_vector_area(after, t).dot(twice_vector_area(tube, t)), 0) << steps;
+        }
     }
 }
 

@@ -314,9 +314,10 @@ TEST(EarlyStop, NamesTheStepTheReasonAndTheRemedy) {
               "Nothing has moved: step 1 would have changed the surface so much that its volume "
               "cannot be restored. Take more steps, or a smaller detail size or step size.");
     report.stop = Stop::StepFailed;
-    EXPECT_EQ(early_stop(),
-              "Nothing has moved: step 1 failed: the surface left its bounds, or the equations could "
-              "not be solved. Take a smaller detail size or step size.");
+    EXPECT_EQ(
+        early_stop(),
+        "Nothing has moved: step 1 failed: the surface left its bounds, or the equations could "
+        "not be solved. Take a smaller detail size or step size.");
     report.stop = Stop::Grew;
     EXPECT_EQ(early_stop(),
               "Nothing has moved: step 1 would have made the surface larger, which no such flow "

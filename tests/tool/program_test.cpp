@@ -274,7 +274,8 @@ TEST_F(Program, AFlowThatVanishesStopsWithAWarningAndItsLastGoodPositions) {
 
 TEST_F(Program, AMeshThatCannotMoveIsAWarning) {
     write_file(folder_ / "grid.off", grid(5));
-    const ProgramRun result = run("grid.off b.off --depth 1 --boundary locked-cells --method paper");
+    const ProgramRun result =
+        run("grid.off b.off --depth 1 --boundary locked-cells --method paper");
     EXPECT_EQ(result.exit_code, 0);
     EXPECT_EQ(
         result.errors,
@@ -287,7 +288,9 @@ TEST_F(Program, AMeshThatCannotMoveIsAWarning) {
 TEST_F(Program, AWarningNamesTheDepthThatResolvesTheDetail) {
     write_file(folder_ / "grid.off", grid(20));
     const auto errors_at = [&](const std::string& depth) {
-        return run("grid.off b.ply --method shared-cells --detail-size 12% --quiet --depth " + depth).errors;
+        return run("grid.off b.ply --method shared-cells --detail-size 12% --quiet --depth " +
+                   depth)
+            .errors;
     };
     const std::string errors = errors_at("2");
     std::smatch depth;

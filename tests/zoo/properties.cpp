@@ -203,8 +203,8 @@ void Checker::check_finite() {
 }
 
 /// Both flows obey a maximum principle for each coordinate. On the mesh, steps of order 1 keep it;
-/// the grid's functions do up to the margin of flow/confinement.h. A surface that is scaled, or inflated by a pressure, keeps to
-/// the cube of flow/preserving.cpp around each of its components.
+/// the grid's functions do up to the margin of flow/confinement.h. A surface that is scaled, or
+/// inflated by a pressure, keeps to the cube of flow/preserving.cpp around each of its components.
 ///
 /// Steps of fourth order, which remove noise, obey no maximum principle. They keep to a larger box,
 /// see confinement() in core/noise/noisy_surface.h.
@@ -215,8 +215,8 @@ void Checker::check_box() {
     if (case_.fair) return check_box_within(kFairMargin * diagonal);
     if (parameters.solver == Solver::Converged && parameters.order == 1 &&
         parameters.preserve == Preserve::None) {
-        const double farthest = std::max(box_.min().cwiseAbs().maxCoeff(),
-                                         box_.max().cwiseAbs().maxCoeff());
+        const double farthest =
+            std::max(box_.min().cwiseAbs().maxCoeff(), box_.max().cwiseAbs().maxCoeff());
         return check_box_within(1e-10 * diagonal + 1e-15 * farthest);  // rounding
     }
     double allowed = Confinement::kMarginInDiagonals * diagonal +
@@ -280,9 +280,8 @@ void Checker::check_area() {
         fail(Property::Area, "tracked surface: " + number(step.area / before) + " times");
         return;
     }
-    const bool to_tolerance =
-        parameters.solver == Solver::Converged ||
-        (parameters.solver == Solver::Grid && is_well_posed(parameters));
+    const bool to_tolerance = parameters.solver == Solver::Converged ||
+                              (parameters.solver == Solver::Grid && is_well_posed(parameters));
     const bool is_line = report.area_before < 1e-9 * box_.diagonal().norm() * sides;
     if (!to_tolerance || is_line || parameters.flow != FlowKind::MeanCurvature) return;
     const double in_cells = report.constrained_vertices > 0 ? 0.1 : 1e-6;

@@ -29,10 +29,10 @@ public:
     std::vector<double> mean_curvatures(const SurfaceView& after,
                                         const Selection& selection) override;
 
-    /// Returns the velocity, in 1 / mesh units, of the last step (FlowState::velocity). If no step was made, it is that of a
-    /// short step, which is made for this. Where the surface has densities ρ (densities.h), the
-    /// step size is δ / ρ of the vertex's element. Zero at vertices that do not move, and unless
-    /// the plan takes velocities.
+    /// Returns the velocity, in 1 / mesh units, of the last step (FlowState::velocity). If no step
+    /// was made, it is that of a short step, which is made for this. Where the surface has
+    /// densities ρ (densities.h), the step size is δ / ρ of the vertex's element. Zero at vertices
+    /// that do not move, and unless the plan takes velocities.
     std::vector<Eigen::Vector3d> velocities(std::size_t vertex_count);
 
     const FlowReport& report() const override { return report_; }

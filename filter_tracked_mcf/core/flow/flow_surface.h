@@ -23,7 +23,7 @@ struct FlowSurface {
     std::int32_t component_count = 0;
     std::int64_t constrained_count = 0;  ///< vertices that stay
     std::int64_t degenerate_count = 0;   ///< triangles of the domain without an area
-    double edge = 1;  ///< mean length of the sides of triangles, mesh units
+    double edge = 1;                     ///< mean length of the sides of triangles, mesh units
     std::vector<std::int32_t> vertices;  ///< of the mesh: the surface's vertex, or -1
 };
 

@@ -82,8 +82,7 @@ std::unique_ptr<VertexOctree> octree_of(const FlowSurface& surface, const Positi
     }
     const double finest = std::floor(std::log2(cube.cell_size / kSmallestCell));
     for (int l = static_cast<int>(std::min(finest, double{kMaximumDepth})); l >= 1; --l) {
-        auto octree =
-            std::make_unique<VertexOctree>(surface.stars, positions, with_depth(cube, l));
+        auto octree = std::make_unique<VertexOctree>(surface.stars, positions, with_depth(cube, l));
         if (octree->finest().element_count() <= kMostElements * surface.stars.count())
             return octree;
     }
@@ -215,9 +214,8 @@ void MeshFlow::solve(StepReport& report, Positions* response) {
 
 std::vector<Eigen::Vector3d> MeshFlow::displaced() const {
     Positions to(surface_.positions.size());
-    parallel_for_rows(static_cast<std::int64_t>(to.size()), [&](std::int32_t i) {
-        to[i] = surface_.positions[i] + d_[i];
-    });
+    parallel_for_rows(static_cast<std::int64_t>(to.size()),
+                      [&](std::int32_t i) { to[i] = surface_.positions[i] + d_[i]; });
     if (steps_.order > 1) return to;
     // Order 1 obeys a maximum principle for each coordinate, but for the tolerance.
     const Boxes boxes = boxes_of(surface_, surface_.positions);
@@ -316,7 +314,8 @@ std::vector<double> MeshFlow::mean_curvatures(const SurfaceView& after,
             normal += twice_vector_area(a, b, c);
         });
         const Eigen::Vector3d force = right_side_.col(vertex).head<3>().cast<double>();
-        values[vertex] = force.dot(normal.normalized()) / (2 * double{solver.system().mass(vertex)});
+        values[vertex] =
+            force.dot(normal.normalized()) / (2 * double{solver.system().mass(vertex)});
     });
     continue_to_rim(stars, values);
     parallel_for_rows(stars.count(), [&](std::int32_t vertex) {

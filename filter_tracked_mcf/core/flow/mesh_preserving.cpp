@@ -118,8 +118,7 @@ double MeshPreserver::scale(const std::vector<Measures>& present, Positions& pos
     return inflated;
 }
 
-std::optional<double> MeshPreserver::push(const Positions& velocity,
-                                          Positions& positions) const {
+std::optional<double> MeshPreserver::push(const Positions& velocity, Positions& positions) const {
     const Stars& stars = surface_.stars;
     Positions moved = positions;
     std::vector<double> pressures(initial_.size(), 0);

@@ -32,7 +32,8 @@ public:
     /// only thin threads, and Stop::NotPreserved if it has changed the volume so much that no
     /// pressure restores it. A component that has vanished, cannot move, or would be inflated
     /// because only thin threads are left of it, stays as it is.
-    Stop restore(const std::vector<Eigen::Vector3d>& response, std::vector<Eigen::Vector3d>& positions) const;
+    Stop restore(const std::vector<Eigen::Vector3d>& response,
+                 std::vector<Eigen::Vector3d>& positions) const;
 
 private:
     struct Measures {

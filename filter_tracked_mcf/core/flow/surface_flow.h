@@ -39,9 +39,9 @@ public:
     /// bits.
     virtual void move_vertices(std::vector<Eigen::Vector3d>& positions) const = 0;
 
-    /// Returns the mean curvature at each vertex of the mesh, see Quality::MeanCurvature; 0 at those
-    /// that no triangle uses. `after` is the mesh with the present positions, and `selection` says
-    /// which of its triangles flow.
+    /// Returns the mean curvature at each vertex of the mesh, see Quality::MeanCurvature; 0 at
+    /// those that no triangle uses. `after` is the mesh with the present positions, and `selection`
+    /// says which of its triangles flow.
     virtual std::vector<double> mean_curvatures(const SurfaceView& after,
                                                 const Selection& selection) = 0;
 

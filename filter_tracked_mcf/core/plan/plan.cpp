@@ -152,9 +152,16 @@ MeshPlan mesh_plan_of(const TriangleMesh& mesh, const Inputs& inputs,
         asked_size(parameters, mesh, mean_edge, enclosing_grid(domain.surface(), 0)).in_mesh_units;
     const double limit = kLargestStepSizeInEdges * mean_edge * mean_edge;
     auto densities = triangle_densities(domain, parameters.local_detail_size, mean_edge);
-    return {std::move(domain), std::move(densities), parameters,       std::min(asked, limit),
-            asked,             parameters.preserve,  parameters.iterations, parameters.depth,
-            mean_edge,         bytes};
+    return {std::move(domain),
+            std::move(densities),
+            parameters,
+            std::min(asked, limit),
+            asked,
+            parameters.preserve,
+            parameters.iterations,
+            parameters.depth,
+            mean_edge,
+            bytes};
 }
 
 Plan plan_of(Domain domain, ClippedSurface surface, double mean_edge,

@@ -23,6 +23,7 @@ constexpr double kWorthAnotherRound = 0.5;
 
 std::vector<std::vector<std::uint8_t>> nothing_constrained(const std::vector<Level>& levels) {
     std::vector<std::vector<std::uint8_t>> flags;
+    flags.reserve(levels.size());
     for (const Level& level : levels) {
         flags.emplace_back(static_cast<std::size_t>(level.unknown_count()), std::uint8_t{0});
     }
@@ -134,11 +135,10 @@ MeshConvergence MeshSolver::solve(const Field& b, double tolerance,
     while (square > goal) {
         const double before = square;
         constexpr double reach = kSinglePrecisionOfMesh * kSinglePrecisionOfMesh;
-        square = descend(square, refines ? std::max(goal, reach * square) : goal,
-                         result.iterations);
-        parallel_for_rows(r_.cols(), [&](std::int32_t row) {
-            x[row] += x_.col(row).head<3>().cast<double>();
-        });
+        square =
+            descend(square, refines ? std::max(goal, reach * square) : goal, result.iterations);
+        parallel_for_rows(
+            r_.cols(), [&](std::int32_t row) { x[row] += x_.col(row).head<3>().cast<double>(); });
         if (!refines || result.iterations == kMostMeshIterations) break;
         system_.residual(scaled, x, r_);
         square = precondition(0);

@@ -36,12 +36,12 @@ inline Eigen::Vector4f sum_of_groups(const float* entries, const std::int32_t* c
 }
 
 /// Where an entry of a row is stored.
-enum Part { kLower, kUpper, kOther };
+enum Part { Lower, Upper, Other };
 
 Part part_of(std::int32_t row, std::int32_t column) {
     constexpr auto chunk = static_cast<std::int32_t>(kChunkSize);
-    if (row / chunk != column / chunk) return kOther;
-    return column < row ? kLower : kUpper;
+    if (row / chunk != column / chunk) return Other;
+    return column < row ? Lower : Upper;
 }
 
 }  // namespace
@@ -78,8 +78,8 @@ void MeshSystem::make_rows() {
         count, size_of_row, [&](std::int64_t begin, std::int64_t end, std::uint32_t next) {
             for (std::int64_t row = begin; row < end; ++row) {
                 const auto sizes = sizes_of(static_cast<std::int32_t>(row));
-                rows_[row] = {next, next + sizes[kLower], next + sizes[kLower] + sizes[kUpper]};
-                next = rows_[row].upper + sizes[kOther];
+                rows_[row] = {next, next + sizes[Lower], next + sizes[Lower] + sizes[Upper]};
+                next = rows_[row].upper + sizes[Other];
             }
         });
     rows_[count].begin = total;
@@ -89,9 +89,8 @@ void MeshSystem::make_rows() {
         std::fill(columns_.begin() + rows_[row].begin, columns_.begin() + rows_[row + 1].begin,
                   row);
         std::array<std::uint32_t, 3> next = {rows_[row].begin, rows_[row].lower, rows_[row].upper};
-        for_each_neighbour(row, [&](std::int32_t column) {
-            columns_[next[part_of(row, column)]++] = column;
-        });
+        for_each_neighbour(
+            row, [&](std::int32_t column) { columns_[next[part_of(row, column)]++] = column; });
     });
 }
 
@@ -172,7 +171,8 @@ double MeshSystem::advance(const Field& z, float keep, Field& p, Field& q) const
         Eigen::Vector4f energy = Eigen::Vector4f::Zero();
         for (auto row = static_cast<std::int32_t>(begin); row < end; ++row) {
             Eigen::Vector4f sum = diagonal_[row] * z.col(row);
-            sum += sum_of_groups(entries, columns, rows_[row].begin, rows_[row + 1].begin, z.data());
+            sum +=
+                sum_of_groups(entries, columns, rows_[row].begin, rows_[row + 1].begin, z.data());
             if (fixed_[row] != 0) sum.setZero();
             const Eigen::Vector4f direction = z.col(row) + keep * p.col(row);
             sum += keep * q.col(row);
@@ -190,12 +190,14 @@ double MeshSystem::relax(std::int32_t begin, std::int32_t end, const Field& r, F
     // Entries that fill a group up are 0, but must not meet a number that is none.
     for (std::int32_t row = begin; row < end; ++row) z.col(row).setZero();
     for (std::int32_t row = begin; row < end; ++row) {
-        const Eigen::Vector4f sum = sum_of_groups(entries, columns, rows_[row].begin, rows_[row].lower, z.data());
+        const Eigen::Vector4f sum =
+            sum_of_groups(entries, columns, rows_[row].begin, rows_[row].lower, z.data());
         z.col(row) = inverse_diagonal_[row] * (r.col(row) - sum);
     }
     Eigen::Vector4f product_with_r = Eigen::Vector4f::Zero();
     for (std::int32_t row = end; row-- > begin;) {
-        const Eigen::Vector4f sum = sum_of_groups(entries, columns, rows_[row].lower, rows_[row].upper, z.data());
+        const Eigen::Vector4f sum =
+            sum_of_groups(entries, columns, rows_[row].lower, rows_[row].upper, z.data());
         const Eigen::Vector4f relaxed = z.col(row) - inverse_diagonal_[row] * sum;
         z.col(row) = relaxed;
         product_with_r += relaxed.cwiseProduct(r.col(row));

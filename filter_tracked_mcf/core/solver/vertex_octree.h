@@ -55,10 +55,10 @@ private:
 
     double cell_size_;
     std::vector<Level> levels_;
-    std::vector<std::int32_t> element_of_;  ///< per vertex
-    RawVector<Eigen::Vector3f> local_;      ///< per vertex, in the cell of its element
-    Groups vertices_;                       ///< by element
-    Groups corners_;                        ///< 8 × element + corner, by unknown
+    std::vector<std::int32_t> element_of_;        ///< per vertex
+    RawVector<Eigen::Vector3f> local_;            ///< per vertex, in the cell of its element
+    Groups vertices_;                             ///< by element
+    Groups corners_;                              ///< 8 × element + corner, by unknown
     RawVector<Eigen::Matrix<float, 4, 8>> sums_;  ///< workspace, per element
 };
 

@@ -16,7 +16,8 @@ constexpr double kLeastSlack = 0.03;
 /// cotangents stay finite.
 constexpr float kLeastEdge = 1e-6F;
 
-/// Local squares of edge lengths are means over so many steps of diffusion: the vertices two sides away.
+/// Local squares of edge lengths are means over so many steps of diffusion: the vertices two sides
+/// away.
 constexpr int kStepsOfMean = 2;
 
 /// Returns, per vertex, the mean square of the sides around it.

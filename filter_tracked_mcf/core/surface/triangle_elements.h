@@ -22,8 +22,8 @@ using TriangleElements = RawVector<TriangleElement>;
 /// Returns linear elements in the surface's own metric. The sides of needles are made longer, all
 /// three by as much, until the sum of the two shorter ones exceeds the longest one by a few per
 /// cent of the local edge length: their cotangents would have no bound. Triangles of other shapes
-/// are taken as they are, for only then is the flow one by mean curvature (the mollification of Sharp and Crane, "A
-/// Laplacian for Nonmanifold Triangle Meshes", 2020).
+/// are taken as they are, for only then is the flow one by mean curvature (the mollification of
+/// Sharp and Crane, "A Laplacian for Nonmanifold Triangle Meshes", 2020).
 ///
 /// `densities` multiply the mass of each triangle; none if all are 1.
 TriangleElements elements_in_own_metric(const Stars& stars,

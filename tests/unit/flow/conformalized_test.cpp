@@ -104,7 +104,8 @@ TEST(Conformalized, DumbbellBecomesASphereWhereMeanCurvatureFlowPinches) {
         EXPECT_EQ(step.collapsed_samples, 0);
         EXPECT_TRUE(step.reached_tolerance);
     }
-    // At its waist, the triangles are seven times as long as wide. 0.036; 0.014 with half the edges.
+    // At its waist, the triangles are seven times as long as wide. 0.036; 0.014 with half the
+    // edges.
     EXPECT_LT(roundness(round), 0.05);
     EXPECT_GT(roundness(dumbbell), 0.3);
 

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <random>
+
+#include "filter_tracked_mcf/core/flow/flow_surface.h"
+#include "filter_tracked_mcf/core/solver/field.h"
+#include "filter_tracked_mcf/core/surface/triangle_elements.h"
+
+namespace tracked_mcf {
+
+/// Returns the surface of a whole mesh.
+inline FlowSurface flow_surface(const TriangleMesh& mesh,
+                                BoundaryCondition boundary = BoundaryCondition::Free) {
+    return flow_surface_of(Domain(mesh, boundary), {});
+}
+
+inline TriangleElements elements_of(const FlowSurface& surface) {
+    return elements_in_own_metric(surface.stars, surface.positions, surface.densities);
+}
+
+/// Returns half the lumped and half the consistent mass.
+inline Eigen::MatrixXd dense_mass(const Stars& stars, const TriangleElements& elements) {
+    Eigen::MatrixXd mass = Eigen::MatrixXd::Zero(stars.count(), stars.count());
+    for (std::size_t i = 0; i < elements.size(); ++i) {
+        const double area = 3 * double{elements[i].mass};
+        for (const std::int32_t row : stars.triangles[i]) {
+            mass(row, row) += area / 6;
+            for (const std::int32_t column : stars.triangles[i]) {
+                mass(row, column) += area / 24 * (row == column ? 2 : 1);
+            }
+        }
+    }
+    return mass;
+}
+
+inline Eigen::MatrixXd dense_stiffness(const Stars& stars, const TriangleElements& elements) {
+    Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(stars.count(), stars.count());
+    for (std::size_t i = 0; i < elements.size(); ++i) {
+        for (int k = 0; k < 3; ++k) {
+            const std::int32_t a = stars.triangles[i][(k + 1) % 3];
+            const std::int32_t b = stars.triangles[i][(k + 2) % 3];
+            const double weight = elements[i].weights[k];
+            stiffness(a, a) += weight;
+            stiffness(b, b) += weight;
+            stiffness(a, b) -= weight;
+            stiffness(b, a) -= weight;
+        }
+    }
+    return stiffness;
+}
+
+/// Returns random numbers from -1 to 1; 0 at vertices that stay.
+inline Field random_at_vertices(const FlowSurface& surface, unsigned seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<float> uniform(-1, 1);
+    Field field = Field::Zero(4, surface.stars.count());
+    for (std::int32_t vertex = 0; vertex < surface.stars.count(); ++vertex) {
+        if (surface.fixed[vertex] != 0) continue;
+        for (int axis = 0; axis < 3; ++axis) field(axis, vertex) = uniform(random);
+    }
+    return field;
+}
+
+/// Returns a field as one row per vertex.
+inline Eigen::MatrixXd rows_of(const Field& field) {
+    return field.topRows<3>().cast<double>().transpose();
+}
+
+inline Eigen::MatrixXd rows_of(const std::vector<Eigen::Vector3d>& positions) {
+    Eigen::MatrixXd rows(positions.size(), 3);
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+        rows.row(static_cast<Eigen::Index>(i)) = positions[i].transpose();
+    }
+    return rows;
+}
+
+/// Sets the rows of vertices that stay to zero.
+inline Eigen::MatrixXd without_fixed_rows(const FlowSurface& surface, Eigen::MatrixXd matrix) {
+    for (std::int32_t vertex = 0; vertex < surface.stars.count(); ++vertex) {
+        if (surface.fixed[vertex] != 0) matrix.row(vertex).setZero();
+    }
+    return matrix;
+}
+
+}  // namespace tracked_mcf
