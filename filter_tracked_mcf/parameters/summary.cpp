@@ -157,8 +157,11 @@ std::string summary(const FairParameters& /*parameters*/, const FairReport& repo
 std::string solver_details(const FlowParameters& parameters, const FlowReport& report) {
     std::ostringstream text;
     text.precision(3);
-    text << "Grid of depth " << report.depth << ": cells " << report.cell_size << " wide, "
-         << report.cells << " of them occupied, " << report.unknowns << " unknowns";
+    if (report.depth > 0) {
+        text << "Grid of depth " << report.depth << ": cells " << report.cell_size << " wide, "
+             << report.cells << " of them occupied, ";
+    }
+    text << report.unknowns << " unknowns";
     if (report.constrained_unknowns > 0)
         text << ", of which " << report.constrained_unknowns << " are constrained";
     text << ".\n";
