@@ -40,7 +40,7 @@ COARSE = {"depth": 5, "detail_size": 0.2}
 COARSE_OPTIONS = ["--depth", "5", "--detail-size", "0.2"]
 
 # Further runs than those of all hosts. Between them, they set every parameter.
-RUNS = [*runs.RUNS, "detail_size=20%", "tolerance=1e-5", "stabilization=1", "cycles=2 method=paper", "cubature=12",
+RUNS = [*runs.RUNS, "detail_size=20%", "tolerance=1e-5", "stabilization=1 method=shared-cells", "cycles=2 method=paper", "cubature=12 method=shared-cells",
         "threads=1"]
 NOISE_RUNS = ["crease_angle=5", "noise=0.02", "noise=1%", "noise_size=0.1", "detail_size=0.3", "largest_movement=0.1%",
               "boundary=locked", "boundary=smooth", "along_normals=true", "quality=displacement", "threads=1"]
@@ -581,14 +581,14 @@ class Errors(unittest.TestCase):
         script = ("import resource, tracked_mcf, arrays_test\n"
                   "limit = 1 << 30\n"
                   "resource.setrlimit(resource.RLIMIT_DATA, (limit, limit))\n"
-                  "try: arrays_test.smooth(depth=11)\n"
+                  "try: arrays_test.smooth(method='shared-cells', depth=11)\n"
                   "except tracked_mcf.NotEnoughMemory as error: print(error)")
         self.assertIn("Choose depth", said_by(script))
 
     def test_warnings(self):
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
-            _, report = smooth(depth=2, detail_size=0.2)
+            _, report = smooth(method="shared-cells", depth=2, detail_size=0.2)
         self.assertEqual([str(warning.message) for warning in caught], report["warnings"])
         self.assertIn("The cells of depth 2 ", report["warnings"][0])
         self.assertIs(caught[0].category, tracked_mcf.FlowWarning)
@@ -599,7 +599,7 @@ class Errors(unittest.TestCase):
         self.assertEqual(raised.filename, __file__)
         with warnings.catch_warnings(), self.assertRaises(tracked_mcf.FlowWarning):
             warnings.simplefilter("error")
-            smooth(depth=2, detail_size=0.2)
+            smooth(method="shared-cells", depth=2, detail_size=0.2)
         with warnings.catch_warnings():
             warnings.simplefilter("error")
             self.assertEqual(smooth()[1]["warnings"], [])
@@ -707,7 +707,7 @@ class Steps(unittest.TestCase):
     def test_warnings(self):
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
-            self.assertEqual(len(list(self.steps(depth=2, detail_size=0.2))), 3)
+            self.assertEqual(len(list(self.steps(method="shared-cells", depth=2, detail_size=0.2))), 3)
         self.assertIn("The cells of depth 2 ", str(caught[0].message))
         self.assertIs(caught[0].category, tracked_mcf.FlowWarning)
         self.assertEqual(caught[0].filename, __file__)

@@ -49,14 +49,14 @@ def steps_of(function, vertices):
 def with_warnings_as_errors(vertices):
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        smooth(vertices, depth=2, detail_size=0.01)
+        smooth(vertices, method="shared-cells", depth=2, detail_size=0.01)
 
 
 def with_little_memory(vertices):
     limits = resource.getrlimit(resource.RLIMIT_DATA)
     resource.setrlimit(resource.RLIMIT_DATA, (1 << 30, limits[1]))
     try:
-        smooth(vertices, depth=12)
+        smooth(vertices, method="shared-cells", depth=12)
     finally:
         resource.setrlimit(resource.RLIMIT_DATA, limits)
 

@@ -33,7 +33,9 @@ std::vector<std::vector<std::uint8_t>> nothing_constrained(const std::vector<Lev
 /// Returns the power of two by which a right-hand side of this norm is divided: conjugate gradients
 /// square numbers, and single precision loses the squares of very small and large ones.
 double power_of_two_of(double norm) {
-    return norm > 0 && std::isfinite(norm) ? std::exp2(std::ilogb(norm)) : 1;
+    constexpr int most = 126;  // so that the inverse is a float, too
+    return norm > 0 && std::isfinite(norm) ? std::exp2(std::clamp(std::ilogb(norm), -most, most))
+                                           : 1;
 }
 
 }  // namespace

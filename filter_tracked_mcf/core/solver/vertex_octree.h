@@ -33,9 +33,10 @@ public:
     double cell_size() const { return cell_size_; }  ///< of the finest level
 
     /// Sets the matrices of the finest elements to those of the system, as seen by the element's
-    /// functions. Their sum is nearly PᵀAP: a side that joins two cells counts half in each, with
-    /// the cell's functions continued to the vertex outside. So elements stay apart, and coarser
-    /// levels follow from them as in the paper (section 5.2).
+    /// functions. Their sum is nearly PᵀAP: a triangle across cells counts in each by the share of
+    /// its corners, with the cell's functions continued to the corners outside, and masses are
+    /// lumped. So elements stay apart, and coarser levels follow from them as in the paper
+    /// (section 5.2).
     void assemble(const MeshSystem& system, const TriangleElements& elements,
                   MatrixBlocks& matrices) const;
 

@@ -98,6 +98,16 @@ TEST(Order, HigherOnesShrinkASphereLess) {
     }
 }
 
+TEST(Order, AnyMaySuitStepsTooSmallToSee) {
+    // The right-hand side of each solve is smaller by the step size.
+    for (const double step_size : {1e-13, 1e-17, 1e-24}) {
+        FlowParameters p = parameters(0, step_size, 2);
+        p.order = kMaximumOrder;
+        TriangleMesh mesh = shapes::bumpy_sphere(8);
+        EXPECT_EQ(evolve(mesh, p).stop, Stop::None) << step_size;
+    }
+}
+
 TEST(Order, WorksWithEverySolverFlowAndBoundary) {
     // A higher order moves the surface less, because h is between 0 and 1.
     const TriangleMesh cap = bumpy_cap(15);

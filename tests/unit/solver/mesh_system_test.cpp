@@ -14,7 +14,7 @@
 namespace tracked_mcf {
 namespace {
 
-constexpr double kStep = 3;             ///< squared edges
+constexpr double kStepOfSystem = 3;       ///< squared edges
 constexpr double kSingleRounding = 1e-6;  ///< of sums of some products, relative
 
 /// A surface and its system. It has 1442 vertices, so two chunks, or a part of these.
@@ -24,14 +24,14 @@ struct SystemOfMesh {
         : surface(flow_surface(mesh, boundary)),
           elements(elements_of(surface)),
           system(surface.stars, surface.fixed) {
-        system.take(elements, kStep);
+        system.take(elements, kStepOfSystem);
     }
     SystemOfMesh(const SystemOfMesh&) = delete;
     SystemOfMesh& operator=(const SystemOfMesh&) = delete;
 
     Eigen::MatrixXd dense() const {
         return dense_mass(surface.stars, elements) +
-               kStep * dense_stiffness(surface.stars, elements);
+               kStepOfSystem * dense_stiffness(surface.stars, elements);
     }
     Field zero() const { return Field::Zero(4, surface.stars.count()); }
     /// Returns A x.
@@ -46,7 +46,7 @@ struct SystemOfMesh {
     MeshSystem system;
 };
 
-TriangleMesh closed() {
+TriangleMesh closed_mesh() {
     return shapes::bumpy_sphere(12);
 }
 
@@ -64,9 +64,10 @@ FlowSurface squeezed(FlowSurface surface) {
 }
 
 TEST(MeshSystem, MultipliesLikeADenseMatrix) {
-    const SystemOfMesh of(closed());
+    const SystemOfMesh of(closed_mesh());
     const Eigen::MatrixXd a = of.dense();
-    const Field first = random_at_vertices(of.surface, 1), second = random_at_vertices(of.surface, 2);
+    const Field first = random_at_vertices(of.surface, 1),
+                second = random_at_vertices(of.surface, 2);
     Field p = of.zero(), q = of.zero();
     double energy = of.system.advance(first, 0, p, q);
     EXPECT_EQ(p, first);
@@ -83,7 +84,7 @@ TEST(MeshSystem, MultipliesLikeADenseMatrix) {
 }
 
 TEST(MeshSystem, MultipliesConstantsByTheLumpedMass) {
-    const SystemOfMesh of(closed());
+    const SystemOfMesh of(closed_mesh());
     const Field product = of.product(Field::Constant(4, of.surface.stars.count(), 1));
     double sum = 0, area = 0;
     for (std::int32_t vertex = 0; vertex < of.surface.stars.count(); ++vertex) {
@@ -96,7 +97,7 @@ TEST(MeshSystem, MultipliesConstantsByTheLumpedMass) {
 }
 
 TEST(MeshSystem, StiffnessOfConstantsIsExactlyZero) {
-    const SystemOfMesh of(closed());
+    const SystemOfMesh of(closed_mesh());
     const std::vector<Eigen::Vector3d> constant(of.surface.positions.size(), {1e6 / 3, -2.7, 5});
     Field product;
     of.system.multiply_stiffness(constant, 1, product);
@@ -104,10 +105,11 @@ TEST(MeshSystem, StiffnessOfConstantsIsExactlyZero) {
 }
 
 TEST(MeshSystem, StiffnessIsThatOfADenseMatrixAndDoesNotSeeWhereTheSurfaceIs) {
-    const SystemOfMesh of(closed());
+    const SystemOfMesh of(closed_mesh());
     Field product, moved_product;
     of.system.multiply_stiffness(of.surface.positions, -2, product);
-    expect_close(rows_of(product), -2 * kStep * dense_stiffness(of.surface.stars, of.elements) *
+    expect_close(rows_of(product), -2 * kStepOfSystem *
+                                       dense_stiffness(of.surface.stars, of.elements) *
                                        rows_of(of.surface.positions));
     std::vector<Eigen::Vector3d> moved = of.surface.positions;
     for (Eigen::Vector3d& position : moved) position += Eigen::Vector3d(1e6, -1e6, 1e6);
@@ -117,7 +119,7 @@ TEST(MeshSystem, StiffnessIsThatOfADenseMatrixAndDoesNotSeeWhereTheSurfaceIs) {
 }
 
 TEST(MeshSystem, ResidualIsThatOfADenseMatrix) {
-    const SystemOfMesh of(closed());
+    const SystemOfMesh of(closed_mesh());
     const Eigen::MatrixXd a = of.dense();
     const Field b = random_at_vertices(of.surface, 1);
     Field residual;
@@ -153,9 +155,9 @@ TEST(MeshSystem, KeepsZeroRowsAtVerticesThatStay) {
         }
     }
     expect_close(rows_of(multiplied), without_fixed_rows(of.surface, a * rows_of(x)));
-    expect_close(rows_of(residual),
-                 without_fixed_rows(of.surface, rows_of(everywhere) -
-                                                    a * rows_of(of.surface.positions)));
+    expect_close(
+        rows_of(residual),
+        without_fixed_rows(of.surface, rows_of(everywhere) - a * rows_of(of.surface.positions)));
 }
 
 // B⁻¹ = (D + U)ᵀ D⁻¹ (D + U) is symmetric and positive.
@@ -166,8 +168,8 @@ TEST(MeshSystem, RelaxesByASymmetricSweepOverEachBlock) {
         const Eigen::MatrixXd a = of.dense();
         const Field r = random_at_vertices(of.surface, 1);
         // Rows of another block must not matter.
-        Field z = Field::Constant(4, of.surface.stars.count(),
-                                  std::numeric_limits<float>::quiet_NaN());
+        Field z =
+            Field::Constant(4, of.surface.stars.count(), std::numeric_limits<float>::quiet_NaN());
         for (const std::int32_t begin : {1024, 0}) {
             const std::int32_t end = std::min(of.surface.stars.count(), begin + 1024);
             const double product = of.system.relax(begin, end, r, z);
@@ -181,9 +183,9 @@ TEST(MeshSystem, RelaxesByASymmetricSweepOverEachBlock) {
             const Eigen::MatrixXd upper = block.triangularView<Eigen::Upper>();
             const Eigen::MatrixXd rows = rows_of(z).middleRows(begin, end - begin);
             const Eigen::MatrixXd right_side = rows_of(r).middleRows(begin, end - begin);
-            expect_close(upper.transpose() *
-                             (block.diagonal().cwiseInverse().asDiagonal() * (upper * rows)),
-                         right_side);
+            expect_close(
+                upper.transpose() * (block.diagonal().cwiseInverse().asDiagonal() * (upper * rows)),
+                right_side);
             EXPECT_NEAR(product, rows.cwiseProduct(right_side).sum(), kSingleRounding * product);
             EXPECT_GT(product, 0);
         }
@@ -191,38 +193,38 @@ TEST(MeshSystem, RelaxesByASymmetricSweepOverEachBlock) {
 }
 
 TEST(MeshSystem, KeepsTheStiffnessOfTheCallBefore) {
-    SystemOfMesh of(closed());
+    SystemOfMesh of(closed_mesh());
     const FlowSurface other = squeezed(of.surface);
     const TriangleElements elements = elements_of(other);
     Field before, after;
     of.system.multiply_stiffness(of.surface.positions, 1, before);
-    of.system.take(elements, kStep, false);
+    of.system.take(elements, kStepOfSystem, false);
     of.system.multiply_stiffness(of.surface.positions, 1, after);
     EXPECT_EQ(after, before);
 
-    of.system.take(elements, 2 * kStep, false);
+    of.system.take(elements, 2 * kStepOfSystem, false);
     of.system.multiply_stiffness(of.surface.positions, 1, after);
     EXPECT_EQ(after, 2 * before);
     const Field x = random_at_vertices(of.surface, 1);
     expect_close(rows_of(of.product(x)),
                  (dense_mass(other.stars, elements) +
-                  2 * kStep * dense_stiffness(of.surface.stars, of.elements)) *
+                  2 * kStepOfSystem * dense_stiffness(of.surface.stars, of.elements)) *
                      rows_of(x));
 
-    of.system.take(elements, kStep);
+    of.system.take(elements, kStepOfSystem);
     expect_close(rows_of(of.product(x)), (dense_mass(other.stars, elements) +
-                                          kStep * dense_stiffness(other.stars, elements)) *
+                                          kStepOfSystem * dense_stiffness(other.stars, elements)) *
                                              rows_of(x));
 }
 
 TEST(MeshSystem, MassesKeepASmallPartOfTheFirstOnesIfTheSurfaceVanishes) {
-    SystemOfMesh of(closed());
+    SystemOfMesh of(closed_mesh());
     std::vector<float> first;
     for (std::int32_t i = 0; i < of.surface.stars.count(); ++i) first.push_back(of.system.mass(i));
     FlowSurface vanished = of.surface;
     for (Eigen::Vector3d& position : vanished.positions) position = {1, 2, 3};
     for (const bool takes_stiffness : {true, false}) {
-        of.system.take(elements_of(vanished), kStep, takes_stiffness);
+        of.system.take(elements_of(vanished), kStepOfSystem, takes_stiffness);
         const Field product = of.product(Field::Constant(4, of.surface.stars.count(), 1));
         for (std::int32_t i = 0; i < of.surface.stars.count(); ++i) {
             EXPECT_GE(of.system.mass(i), 1e-6F * first[i]);
@@ -236,7 +238,7 @@ TEST(MeshSystem, MassesKeepASmallPartOfTheFirstOnesIfTheSurfaceVanishes) {
     of.system.multiply_stiffness(vanished.positions, 1, force);
     EXPECT_TRUE(force.isZero(0));
     // Masses come back with the surface.
-    of.system.take(of.elements, kStep);
+    of.system.take(of.elements, kStepOfSystem);
     for (std::int32_t i = 0; i < of.surface.stars.count(); ++i) {
         EXPECT_EQ(of.system.mass(i), first[i]);
     }

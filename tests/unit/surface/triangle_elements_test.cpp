@@ -56,8 +56,8 @@ TEST(TriangleElements, AnObtuseCornerHasANegativeWeight) {
 
 TEST(TriangleElements, DoNotDependOnTheOrderOfCornersOrOnTheUnit) {
     const TriangleMesh mesh = shapes::bumpy_sphere(4);
-    TriangleMesh other = shapes::transformed(shapes::inside_out(mesh),
-                                             Eigen::Affine3d(Eigen::Scaling(1024.0)));
+    TriangleMesh other =
+        shapes::transformed(shapes::inside_out(mesh), Eigen::Affine3d(Eigen::Scaling(1024.0)));
     for (Triangle& t : other.triangles) t = {t[2], t[0], t[1]};
     const TriangleElements expected = in_own_metric(mesh), elements = in_own_metric(other);
     for (std::size_t i = 0; i < elements.size(); ++i) {
@@ -71,8 +71,8 @@ TEST(TriangleElements, DoNotDependOnTheOrderOfCornersOrOnTheUnit) {
     }
 }
 
-// The slack of a mollified triangle is 0.03 local edges, and its longest side about 2. So its height
-// is more than a tenth of an edge, and its cotangents are less than 20.
+// All sides become longer by up to 0.03 local edges. The smallest angle is then that between two
+// sides of about an edge whose ends are 0.03 edges apart. Its cotangent is about 1.03 / 0.03 = 34.
 TEST(TriangleElements, OfNeedlesAndOfTrianglesWithoutAnAreaAreThoseOfATriangle) {
     const double nearly_zero = 1e-30;
     const TriangleMesh base = shapes::square(4);
@@ -93,7 +93,7 @@ TEST(TriangleElements, OfNeedlesAndOfTrianglesWithoutAnAreaAreThoseOfATriangle) 
         mesh.positions.push_back(apex);
         mesh.triangles.push_back({first, second, last});
         SCOPED_TRACE(apex.transpose());
-        expect_triangle(in_own_metric(mesh).back(), 20);
+        expect_triangle(in_own_metric(mesh).back(), 35);
     }
 }
 
@@ -135,7 +135,7 @@ TEST(TriangleElements, KeepTheirBitsIfANeedleIsFarAway) {
                                t[1] == static_cast<std::int32_t>(moved) ||
                                t[2] == static_cast<std::int32_t>(moved);
         around += has_moved ? 1 : 0;
-        if (!has_moved) EXPECT_TRUE(same_elements(elements[i], expected[i])) << i;
+        EXPECT_TRUE(has_moved || same_elements(elements[i], expected[i])) << i;
         changed += same_elements(elements[i], expected[i]) ? 0 : 1;
     }
     EXPECT_EQ(changed, around);
