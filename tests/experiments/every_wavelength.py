@@ -131,15 +131,16 @@ def two_resolutions(experiment, flow):
     vertices[:, 0], vertices[:, 1] = x[vertices[:, 0].astype(int)], vertices[:, 1] * fine / 2
     plane = Surface("two resolutions", vertices, faces)
     across, middle = vertices[:, 0], coarse * fine
-    sides = {"coarse": (across > 0.3 * middle) & (across < 0.8 * middle),
-             "fine": (across > 1.2 * middle) & (across < 1.7 * middle)}
+    inside = abs(vertices[:, 1] / vertices[:, 1].max() - 0.5) < 0.25
+    sides = {"coarse": inside & (across > 0.3 * middle) & (across < 0.8 * middle),
+             "fine": inside & (across > 1.2 * middle) & (across < 1.7 * middle)}
     detail_size = 8 * fine
     rows = []
     for waves in (3, 5, 8, 16):
         rows.append([waves, "ideal", *[kept(waves * fine, detail_size, 2)] * 2])
         for method in METHODS:
-            rows.append([waves, method, *(share(flow, method, plane, waves * fine, inside, "--detail-size", detail_size,
-                                                "--order", 2) for inside in sides.values())])
+            rows.append([waves, method, *(share(flow, method, plane, waves * fine, side, "--detail-size", detail_size,
+                                                "--order", 2) for side in sides.values())])
     experiment.say("\n## Two resolutions, 1 : 5, ℓ of 8 coarse edges\n")
     experiment.table(["wave, coarse edges", "", *sides], rows)
     experiment.record([{"table": "two resolutions", "wave": wave, "of": of, "coarse": here, "fine": there}
