@@ -26,6 +26,10 @@ constexpr double kShareOfAssembly = 0.2;
 /// The area after a step may be so many times that before it.
 constexpr double kMostGrowth = 1.001;
 
+/// What rounding adds to a triangle's area, in squared edges: a strip may be so narrow that its own
+/// area is less.
+constexpr double kRoundedArea = 1e-6;
+
 /// A solve whose error is more than this part of its solution has failed.
 constexpr double kUseless = 0.5;
 
@@ -258,7 +262,9 @@ Stop MeshFlow::advance(Positions& to, StepReport& report) {
     // A step lowers the energy of the metric that it takes, which bounds the area. Only triangles
     // that are longer in that metric can make it larger. A conformalized flow keeps its metric.
     const double most = steps_.flow == FlowKind::MeanCurvature ? area : first_area_;
-    return area_of(to) > kMostGrowth * most ? Stop::Grew : Stop::None;
+    const auto triangles = static_cast<double>(surface_.stars.triangles.size());
+    const bool grew = area_of(to) > kMostGrowth * most + kRoundedArea * triangles;
+    return grew ? Stop::Grew : Stop::None;
 }
 
 bool MeshFlow::step() {
