@@ -248,7 +248,7 @@ Stop MeshFlow::advance(Positions& to, StepReport& report) {
     solve(report, preserver_ && preserver_->pushes() ? &response : nullptr);
     poll_progress();
     report.solve_seconds = stopwatch.seconds();
-    if (!(report.error_estimate <= kUseless)) return Stop::StepFailed;
+    if (!report.reached_tolerance && !(report.error_estimate <= kUseless)) return Stop::StepFailed;
     to = displaced();
     const Boxes boxes = boxes_of(surface_, surface_.positions);
     const auto is_outside = [&](std::int64_t i) {

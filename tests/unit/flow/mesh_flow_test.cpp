@@ -240,5 +240,36 @@ TEST(MeshFlow, ReportsEveryStepAndItsArea) {
     }
 }
 
+TEST(MeshFlow, TakesAnOctreeOnceSolvesAreLong) {
+    const TriangleMesh sphere = shapes::bumpy_sphere(30);
+    FlowParameters p;
+    p.step_size = 5 * std::pow(mean_edge_length(sphere), 2);  // a step halves waves of 14 edges
+    p.absolute = true;
+    p.iterations = 2;
+    TriangleMesh usual = sphere, close = sphere;
+    EXPECT_EQ(evolve(usual, p).depth, 0);
+    p.tolerance = 1e-12;
+    const FlowReport report = evolve(close, p);
+    ASSERT_EQ(report.steps.size(), 2U);
+    EXPECT_GT(report.steps[0].solver_iterations, 50);
+    EXPECT_GT(report.depth, 0);
+}
+
+TEST(MeshFlow, HasNoOctreeForPartsOfAFewVertices) {
+    TriangleMesh mesh = shapes::separate_triangles(50);
+    FlowParameters p;
+    p.boundary = BoundaryCondition::Free;
+    p.detail_size = 1.5 * longest_side(mesh);
+    ASSERT_GT(p.detail_size, 100 * mean_edge_length(mesh));
+    EXPECT_EQ(evolve(mesh, p).depth, 0);
+}
+
+TEST(MeshFlow, ALooseToleranceIsNoFailure) {
+    TriangleMesh mesh = shapes::bumpy_sphere(20);
+    FlowParameters p;
+    p.tolerance = 0.9;
+    EXPECT_EQ(evolve(mesh, p).stop, Stop::None);
+}
+
 }  // namespace
 }  // namespace tracked_mcf

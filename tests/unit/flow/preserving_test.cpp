@@ -74,11 +74,15 @@ TEST(PreservingVolume, KeepsItOverFiftySteps) {
 
 TEST(PreservingVolume, EndsBeforeAStepThatIsTooLargeForIt) {
     const TriangleMesh mesh = shapes::bumpy_sphere(12);
-    TriangleMesh flowing = mesh;
-    const FlowReport report = evolve(flowing, preserving(Preserve::Volume, 1, 10));
-    EXPECT_EQ(report.stop, Stop::NotPreserved);
-    EXPECT_EQ(report.steps.size(), 0U);
-    EXPECT_EQ(flowing.positions, mesh.positions);
+    for (const Solver solver : {Solver::Converged, Solver::Grid}) {
+        TriangleMesh flowing = mesh;
+        FlowParameters p = preserving(Preserve::Volume, 1, 10);
+        p.solver = solver;
+        const FlowReport report = evolve(flowing, p);
+        EXPECT_EQ(report.stop, Stop::NotPreserved);
+        EXPECT_EQ(report.steps.size(), 0U);
+        EXPECT_EQ(flowing.positions, mesh.positions);
+    }
 }
 
 TEST(PreservingArea, KeepsItOverFiftySteps) {
@@ -348,6 +352,17 @@ TEST(PreservingArea, OfAFreeOpenSurface) {
     p.boundary = BoundaryCondition::Free;
     const double area = surface_area(cap);
     EXPECT_NEAR(surface_area(evolved(cap, p)), area, kRestored * area);
+}
+
+TEST(PreservingArea, EndsBeforeAStripThatHasBecomeALineIsInflated) {
+    // The step makes the strip a hundred times narrower, but hardly shorter.
+    TriangleMesh strip =
+        shapes::transformed(shapes::square(20), Eigen::Affine3d(Eigen::Scaling(1.0, 0.02, 1.0)));
+    const TriangleMesh before = strip;
+    FlowParameters p = preserving(Preserve::Area, 4e-3, 1);
+    p.boundary = BoundaryCondition::Free;
+    EXPECT_EQ(evolve(strip, p).stop, Stop::Pinched);
+    EXPECT_TRUE(same_bits(strip, before));
 }
 
 TEST(Preserving, StopsOnceOnlyThreadsRemainOnTheGrid) {
