@@ -219,8 +219,8 @@ TEST(MeshSystem, KeepsTheStiffnessOfTheCallBefore) {
 
 TEST(MeshSystem, MassesKeepASmallPartOfTheFirstOnesIfTheSurfaceVanishes) {
     SystemOfMesh of(closed_mesh());
-    std::vector<float> first;
-    for (std::int32_t i = 0; i < of.surface.stars.count(); ++i) first.push_back(of.system.mass(i));
+    std::vector<float> first(of.surface.positions.size());
+    for (std::int32_t i = 0; i < of.surface.stars.count(); ++i) first[i] = of.system.mass(i);
     FlowSurface vanished = of.surface;
     for (Eigen::Vector3d& position : vanished.positions) position = {1, 2, 3};
     for (const bool takes_stiffness : {true, false}) {
