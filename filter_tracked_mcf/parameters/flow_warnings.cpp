@@ -23,6 +23,8 @@ std::string early_stop(const FlowReport& report, int iterations) {
     const std::size_t made = report.steps.size();
     const std::string stopped = "The flow stopped after step " + std::to_string(made) + " of " +
                                 std::to_string(iterations) + ": ";
+    const std::string ended = made > 0 ? stopped : "Nothing has moved: ";
+    const std::string next_step = ended + "step " + std::to_string(made + 1);
     switch (report.stop) {
         case Stop::None:
             return {};
@@ -34,22 +36,18 @@ std::string early_stop(const FlowReport& report, int iterations) {
             return "Nothing has moved: the first step would have left no surface. Take a smaller "
                    "detail size or step size.";
         case Stop::Pinched:
-            return (made > 0 ? stopped : "Nothing has moved: ") +
-                   "so much has pinched that preserving would inflate what is left.";
+            return ended + "so much has pinched that preserving would inflate what is left.";
         case Stop::StepFailed:
-            return (made > 0 ? stopped : "Nothing has moved: ") + "step " +
-                   std::to_string(made + 1) +
+            return next_step +
                    " failed: the surface left its bounds, or the equations could not be solved. "
                    "Take a smaller detail size or step size.";
         case Stop::Grew:
-            return (made > 0 ? stopped : "Nothing has moved: ") + "step " +
-                   std::to_string(made + 1) +
-                   " would have made the surface larger, which no such flow does: needles are "
-                   "nearly as long as the mesh. Remesh them, or take a smaller detail size or step "
-                   "size.";
+            return next_step +
+                   " would have made the surface larger, which no such flow does: some faces are "
+                   "needles, too narrow for their length. Remesh them, or take a smaller detail "
+                   "size or step size.";
         case Stop::NotPreserved:
-            return (made > 0 ? stopped : "Nothing has moved: ") + "step " +
-                   std::to_string(made + 1) +
+            return next_step +
                    " would have changed the surface so much that its volume cannot be restored. "
                    "Take more steps, or a smaller detail size or step size.";
         case Stop::NothingMoves:

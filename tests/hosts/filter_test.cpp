@@ -321,8 +321,8 @@ TEST(EarlyStop, NamesTheStepTheReasonAndTheRemedy) {
     report.stop = Stop::Grew;
     EXPECT_EQ(early_stop(),
               "Nothing has moved: step 1 would have made the surface larger, which no such flow "
-              "does: needles are nearly as long as the mesh. Remesh them, or take a smaller detail "
-              "size or step size.");
+              "does: some faces are needles, too narrow for their length. Remesh them, or take a "
+              "smaller detail size or step size.");
     report.stop = Stop::NothingMoves;
     EXPECT_EQ(
         early_stop(),
