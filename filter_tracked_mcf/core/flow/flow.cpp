@@ -47,15 +47,8 @@ void Flow::fill_report(const Plan& plan) {
     const Domain& domain = plan.domain;
     const TrackedElements& elements = stepper_.elements();
     report_.vertices = elements.referenced_vertex_count;
-    report_.triangles = static_cast<std::int64_t>(domain.surface().triangles.size());
-    report_.has_strengths = domain.has_strengths();
-    report_.zero_strength_triangles = domain.zero_strength_count();
-    report_.unselected_triangles = static_cast<std::int64_t>(domain.mesh().triangles.size()) -
-                                   report_.triangles - report_.zero_strength_triangles;
+    describe(domain, report_);
     report_.degenerate_triangles = elements.degenerate_triangle_count;
-    report_.oriented_consistently = domain.topology().is_oriented_consistently();
-    report_.boundary_edges = domain.boundary_edge_count();
-    report_.cracks = domain.topology().cracks;
     report_.constrained_vertices = elements.constrained_vertex_count;
     report_.depth = elements.grid.depth;
     report_.cell_size = elements.grid.cell_size;
@@ -63,7 +56,6 @@ void Flow::fill_report(const Plan& plan) {
     report_.asked_step_size = plan.steps.size.in_mesh_units;
     report_.detail_size = detail_size_for(report_.step_size, plan.iterations, plan.steps.order);
     report_.mean_edge = plan.mean_edge;
-    report_.longest_side = longest_side(domain.surface());
     if (plan.steps.flow == FlowKind::Conformalized) report_.genus = genus_of(domain.topology());
     report_.resolving_depth = plan.resolving_depth;
     report_.estimated_memory_bytes = static_cast<std::int64_t>(plan.expected_bytes);

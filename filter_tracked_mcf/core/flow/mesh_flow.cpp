@@ -144,21 +144,13 @@ MeshFlow::MeshFlow(MeshPlan plan)
 void MeshFlow::fill_report(const MeshPlan& plan) {
     const Domain& domain = plan.domain;
     report_.vertices = count_vertices(domain.topology());
-    report_.triangles = static_cast<std::int64_t>(domain.surface().triangles.size());
-    report_.has_strengths = domain.has_strengths();
-    report_.zero_strength_triangles = domain.zero_strength_count();
-    report_.unselected_triangles = static_cast<std::int64_t>(domain.mesh().triangles.size()) -
-                                   report_.triangles - report_.zero_strength_triangles;
+    describe(domain, report_);
     report_.degenerate_triangles = surface_.degenerate_count;
-    report_.oriented_consistently = domain.topology().is_oriented_consistently();
-    report_.boundary_edges = domain.boundary_edge_count();
-    report_.cracks = domain.topology().cracks;
     report_.constrained_vertices = surface_.constrained_count;
     report_.step_size = plan.step_size;
     report_.asked_step_size = plan.asked_step_size;
     report_.detail_size = detail_size_for(plan.step_size, plan.iterations, steps_.order);
     report_.mean_edge = plan.mean_edge;
-    report_.longest_side = longest_side(domain.surface());
     if (steps_.flow == FlowKind::Conformalized) report_.genus = genus_of(domain.topology());
     report_.estimated_memory_bytes = static_cast<std::int64_t>(plan.expected_bytes);
     report_.unknowns = surface_.stars.count();

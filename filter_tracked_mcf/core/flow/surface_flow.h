@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "filter_tracked_mcf/core/flow_report.h"
+#include "filter_tracked_mcf/core/mesh/domain.h"
 #include "filter_tracked_mcf/core/mesh/measures.h"
 #include "filter_tracked_mcf/core/triangle_mesh.h"
 
@@ -47,5 +48,8 @@ public:
 
     virtual const FlowReport& report() const = 0;
 };
+
+/// Sets what a report says of a domain before the flow.
+void describe(const Domain& domain, FlowReport& report);
 
 }  // namespace tracked_mcf

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "filter_tracked_mcf/core/flow/surface_flow.h"
+
+namespace tracked_mcf {
+
+void describe(const Domain& domain, FlowReport& report) {
+    report.triangles = static_cast<std::int64_t>(domain.surface().triangles.size());
+    report.has_strengths = domain.has_strengths();
+    report.zero_strength_triangles = domain.zero_strength_count();
+    report.unselected_triangles = static_cast<std::int64_t>(domain.mesh().triangles.size()) -
+                                  report.triangles - report.zero_strength_triangles;
+    report.oriented_consistently = domain.topology().is_oriented_consistently();
+    report.boundary_edges = domain.boundary_edge_count();
+    report.cracks = domain.topology().cracks;
+    report.longest_side = longest_side(domain.surface());
+}
+
+}  // namespace tracked_mcf
