@@ -45,14 +45,22 @@ constexpr double kOvershootInDetail = 0.1, kOvershootInDiagonals = 0.02;
 constexpr double kShortWaves = 16;
 
 /// An octree is used from a step on whose solves take more iterations than this.
-constexpr int kManyIterations = 50;
+constexpr int kManyIterations = 40;
 
 /// The side of the octree's cells is at least this, in edges.
-constexpr double kSmallestCell = 4;
+constexpr double kSmallestCell = 3;
 
 /// The length of the step, in squared edges, by which mean curvatures are smoothed. They scatter by
 /// 5 % on a sphere of regular triangles otherwise.
 constexpr double kShortStep = 2;
+
+/// The octree is built anew if the first step leaves less than this part of the area. Vertices that
+/// were apart, as those of noise, have come together then, and its functions jump between them.
+constexpr double kSameShape = 0.95;
+
+/// Not if the new one would have less than this part of the first one's elements: parts that shrink
+/// to a point need the functions that they had.
+constexpr double kFewerElements = 0.25;
 
 /// The octree has at most this share of the vertices as elements.
 constexpr double kMostElements = 0.25;
@@ -126,11 +134,13 @@ MeshFlow::MeshFlow(MeshPlan plan)
     : surface_(flow_surface_of(plan.domain, plan.densities)),
       steps_(plan.steps),
       step_size_(plan.step_size / (surface_.edge * surface_.edge)),
+      depth_(plan.depth),
       initial_(surface_.positions),
       solver_(surface_.stars, surface_.fixed, surface_.components) {
+    first_area_ = area_ = area_of(surface_.positions);
     enter_setup_phase(kBuildOctree);
     if (plan.depth > 0 || detail_size_for(step_size_, 1, steps_.order) >= kShortWaves) {
-        use_octree(plan.depth);
+        use_octree();
     }
     enter_setup_phase(kPrepareSolver);
     const double diagonal = box_of(boxes_of(surface_, initial_)).diagonal().norm();
@@ -156,14 +166,28 @@ void MeshFlow::fill_report(const MeshPlan& plan) {
     report_.unknowns = surface_.stars.count();
 }
 
-void MeshFlow::use_octree(int depth) {
-    std::unique_ptr<VertexOctree> octree = octree_of(surface_, initial_, depth);
+void MeshFlow::use_octree() {
+    std::unique_ptr<VertexOctree> octree = octree_of(surface_, surface_.positions, depth_);
     if (!octree) return;
-    report_.depth = octree->finest().depth;
-    report_.cell_size = octree->cell_size() * surface_.edge;
-    report_.cells = count_cells(octree->finest());
-    report_.elements = octree->finest().element_count();
+    const auto elements = octree->finest().element_count();
+    if (!solver_.octree()) {
+        report_.depth = octree->finest().depth;
+        report_.cell_size = octree->cell_size() * surface_.edge;
+        report_.cells = count_cells(octree->finest());
+        report_.elements = elements;
+    }
+    if (elements < kFewerElements * static_cast<double>(report_.elements)) return;
     solver_.use(std::move(octree));
+}
+
+void MeshFlow::renew_octree() {
+    if (report_.steps.empty()) return;
+    // A surface that has shrunk has longer waves, in its edges.
+    const bool needs_one = report_.steps.back().solver_iterations > kManyIterations * steps_.order;
+    // A conformalized flow keeps its stiffness, which the functions of the start suit.
+    const bool is_rough = report_.steps.size() == 1 && area_ < kSameShape * first_area_ &&
+                          steps_.flow == FlowKind::MeanCurvature;
+    if (solver_.octree() ? is_rough : needs_one) use_octree();
 }
 
 double MeshFlow::area_of(const Positions& positions) const {
@@ -225,11 +249,10 @@ std::vector<Eigen::Vector3d> MeshFlow::displaced() const {
 
 Stop MeshFlow::advance(Positions& to, StepReport& report) {
     const Stopwatch assembling;
-    const double area = area_of(surface_.positions);
-    report.area = area * surface_.edge * surface_.edge;
-    if (first_area_ == 0) first_area_ = area;
-    if (area < kVanishedArea * first_area_) return Stop::Vanished;
+    report.area = area_ * surface_.edge * surface_.edge;
+    if (area_ < kVanishedArea * first_area_) return Stop::Vanished;
     if (surface_.constrained_count == report_.vertices) return Stop::NothingMoves;
+    renew_octree();
     const bool takes_stiffness = steps_.flow == FlowKind::MeanCurvature || report_.steps.empty();
     solver_.take(elements_in_own_metric(surface_.stars, surface_.positions, surface_.densities),
                  step_size_, takes_stiffness);
@@ -250,12 +273,17 @@ Stop MeshFlow::advance(Positions& to, StepReport& report) {
     };
     if (parallel_count(static_cast<std::int64_t>(to.size()), is_outside) > 0)
         return Stop::StepFailed;
-    if (preserver_) return preserver_->restore(response, to);
+    if (preserver_) {
+        const Stop stop = preserver_->restore(response, to);
+        area_ = area_of(to);
+        return stop;
+    }
     // A step lowers the energy of the metric that it takes, which bounds the area. Only triangles
     // that are longer in that metric can make it larger. A conformalized flow keeps its metric.
-    const double most = steps_.flow == FlowKind::MeanCurvature ? area : first_area_;
+    const double most = steps_.flow == FlowKind::MeanCurvature ? area_ : first_area_;
     const auto triangles = static_cast<double>(surface_.stars.triangles.size());
-    const bool grew = area_of(to) > kMostGrowth * most + kRoundedArea * triangles;
+    area_ = area_of(to);
+    const bool grew = area_ > kMostGrowth * most + kRoundedArea * triangles;
     return grew ? Stop::Grew : Stop::None;
 }
 
@@ -270,10 +298,6 @@ bool MeshFlow::step() {
     if (stop != Stop::None) {
         report_.stop = stop;
         return false;
-    }
-    // A surface that has shrunk has longer waves, in its edges.
-    if (!solver_.octree() && report.solver_iterations > kManyIterations * steps_.order) {
-        use_octree(0);
     }
     before_ = std::exchange(surface_.positions, std::move(to));
     report_.steps.push_back(report);

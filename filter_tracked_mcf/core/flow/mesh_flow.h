@@ -38,7 +38,10 @@ private:
     using Positions = std::vector<Eigen::Vector3d>;
 
     void fill_report(const MeshPlan& plan);
-    void use_octree(int depth);
+    /// Makes the solver use an octree of the surface as it is now.
+    void use_octree();
+    /// Does so before a step if the last one showed that it helps.
+    void renew_octree();
     double area_of(const Positions& positions) const;  ///< in squared edges
     /// Solves for the displacement of one step, and for the response to a pressure if `response` is
     /// not null.
@@ -50,11 +53,13 @@ private:
     FlowSurface surface_;  ///< as it is now
     const StepParameters steps_;
     const double step_size_;  ///< δ, in squared edges
+    const int depth_;         ///< of the octree; 0 chooses it
     const Positions initial_;
     std::optional<MeshPreserver> preserver_;
     MeshSolver solver_;
-    Positions before_;  ///< the positions before the last step
-    double first_area_ = 0, margin_ = 0;
+    Positions before_;                  ///< the positions before the last step
+    double first_area_ = 0, area_ = 0;  ///< at the start and now, in squared edges
+    double margin_ = 0;
     Field right_side_;
     Positions d_;  ///< the displacement of the last step
     FlowReport report_;

@@ -81,7 +81,7 @@ void check_preservable(const Domain& domain, Preserve preserve, FlowKind flow) {
 constexpr double kLargestStepSizeInEdges = 5e4;
 
 /// Bytes for each vertex and each triangle of a flow on the mesh's own elements, beside the mesh.
-constexpr double kBytesPerVertex = 320, kBytesPerTriangle = 120;
+constexpr double kBytesPerVertex = 370, kBytesPerTriangle = 120;
 
 /// Returns the step size that the parameters ask for.
 StepSize asked_size(const FlowParameters& parameters, const TriangleMesh& mesh, double mean_edge,

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "filter_tracked_mcf/core/parallel/parallel.h"
 
@@ -53,7 +54,7 @@ MeshSystem::MeshSystem(const Stars& stars, const std::vector<std::uint8_t>& fixe
       rows_(fixed.size() + 1),
       masses_(fixed.size()),
       diagonal_(fixed.size()),
-      inverse_diagonal_(fixed.size()) {
+      inverse_pivots_(fixed.size()) {
     make_rows();
 }
 
@@ -127,7 +128,6 @@ void MeshSystem::take(const TriangleElements& elements, double step_size, bool t
         if (is_first) least_masses_[row] = kLeastMass * mass;
         masses_[row] = std::max({mass, least_masses_[row], kLeastMass * stiffness});
         diagonal_[row] = 0.75F * mass + (masses_[row] - mass) + stiffness;
-        inverse_diagonal_[row] = fixed_[row] != 0 ? 0 : 1 / diagonal_[row];
     };
     parallel_for_chunks_with(
         stars_.count(), [] { return std::vector<float>(); },
@@ -135,7 +135,25 @@ void MeshSystem::take(const TriangleElements& elements, double step_size, bool t
             for (auto row = static_cast<std::int32_t>(begin); row < end; ++row) {
                 take_row(mass_entries, row);
             }
+            factorise(static_cast<std::int32_t>(begin), static_cast<std::int32_t>(end));
         });
+}
+
+void MeshSystem::factorise(std::int32_t begin, std::int32_t end) {
+    for (std::int32_t row = begin; row < end; ++row) {
+        float pivot = diagonal_[row];
+        for (std::uint32_t i = rows_[row].begin; i < rows_[row].lower && columns_[i] < row; ++i) {
+            pivot -= entries_[i] * entries_[i] * inverse_pivots_[columns_[i]];
+        }
+        // An M-matrix has such pivots anyway. With smaller ones, where obtuse triangles make
+        // entries positive, solutions would grow from row to row.
+        float sum = 0;
+        for (std::uint32_t i = rows_[row].lower; i < rows_[row].upper; ++i) {
+            sum += std::abs(entries_[i]);
+        }
+        pivot = std::max(pivot, sum + masses_[row]);
+        inverse_pivots_[row] = fixed_[row] != 0 ? 0 : 1 / pivot;
+    }
 }
 
 void MeshSystem::multiply_stiffness(const std::vector<Eigen::Vector3d>& x, double factor,
@@ -192,13 +210,13 @@ double MeshSystem::relax(std::int32_t begin, std::int32_t end, const Field& r, F
     for (std::int32_t row = begin; row < end; ++row) {
         const Eigen::Vector4f sum =
             sum_of_groups(entries, columns, rows_[row].begin, rows_[row].lower, z.data());
-        z.col(row) = inverse_diagonal_[row] * (r.col(row) - sum);
+        z.col(row) = inverse_pivots_[row] * (r.col(row) - sum);
     }
     Eigen::Vector4f product_with_r = Eigen::Vector4f::Zero();
     for (std::int32_t row = end; row-- > begin;) {
         const Eigen::Vector4f sum =
             sum_of_groups(entries, columns, rows_[row].lower, rows_[row].upper, z.data());
-        const Eigen::Vector4f relaxed = z.col(row) - inverse_diagonal_[row] * sum;
+        const Eigen::Vector4f relaxed = z.col(row) - inverse_pivots_[row] * sum;
         z.col(row) = relaxed;
         product_with_r += relaxed.cwiseProduct(r.col(row));
     }

@@ -37,9 +37,11 @@ public:
     /// Sets p = z + keep * p and q = A p, given q = A p before. Returns p · q.
     double advance(const Field& z, float keep, Field& p, Field& q) const;
 
-    /// Computes rows `begin` to `end` of z = B r by a symmetric sweep of Gauss and Seidel from zero
-    /// over these rows alone: B⁻¹ = (D + U)ᵀ D⁻¹ (D + U), with D and U of this block of A.
-    /// Returns the product r · z of these rows.
+    /// Computes rows `begin` to `end` of z = B r by an incomplete Cholesky factorisation of this
+    /// block of A: B⁻¹ = (E + U)ᵀ E⁻¹ (E + U), where U is the block's upper triangle, and the
+    /// diagonal E makes that of B⁻¹ equal to that of A (Meijerink and van der Vorst, "An Iterative
+    /// Solution Method for Linear Systems of Which the Coefficient Matrix is a Symmetric M-Matrix",
+    /// 1977). The block is a chunk of rows. Returns the product r · z of these rows.
     double relax(std::int32_t begin, std::int32_t end, const Field& r, Field& z) const;
 
     const Stars& stars() const { return stars_; }
@@ -58,6 +60,8 @@ private:
     };
 
     void make_rows();
+    /// Computes the pivots E of a chunk of rows.
+    void factorise(std::int32_t begin, std::int32_t end);
 
     const Stars& stars_;
     const std::vector<std::uint8_t>& fixed_;
@@ -69,7 +73,7 @@ private:
     RawVector<float> masses_;            ///< per vertex, lumped
     std::vector<float> least_masses_;    ///< per vertex
     RawVector<float> diagonal_;          ///< of A
-    RawVector<float> inverse_diagonal_;  ///< 0 for vertices that stay
+    RawVector<float> inverse_pivots_;  ///< of E, see relax(); 0 for vertices that stay
 };
 
 }  // namespace tracked_mcf
