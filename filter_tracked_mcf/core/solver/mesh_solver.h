@@ -25,9 +25,10 @@ struct MeshConvergence {
 };
 
 /// Solves the systems of a flow on the mesh by conjugate gradients, for the three coordinates at
-/// once, which share their step lengths. The preconditioner B adds up two corrections: an incomplete
-/// Cholesky factorisation of each chunk of vertices, and for waves of many edges a V-cycle on the
-/// levels of the tracked octree. Both are symmetric and positive, and so is their sum.
+/// once, which share their step lengths. The preconditioner B adds up two corrections: an
+/// incomplete Cholesky factorisation of each chunk of vertices, and for waves of many edges a
+/// V-cycle on the levels of the tracked octree. Both are symmetric and positive, and so is their
+/// sum.
 ///
 /// Vectors are single precision. If a tolerance is too small for it, iterative refinement reaches
 /// it: it sums the solution and computes its residual in double.

@@ -66,13 +66,13 @@ private:
     const Stars& stars_;
     const std::vector<std::uint8_t>& fixed_;
     float step_size_ = 0;
-    RawVector<float> weights_;           ///< per entry of Stars::neighbours: -L
-    RawVector<Row> rows_;                ///< per vertex, and one more, for its begin
-    RawVector<std::int32_t> columns_;    ///< of the groups
-    RawVector<float> entries_;           ///< of A, likewise
-    RawVector<float> masses_;            ///< per vertex, lumped
-    std::vector<float> least_masses_;    ///< per vertex
-    RawVector<float> diagonal_;          ///< of A
+    RawVector<float> weights_;         ///< per entry of Stars::neighbours: -L
+    RawVector<Row> rows_;              ///< per vertex, and one more, for its begin
+    RawVector<std::int32_t> columns_;  ///< of the groups
+    RawVector<float> entries_;         ///< of A, likewise
+    RawVector<float> masses_;          ///< per vertex, lumped
+    std::vector<float> least_masses_;  ///< per vertex
+    RawVector<float> diagonal_;        ///< of A
     RawVector<float> inverse_pivots_;  ///< of E, see relax(); 0 for vertices that stay
 };
 
