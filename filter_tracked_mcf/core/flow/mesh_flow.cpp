@@ -273,16 +273,13 @@ Stop MeshFlow::advance(Positions& to, StepReport& report) {
     };
     if (parallel_count(static_cast<std::int64_t>(to.size()), is_outside) > 0)
         return Stop::StepFailed;
-    if (preserver_) {
-        const Stop stop = preserver_->restore(response, to);
-        area_ = area_of(to);
-        return stop;
-    }
+    const Stop restored = preserver_ ? preserver_->restore(response, to) : Stop::None;
+    const double area_before = std::exchange(area_, area_of(to));
+    if (preserver_) return restored;
     // A step lowers the energy of the metric that it takes, which bounds the area. Only triangles
     // that are longer in that metric can make it larger. A conformalized flow keeps its metric.
-    const double most = steps_.flow == FlowKind::MeanCurvature ? area_ : first_area_;
+    const double most = steps_.flow == FlowKind::MeanCurvature ? area_before : first_area_;
     const auto triangles = static_cast<double>(surface_.stars.triangles.size());
-    area_ = area_of(to);
     const bool grew = area_ > kMostGrowth * most + kRoundedArea * triangles;
     return grew ? Stop::Grew : Stop::None;
 }

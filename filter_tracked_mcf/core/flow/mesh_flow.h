@@ -58,7 +58,7 @@ private:
     std::optional<MeshPreserver> preserver_;
     MeshSolver solver_;
     Positions before_;                  ///< the positions before the last step
-    double first_area_ = 0, area_ = 0;  ///< at the start and now, in squared edges
+    double first_area_ = 0, area_ = 0;  ///< at the start and after the last step, squared edges
     double margin_ = 0;
     Field right_side_;
     Positions d_;  ///< the displacement of the last step

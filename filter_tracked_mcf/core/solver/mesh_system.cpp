@@ -142,11 +142,12 @@ void MeshSystem::take(const TriangleElements& elements, double step_size, bool t
 void MeshSystem::factorise(std::int32_t begin, std::int32_t end) {
     for (std::int32_t row = begin; row < end; ++row) {
         float pivot = diagonal_[row];
+        // Entries that fill a group up have the row's own column.
         for (std::uint32_t i = rows_[row].begin; i < rows_[row].lower && columns_[i] < row; ++i) {
             pivot -= entries_[i] * entries_[i] * inverse_pivots_[columns_[i]];
         }
-        // An M-matrix has such pivots anyway. With smaller ones, where obtuse triangles make
-        // entries positive, solutions would grow from row to row.
+        // Pivots of an M-matrix are as large as this. Obtuse triangles make entries positive and
+        // pivots smaller, and then solutions would grow from row to row.
         float sum = 0;
         for (std::uint32_t i = rows_[row].lower; i < rows_[row].upper; ++i) {
             sum += std::abs(entries_[i]);

@@ -38,10 +38,11 @@ public:
     double advance(const Field& z, float keep, Field& p, Field& q) const;
 
     /// Computes rows `begin` to `end` of z = B r by an incomplete Cholesky factorisation of this
-    /// block of A: B⁻¹ = (E + U)ᵀ E⁻¹ (E + U), where U is the block's upper triangle, and the
-    /// diagonal E makes that of B⁻¹ equal to that of A (Meijerink and van der Vorst, "An Iterative
-    /// Solution Method for Linear Systems of Which the Coefficient Matrix is a Symmetric M-Matrix",
-    /// 1977). The block is a chunk of rows. Returns the product r · z of these rows.
+    /// block of A: B⁻¹ = (E + U)ᵀ E⁻¹ (E + U), where U is the block's upper triangle above the
+    /// diagonal. The diagonal E makes that of B⁻¹ equal to that of A, or larger where E would
+    /// otherwise not dominate U (Meijerink and van der Vorst, "An Iterative Solution Method for
+    /// Linear Systems of Which the Coefficient Matrix is a Symmetric M-Matrix", 1977). The block is
+    /// a chunk of rows. Returns the product r · z of these rows.
     double relax(std::int32_t begin, std::int32_t end, const Field& r, Field& z) const;
 
     const Stars& stars() const { return stars_; }
@@ -60,7 +61,7 @@ private:
     };
 
     void make_rows();
-    /// Computes the pivots E of a chunk of rows.
+    /// Computes the pivots E, see relax(), of a chunk of rows.
     void factorise(std::int32_t begin, std::int32_t end);
 
     const Stars& stars_;

@@ -17,8 +17,9 @@
 namespace tracked_mcf {
 
 /// The tracked octree of a surface's vertices: trilinear functions of the cells in which the
-/// vertices were at the start, as coarser functions of a mesh. An element is the set of a cell's
-/// vertices that sides inside the cell connect, so that close sheets have functions of their own.
+/// vertices were when it was built, as coarser functions of a mesh. An element is the set of a
+/// cell's vertices that sides inside the cell connect, so that close sheets have functions of their
+/// own.
 ///
 /// P, the values of the finest level's functions at the vertices, never changes: the functions move
 /// with the vertices.
