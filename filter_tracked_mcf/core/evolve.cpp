@@ -30,17 +30,20 @@ double progress_before(int step, int iterations) {
     return (kSetupInSteps + step) / (kSetupInSteps + iterations + kFinishInSteps);
 }
 
-/// Sets the flow up. Sets the triangles that flow.
+/// Sets the flow up. Sets the triangles that flow, and flags of one copy of each vertex.
 std::unique_ptr<SurfaceFlow> set_up(const TriangleMesh& mesh, const Inputs& inputs,
-                                    const FlowParameters& parameters, Selection& moving) {
+                                    const FlowParameters& parameters, Selection& moving,
+                                    std::vector<std::uint8_t>& counted) {
     const ProgressSpan span(0, progress_before(0, parameters.iterations));
     if (parameters.solver == Solver::Converged) {
         MeshPlan plan = mesh_plan_of(mesh, inputs, parameters);
         moving = plan.domain.selection();
+        counted = one_copy_of_each_vertex(plan.domain.topology());
         return std::make_unique<MeshFlow>(std::move(plan));
     }
     Plan plan = plan_of(mesh, inputs, parameters);
     moving = plan.domain.selection();
+    counted = one_copy_of_each_vertex(plan.domain.topology());
     return std::make_unique<Flow>(std::move(plan));
 }
 
@@ -72,13 +75,15 @@ void make_steps(SurfaceFlow& flow, const TriangleMesh& mesh, int iterations,
     }
 }
 
-/// Sets the report's measures of the change from `before` to `after`.
+/// Sets the report's measures of the change from `before` to `after`. Coincident vertices count
+/// once.
 void compare(const TriangleMesh& before, const std::vector<Eigen::Vector3d>& after,
-             const Selection& selection, FlowReport& report) {
+             const std::vector<std::uint8_t>& counted, const Selection& selection,
+             FlowReport& report) {
     double largest = 0, squares = 0;
     for (std::size_t i = 0; i < after.size(); ++i) {
+        if (counted[i] == 0) continue;
         const double square = (after[i] - before.positions[i]).squaredNorm();
-        if (!std::isfinite(square)) continue;  // a vertex that no triangle uses
         squares += square;
         largest = std::max(largest, square);
     }
@@ -127,7 +132,9 @@ FlowReport evolve(TriangleMesh& mesh, const Inputs& inputs, const FlowParameters
     enter_setup_phase(kCheckMesh);
     validate(mesh, inputs);
     Selection moving;
-    const std::unique_ptr<SurfaceFlow> flow_owner = set_up(mesh, inputs, parameters, moving);
+    std::vector<std::uint8_t> counted;
+    const std::unique_ptr<SurfaceFlow> flow_owner =
+        set_up(mesh, inputs, parameters, moving, counted);
     SurfaceFlow& flow = *flow_owner;
     const double setup_seconds = setup.seconds();
 
@@ -146,7 +153,7 @@ FlowReport evolve(TriangleMesh& mesh, const Inputs& inputs, const FlowParameters
     report.setup_seconds = setup_seconds;
     report.area_before = area_before;
     report.area_after = after.area;
-    compare(mesh, after.positions, moving, report);
+    compare(mesh, after.positions, counted, moving, report);
     report.quality = measure_quality(parameters.quality, flow, mesh, after.positions, moving);
     report.estimated_memory_bytes += memory_before;
     report.peak_memory_bytes = peak_memory_bytes();

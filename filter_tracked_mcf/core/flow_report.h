@@ -39,7 +39,7 @@ enum class Stop {
 
 /// Sizes, durations and results of a whole flow.
 struct FlowReport {
-    std::int64_t vertices = 0;              ///< referenced by triangles
+    std::int64_t vertices = 0;              ///< of the surface: coincident ones count once
     std::int64_t triangles = 0;             ///< that flow
     std::int64_t unselected_triangles = 0;  ///< that do not, because others are selected
     std::int64_t zero_strength_triangles =
@@ -50,7 +50,7 @@ struct FlowReport {
     CrackReport cracks;
     /// Handles of all components of a closed surface under a conformalized flow, else 0.
     std::int64_t genus = 0;
-    std::int64_t constrained_vertices = 0;  ///< referenced vertices that keep their bits
+    std::int64_t constrained_vertices = 0;  ///< those of them that keep their bits
     double detail_size = 0;   ///< length of the waves whose amplitude all steps halve, mesh units
     double mean_edge = 0;     ///< mean edge length of the triangles that flow, mesh units
     double longest_side = 0;  ///< of their bounding box, mesh units
@@ -76,7 +76,7 @@ struct FlowReport {
     double volume_before = 0;  ///< enclosed, mesh units³; 0 unless all of a closed surface flows
     bool oriented_consistently = true;
     double largest_displacement = 0;  ///< of a vertex, mesh units
-    double rms_displacement = 0;      ///< of the referenced vertices, mesh units
+    double rms_displacement = 0;      ///< of the vertices above, mesh units
     /// One number per vertex of the mesh, see FlowParameters::quality; 0 at vertices that do not
     /// flow. Empty if nothing was asked for.
     std::vector<double> quality;

@@ -115,6 +115,25 @@ TEST(Evolve, ReportsHowTheSurfaceChanged) {
     EXPECT_EQ(evolve(mesh, parameters(5, 1e-3, 1)).volume_before, 0) << "the surface is open";
 }
 
+TEST(Evolve, ReportsOfASoupWhatItReportsOfTheMesh) {
+    const TriangleMesh mesh = bumpy_cap(20);
+    for (const Solver solver : {Solver::Converged, Solver::Grid, Solver::OneWCycle}) {
+        FlowParameters p = parameters(5, 1e-3, 2);
+        p.solver = solver;
+        TriangleMesh welded = mesh, soup = shapes::soup(mesh);
+        const FlowReport of_mesh = evolve(welded, p), of_soup = evolve(soup, p);
+        EXPECT_EQ(of_soup.vertices, of_mesh.vertices);
+        EXPECT_EQ(of_soup.constrained_vertices, of_mesh.constrained_vertices);
+        EXPECT_GT(of_mesh.constrained_vertices, 0);
+        EXPECT_EQ(of_soup.boundary_edges, of_mesh.boundary_edges);
+        for (const auto number :
+             {&FlowReport::rms_displacement, &FlowReport::largest_displacement,
+              &FlowReport::area_before, &FlowReport::area_after, &FlowReport::volume_change}) {
+            EXPECT_NEAR(of_soup.*number, of_mesh.*number, 1e-6 * std::abs(of_mesh.*number));
+        }
+    }
+}
+
 TEST(Evolve, ReportsFiniteNumbersWhateverUnusedVerticesAre) {
     TriangleMesh mesh = shapes::bumpy_sphere(10);
     mesh.positions.emplace_back(kNaN, 0, kInfinity);

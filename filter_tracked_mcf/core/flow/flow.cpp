@@ -46,10 +46,8 @@ Flow::Flow(Plan plan) : stepper_(elements_of(plan), plan.steps), state_(stepper_
 void Flow::fill_report(const Plan& plan) {
     const Domain& domain = plan.domain;
     const TrackedElements& elements = stepper_.elements();
-    report_.vertices = elements.referenced_vertex_count;
     describe(domain, report_);
     report_.degenerate_triangles = elements.degenerate_triangle_count;
-    report_.constrained_vertices = elements.constrained_vertex_count;
     report_.depth = elements.grid.depth;
     report_.cell_size = elements.grid.cell_size;
     report_.step_size = stepper_.size().in_mesh_units;

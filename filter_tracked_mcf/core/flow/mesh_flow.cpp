@@ -153,10 +153,8 @@ MeshFlow::MeshFlow(MeshPlan plan)
 
 void MeshFlow::fill_report(const MeshPlan& plan) {
     const Domain& domain = plan.domain;
-    report_.vertices = count_vertices(domain.topology());
     describe(domain, report_);
     report_.degenerate_triangles = surface_.degenerate_count;
-    report_.constrained_vertices = surface_.constrained_count;
     report_.step_size = plan.step_size;
     report_.asked_step_size = plan.asked_step_size;
     report_.detail_size = detail_size_for(plan.step_size, plan.iterations, steps_.order);

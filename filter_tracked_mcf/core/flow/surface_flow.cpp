@@ -4,6 +4,12 @@
 namespace tracked_mcf {
 
 void describe(const Domain& domain, FlowReport& report) {
+    const std::vector<std::uint8_t> counted = one_copy_of_each_vertex(domain.topology());
+    const std::vector<std::uint8_t>& constrained = domain.constrained_vertices();
+    for (std::size_t i = 0; i < counted.size(); ++i) {
+        report.vertices += counted[i];
+        if (counted[i] != 0 && constrained[i] != 0) ++report.constrained_vertices;
+    }
     report.triangles = static_cast<std::int64_t>(domain.surface().triangles.size());
     report.has_strengths = domain.has_strengths();
     report.zero_strength_triangles = domain.zero_strength_count();

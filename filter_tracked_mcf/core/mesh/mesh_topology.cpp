@@ -205,6 +205,17 @@ std::int64_t count_vertices(const MeshTopology& topology) {
     return welded.count();
 }
 
+std::vector<std::uint8_t> one_copy_of_each_vertex(const MeshTopology& topology) {
+    std::vector<std::uint8_t> is_known(topology.welded.size()), flags(topology.welded.size());
+    for (std::size_t i = 0; i < flags.size(); ++i) {
+        std::uint8_t& known = is_known[topology.welded[i]];
+        if (topology.referenced[i] == 0 || known != 0) continue;
+        known = 1;
+        flags[i] = 1;
+    }
+    return flags;
+}
+
 std::int64_t genus_of(const MeshTopology& topology) {
     std::vector<std::int8_t> triangles_of(static_cast<std::size_t>(topology.edge_count), 0);
     DisjointSets sets(static_cast<std::int32_t>(topology.welded.size()));

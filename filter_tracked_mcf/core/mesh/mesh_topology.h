@@ -76,6 +76,9 @@ void find_edges(MeshTopology& topology);
 /// Returns the number of different referenced vertices.
 std::int64_t count_vertices(const MeshTopology& topology);
 
+/// Returns flags: 1 for the first copy of each referenced vertex.
+std::vector<std::uint8_t> one_copy_of_each_vertex(const MeshTopology& topology);
+
 /// Returns the sum of the genus of all connected components: the number of their handles. 0 if an
 /// edge has not exactly two triangles.
 std::int64_t genus_of(const MeshTopology& topology);

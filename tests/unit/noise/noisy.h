@@ -7,6 +7,7 @@
 #include "filter_tracked_mcf/core/mesh/measures.h"
 #include "filter_tracked_mcf/core/noise/noisy_surface.h"
 #include "filter_tracked_mcf/core/remove_noise.h"
+#include "tests/support/shapes.h"
 
 namespace tracked_mcf {
 
@@ -42,6 +43,11 @@ inline TriangleMesh with_isotropic_noise(TriangleMesh mesh, double deviation) {
 
 inline NoisySurface surface_of_mesh(const TriangleMesh& mesh) {
     return surface_of(Domain(mesh, BoundaryCondition::Free)).surface;
+}
+
+/// Returns a cube with 20 edges along each of its own.
+inline TriangleMesh cube() {
+    return shapes::box(20, {1, 1, 1});
 }
 
 inline TriangleMesh denoised(TriangleMesh mesh, const NoiseParameters& parameters = {}) {
