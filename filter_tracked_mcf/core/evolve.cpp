@@ -8,8 +8,8 @@
 #include <string>
 #include <utility>
 
-#include "filter_tracked_mcf/core/flow/flow.h"
 #include "filter_tracked_mcf/core/flow/mesh_flow.h"
+#include "filter_tracked_mcf/core/flow/paper_flow.h"
 #include "filter_tracked_mcf/core/memory/process_memory.h"
 #include "filter_tracked_mcf/core/mesh/measures.h"
 #include "filter_tracked_mcf/core/parallel/parallel.h"
@@ -30,21 +30,31 @@ double progress_before(int step, int iterations) {
     return (kSetupInSteps + step) / (kSetupInSteps + iterations + kFinishInSteps);
 }
 
+/// Throws InvalidParameter if there are inputs, which the paper's method does not have.
+void check_no_inputs(const Inputs& inputs) {
+    if (inputs.selection.empty() && inputs.strength.empty()) return;
+    throw InvalidParameter("method",
+                           "is Paper, which smooths all faces alike, without a selection or a "
+                           "strength of vertices; take the method Converged.");
+}
+
 /// Sets the flow up. Sets the triangles that flow, and flags of one copy of each vertex.
 std::unique_ptr<SurfaceFlow> set_up(const TriangleMesh& mesh, const Inputs& inputs,
                                     const FlowParameters& parameters, Selection& moving,
                                     std::vector<std::uint8_t>& counted) {
     const ProgressSpan span(0, progress_before(0, parameters.iterations));
-    if (parameters.solver == Solver::Converged) {
-        MeshPlan plan = mesh_plan_of(mesh, inputs, parameters);
+    const auto keep = [&](const Plan& plan) {
         moving = plan.domain.selection();
         counted = one_copy_of_each_vertex(plan.domain.topology());
-        return std::make_unique<MeshFlow>(std::move(plan));
+    };
+    if (parameters.method == Method::Paper) {
+        PaperPlan plan = paper_plan_of(mesh, parameters);
+        keep(plan);
+        return std::make_unique<PaperFlow>(std::move(plan));
     }
-    Plan plan = plan_of(mesh, inputs, parameters);
-    moving = plan.domain.selection();
-    counted = one_copy_of_each_vertex(plan.domain.topology());
-    return std::make_unique<Flow>(std::move(plan));
+    MeshPlan plan = mesh_plan_of(mesh, inputs, parameters);
+    keep(plan);
+    return std::make_unique<MeshFlow>(std::move(plan));
 }
 
 /// Positions to which a flow has moved the mesh, and the area of the triangles that flow.
@@ -112,7 +122,7 @@ std::vector<double> measure_quality(Quality quality, SurfaceFlow& flow, const Tr
     if (quality == Quality::None) return {};
     if (quality == Quality::Displacement)
         return displacements_along_normals(before, after, selection);
-    return flow.mean_curvatures({after, before.triangles}, selection);
+    return flow.mean_curvatures({after, before.triangles});
 }
 
 }  // namespace
@@ -126,6 +136,7 @@ FlowReport evolve(TriangleMesh& mesh, const Inputs& inputs, const FlowParameters
     std::optional<ProgressMeter> meter;
     if (progress) meter.emplace(progress);
     validate(parameters);
+    if (parameters.method == Method::Paper) check_no_inputs(inputs);
     const ThreadTeam team(parameters.threads);
     const std::int64_t memory_before = resident_memory_bytes();
     const Stopwatch setup;

@@ -34,26 +34,18 @@ double detail_size_of(const FlowParameters& parameters, double mean_edge) {
     return parameters.detail_size > 0 ? parameters.detail_size : kDefaultDetailInEdges * mean_edge;
 }
 
-Discretisation discretisation_of(const FlowParameters& parameters) {
-    const bool whole =
-        parameters.cubature == Cubature::ThreePoints && parameters.solver != Solver::OneWCycle;
-    return {parameters.cubature, whole, parameters.separate_sheets};
-}
-
-double stabilization_of(const FlowParameters& parameters) {
-    const bool needed = parameters.solver != Solver::OneWCycle;
-    return parameters.stabilization.value_or(needed ? kDefaultStabilization : 0.0);
-}
-
 void validate(const FlowParameters& parameters) {
     check_ranges(parameters);
-    if (parameters.quality == Quality::MeanCurvature &&
-        parameters.flow != FlowKind::MeanCurvature) {
+    if (parameters.method != Method::Paper) return;
+    const auto refuse = [](const char* name) {
         throw InvalidParameter(
-            "quality",
-            "asks for the mean curvature, which a conformalized flow does not know; take "
-            "the mean-curvature flow, or another quality.");
-    }
+            name,
+            "asks for what the method Paper does not have; leave it at its default, or take the "
+            "method Converged.");
+    };
+    if (parameters.flow != FlowKind::MeanCurvature) refuse("flow");
+    if (parameters.preserve != Preserve::None) refuse("preserve");
+    if (parameters.local_detail_size) refuse("local_detail_size");
 }
 
 }  // namespace tracked_mcf

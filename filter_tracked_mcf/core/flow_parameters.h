@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <optional>
-
 namespace tracked_mcf {
 
 /// What happens at the boundary of an open mesh: at the edges that have only one triangle after
 /// coincident vertices have been welded.
 enum class BoundaryCondition {
-    Locked,       ///< boundary vertices stay, the surface beside them moves (curve_constraint.h)
-    LockedCells,  ///< unknowns whose function meets the boundary are constrained (section 5.3)
-    Free          ///< the boundary moves
+    /// Boundary vertices stay. With Method::Paper, so does the surface in all cells around them:
+    /// unknowns whose function meets the boundary are constrained (section 5.3).
+    Locked,
+    Free  ///< the boundary moves
 };
 
 /// The kind of flow. The first step is the same for both.
@@ -31,20 +30,19 @@ enum class Preserve {
 
 /// The quadrature rule on each split triangle (section 4.2, Figure 8).
 enum class Cubature {
-    OnePoint,  ///< the centroid, exact to degree 1; inaccurate, for comparison only
-    /// The paper's rule, exact to degree 2. If the solver converges, fragments of up to half a cell
-    /// have three points as a whole, also exact to degree 2 (cells/cubature.h).
-    ThreePoints,
-    Degree6  ///< 12 points, exact to degree 6, which the mass matrix needs; for validation
+    OnePoint,     ///< the centroid, exact to degree 1; inaccurate, for comparison only
+    ThreePoints,  ///< the paper's rule, exact to degree 2
+    Degree6       ///< 12 points, exact to degree 6, which the mass matrix needs; for validation
 };
 
-/// How each step's linear system is solved.
-enum class Solver {
-    /// Conjugate gradients on the mesh's own linear elements, to a tolerance. The tracked octree
+/// The functions of a flow, and how its linear systems are solved.
+enum class Method {
+    /// The mesh's own linear elements, by conjugate gradients to a tolerance. The tracked octree
     /// preconditions them. A cell limits nothing.
     Converged,
-    Grid,      ///< conjugate gradients on the octree's elements, to a tolerance
-    OneWCycle  ///< the paper's solver (section 5.2): a fixed number of W-cycles from zero
+    /// The paper's: the tracked octree's elements alone, and a fixed number of W-cycles from zero
+    /// (section 5.2). It flows the whole mesh with one detail size, and preserves nothing.
+    Paper
 };
 
 /// What a flow measures at each vertex, beside moving it.
@@ -54,7 +52,7 @@ enum class Quality {
     Displacement,
     /// Mean curvature, half the sum of the principal curvatures, in 1 / mesh units; positive on a
     /// sphere whose normals point outwards. It is that of the surface after the last step, smoothed
-    /// over about an edge. The Grid and OneWCycle solvers measure it by the last step, d = 2 δ H n.
+    /// over about an edge.
     MeanCurvature
 };
 
@@ -62,37 +60,30 @@ inline constexpr int kMaximumDepth = 12;
 inline constexpr int kMaximumIterations = 1000000;
 inline constexpr int kMaximumOrder = 4;
 /// The default detail size, in mean edge lengths of the triangles that flow.
-inline constexpr double kDefaultDetailInEdges = 2.5;
+inline constexpr double kDefaultDetailInEdges = 3;
 /// A mesh has no finer detail than this, in the same unit.
 inline constexpr double kFinestDetailInEdges = 2;
-inline constexpr double kMaximumStabilization = 1e3;
-inline constexpr double kDefaultStabilization = 0.01;
 
 /// The parameters of a flow that each step takes as they are.
 struct StepParameters {
     /// Order m of a step, 1 to kMaximumOrder. With h = (D + δS)⁻¹ δS, which is nearly 0 for waves
     /// much longer than √δ and nearly 1 for much shorter ones, a step takes x to x - hᵐ x. Order 1
     /// is equation 2. A greater order takes one more solve each, and keeps long waves better.
-    int order = 1;
+    int order = 2;
 
     FlowKind flow = FlowKind::MeanCurvature;
     BoundaryCondition boundary = BoundaryCondition::Locked;
 
-    /// Converged: the solver stops when its estimate of the error (conjugate_gradients.h) is at
+    /// Converged: the solver stops when its estimate of the error (mesh_solver.h) is at
     /// most this fraction of the solution, both in the energy norm. Greater than 0, less than 1.
     double tolerance = 1e-3;
-
-    /// Whether pinched unknowns are constrained (pinches.h). Without that, thin parts explode once
-    /// they have pinched. Not with the Converged solver, whose functions do not pinch.
-    bool constrain_pinches = true;
 };
 
 /// The parameters of a flow, with defaults for a scan. Their names in hosts, help and ranges are in
 /// parameter_table.h.
 struct FlowParameters : StepParameters {
     /// Octree depth, 1 to kMaximumDepth: the octree's cube has 2^depth cells along each side. 0
-    /// chooses the depth whose number of unknowns is nearest to the number of referenced vertices,
-    /// or one or two more if the detail size needs them and the memory allows them.
+    /// chooses it; with Method::Paper, so that there are about as many unknowns as vertices.
     int depth = 0;
 
     /// Detail size ℓ, mesh units: after all steps, a wave of length ℓ on a plane keeps half its
@@ -107,8 +98,7 @@ struct FlowParameters : StepParameters {
 
     /// Step size δ for the mesh scaled so that the longest side of its bounding box is 1; finite
     /// and at least 0. δ is a squared length, see step_size_for(). 0 takes the one that belongs to
-    /// the detail size; any other replaces it. Steps above 1e5 squared cells act like one of that
-    /// size.
+    /// the detail size; any other replaces it.
     double step_size = 0;
 
     /// Whether step_size is in squared units of the mesh instead.
@@ -122,39 +112,20 @@ struct FlowParameters : StepParameters {
     /// conformalized flow, allow no constrained vertices; the latter needs a closed surface.
     Preserve preserve = Preserve::None;
 
-    /// For FlowReport::quality. A conformalized flow does not know the mean curvature.
+    /// For FlowReport::quality.
     Quality quality = Quality::None;
 
-    Cubature cubature = Cubature::ThreePoints;
+    Method method = Method::Converged;
 
-    /// Whether sheets, parts of the surface that are not connected inside a cell, get functions of
-    /// their own. Otherwise they move together, as in the paper.
-    bool separate_sheets = true;
+    Cubature cubature = Cubature::ThreePoints;  ///< of Method::Paper
 
-    Solver solver = Solver::Converged;
-
-    /// Weight κ of the stabilisation (stabilization.h), 0 to kMaximumStabilization; 0 is the
-    /// paper's system. If unset, it is kDefaultStabilization for the Grid solver, which needs it,
-    /// and 0 for OneWCycle.
-    std::optional<double> stabilization;
-
-    /// OneWCycle: number of W-cycles per step, 1 to 1000; the paper uses one.
+    /// Method::Paper: number of W-cycles per step, 1 to 1000; the paper uses one.
     int cycles = 1;
 
     /// Number of threads; 0 takes ThreadTeam::default_size(). The result has the same bits for any
-    /// number. evolve() applies it; a Flow does not.
+    /// number. evolve() applies it; a flow does not.
     int threads = 0;
 };
-
-/// How the surface is sampled, and which functions it gets; see FlowParameters.
-struct Discretisation {
-    Cubature cubature = Cubature::ThreePoints;
-    bool whole_fragments = true;  ///< whether small fragments have three points as a whole
-    bool separate_sheets = true;
-};
-
-/// Returns the discretisation that the parameters ask for.
-Discretisation discretisation_of(const FlowParameters& parameters);
 
 /// Returns the step size δ at which `iterations` steps of this order halve the amplitude of waves
 /// of length `detail_size` on a plane; in the squared unit of the detail size. A step multiplies
@@ -167,11 +138,8 @@ double detail_size_for(double step_size, int iterations, int order);
 /// Returns the detail size that the parameters ask for if a mesh has edges of this mean length.
 double detail_size_of(const FlowParameters& parameters, double mean_edge);
 
-/// Returns the weight of the stabilisation that the parameters ask for.
-double stabilization_of(const FlowParameters& parameters);
-
-/// Throws InvalidParameter if a parameter is outside its range (parameter_table.h) or the quality
-/// does not fit the flow; the message gives the range.
+/// Throws InvalidParameter if a parameter is outside its range (parameter_table.h), or asks for
+/// what Method::Paper does not have. The message says what to give instead.
 void validate(const FlowParameters& parameters);
 
 }  // namespace tracked_mcf

@@ -13,8 +13,8 @@ struct StepReport {
     double assemble_seconds = 0;  ///< element matrices of all levels and right-hand side
     double solve_seconds = 0;     ///< the solver, and the update of the embedding
     /// 2-norm of the residual b - A d over the three coordinates and all solves of the step, in
-    /// grid units, before the solve (where d = 0) and after it. A step has as many solves as its
-    /// order, and another one to preserve the volume.
+    /// edges or sides of a cell, before the solve (where d = 0) and after it. A step has as many
+    /// solves as its order, and another one to preserve the volume.
     double residual_before = 0;
     double residual_after = 0;
     int solver_iterations = 0;  ///< iterations of conjugate gradients, or W-cycles, of all solves
@@ -32,7 +32,7 @@ enum class Stop {
     Vanished,      ///< the next step would have left no area, and was undone
     Pinched,       ///< preserving would have inflated what has pinched; the step was undone
     NotPreserved,  ///< no pressure restores the volume after a step this large; it was undone
-    StepFailed,    ///< the next step failed, even in substeps (Flow::step), and was undone
+    StepFailed,    ///< the next step failed, and was undone
     Grew,          ///< the next step would have made the surface larger, and was undone
     NothingMoves,  ///< all vertices or all unknowns are constrained
 };
@@ -56,15 +56,14 @@ struct FlowReport {
     double longest_side = 0;  ///< of their bounding box, mesh units
     double step_size = 0;     ///< δ, mesh units²
     double asked_step_size = 0;  ///< larger if δ was limited, see FlowParameters::step_size
-    int depth = 0;               ///< 1 if all vertices are constrained
-    int resolving_depth = 0;     ///< the least that resolves the detail size; 0 for a step size
+    int depth = 0;               ///< of the octree; 0 if there was none
     double cell_size = 0;        ///< side of a finest cell, mesh units
     std::int64_t cells = 0;      ///< occupied cells of the finest level
     std::int64_t elements = 0;   ///< elements of the finest level
     std::int64_t unknowns = 0;   ///< unknowns of the finest level
-    std::int64_t constrained_unknowns =
-        0;                       ///< of these, those that a boundary of locked cells constrains
-    std::int64_t fragments = 0;  ///< non-empty intersections of triangles and cells
+    /// Of these, those that the paper's locked cells constrain.
+    std::int64_t constrained_unknowns = 0;
+    std::int64_t fragments = 0;        ///< non-empty intersections of triangles and cells
     std::int64_t split_triangles = 0;  ///< triangles of the fragments' fans
     std::int64_t samples = 0;          ///< quadrature points
     double area_before = 0;            ///< of the triangles that flow, mesh units²

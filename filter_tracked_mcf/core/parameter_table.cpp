@@ -28,42 +28,6 @@ std::string text_of(const Range& range) {
     return smallest + (range.largest < kFinite ? " to " + largest : " or more");
 }
 
-/// The solver, and whether separate sheets move independently.
-ParameterOf<P> method() {
-    enum { Converged, SharedCells, Paper };
-    ParameterOf<P> row;
-    row.type = Type::Choice;
-    row.range = {0, 2, ": Converged, Shared cells, Paper"};
-    row.choices = {
-        {"Converged", "converged"}, {"Shared cells", "shared-cells"}, {"Paper", "paper"}};
-    row.get = [](const P& p) -> ParameterValue {
-        if (p.solver == Solver::OneWCycle) return Paper;
-        if (p.solver == Solver::Grid) return SharedCells;
-        return static_cast<int>(p.solver);
-    };
-    row.set = [](P& p, const ParameterValue& value) {
-        const int method = std::get<int>(value);
-        const bool is_method = method >= Converged && method <= Paper;
-        // Another number stays one that validate() refuses.
-        p.solver = !is_method              ? static_cast<Solver>(method)
-                   : method == Paper       ? Solver::OneWCycle
-                   : method == SharedCells ? Solver::Grid
-                                           : Solver::Converged;
-        p.separate_sheets = method == Converged;
-    };
-    return row;
-}
-
-/// Its value is the weight that is used, also where none was given.
-ParameterOf<P> stabilization() {
-    ParameterOf<P> row;
-    row.type = Type::Real;
-    row.range = {0, kMaximumStabilization, ", where 0 is none"};
-    row.get = [](const P& p) -> ParameterValue { return stabilization_of(p); };
-    row.set = [](P& p, const ParameterValue& value) { p.stabilization = std::get<double>(value); };
-    return row;
-}
-
 }  // namespace
 
 void check_range(const std::string& name, double value, const Range& range) {
@@ -79,9 +43,9 @@ const std::vector<ParameterOf<P>>& parameter_table() {
     static const std::vector<ParameterOf<P>> table = {
         named(access<&P::detail_size>(
                   Type::Length,
-                  {0, kFinite, ", in units of the mesh, where 0 takes 2.5 mean edge lengths"}),
+                  {0, kFinite, ", in units of the mesh, where 0 takes 3 mean edge lengths"}),
               "detail_size", "Detail size (0: auto)",
-              "Waves this long keep half their height, shorter ones less. 0 takes 2.5 mean edge "
+              "Waves this long keep half their height, shorter ones less. 0 takes 3 mean edge "
               "lengths."),
         named(toggle<&P::local_detail_size>(), "local_detail_size", "Larger where faces are larger",
               "The detail size follows the local edge length, as noise of scans often does."),
@@ -94,13 +58,8 @@ const std::vector<ParameterOf<P>>& parameter_table() {
               "preserve", "Preserve",
               "Each connected part keeps its area or volume. Area needs a surface of which no "
               "vertex is held."),
-        named(
-            choice<&P::boundary, P>(
-                {{"Locked", "locked"}, {"Locked cells (paper)", "locked-cells"}, {"Free", "free"}}),
-            "boundary", "Boundary",
-            "Locked holds the rim's vertices. Free moves them. Locked cells, only with other "
-            "methods, "
-            "holds cells."),
+        named(choice<&P::boundary, P>({{"Locked", "locked"}, {"Free", "free"}}), "boundary",
+              "Boundary", "Locked holds the rim's vertices. Free moves them."),
         named(choice<&P::quality>({{"Kept", "none"},
                                    {"Displacement", "displacement"},
                                    {"Mean curvature", "mean-curvature"}}),
@@ -122,29 +81,25 @@ const std::vector<ParameterOf<P>>& parameter_table() {
                   {{"Mean curvature", "mean-curvature"}, {"Conformalized", "conformalized"}}),
               "flow", "Flow (expert)",
               "Mean curvature pinches thin parts. Conformalized makes closed surfaces spheres."),
-        named(method(), "method", "Method (expert)",
-              "Shared cells leaves detail finer than its grid, and so does Paper, which is only to "
-              "compare."),
+        named(
+            choice<&P::method>({{"Converged", "converged"}, {"Paper", "paper"}}), "method",
+            "Method (expert)",
+            "Paper is only to compare: it leaves detail finer than its cells, and locks all cells "
+            "at the rim."),
         named(access<&P::tolerance, P>(Type::Real, {0, 1, ", such as 1e-3", true}), "tolerance", "",
-              "Except with method paper: a step is solved when the error estimate, relative to the "
+              "With method converged: a step is solved when the error estimate, relative to the "
               "step in the energy norm, is at most this number; greater than 0, less than 1. A "
               "smaller one takes more iterations. With the default, no wave keeps more or less of "
               "its height by 0.2 %."),
         named(
-            stabilization(), "stabilization", "",
-            "With methods shared-cells and paper: weight of the volume stabilisation, without "
-            "unit, "
-            "0 to 1000. The stabilisation lets the solver of shared-cells converge; a much larger "
-            "weight slows the surface down. 0 is the paper's system, for which that solver takes "
-            "more iterations and may stop short. With method paper it is 0 unless given."),
-        named(integer<&P::cycles>(1, 1000), "cycles", "",
-              "With method paper: W-cycles of multigrid in each step, 1 to 1000. The paper uses "
-              "one. More solve the equations more exactly, and the time grows in proportion."),
-        named(choice<&P::cubature>({{"", "1"}, {"", "3"}, {"", "12"}}), "cubature", "",
-              "With methods shared-cells and paper: samples on each split triangle: 3 as in the "
-              "paper, "
-              "or with shared-cells 3 on a whole fragment of up to half a cell. Take 1, which is "
-              "inaccurate, or 12, which is slow and exact to degree 6, only to compare."),
+            integer<&P::cycles>(1, 1000), "cycles", "",
+            "With method paper: W-cycles of multigrid in each step, 1 to 1000. The paper uses "
+            "one. More solve the equations more exactly, but once parts have pinched, the flow may "
+            "end. The time grows in proportion."),
+        named(
+            choice<&P::cubature>({{"", "1"}, {"", "3"}, {"", "12"}}), "cubature", "",
+            "With method paper: samples on each split triangle. The paper has 3. Take 1, which is "
+            "inaccurate, or 12, which is slow and exact to degree 6, only to compare."),
         threads<&P::threads>(),
     };
     return table;

@@ -28,8 +28,8 @@ struct Range {
 
 /// A value of a choice.
 struct NamedChoice {
-    std::string label;  ///< in a dialog and in PyMeshLab, such as "Locked cells (paper)"
-    std::string name;   ///< on the command line, in Python and reports, such as "locked-cells"
+    std::string label;  ///< in a dialog and in PyMeshLab, such as "Mean curvature"
+    std::string name;   ///< on the command line, in Python and reports, such as "mean-curvature"
 };
 
 /// One parameter, and how hosts offer it.

@@ -5,8 +5,7 @@
 
 namespace tracked_mcf {
 
-std::vector<std::string> warnings_of(const FairParameters& parameters, const FairReport& report,
-                                     const std::string& /*advice*/) {
+std::vector<std::string> warnings_of(const FairParameters& parameters, const FairReport& report) {
     std::vector<std::string> warnings = open_cracks(report.cracks);
     const auto of_all = [&](std::int64_t count) {
         return std::to_string(count) + " of " + std::to_string(report.patches) +

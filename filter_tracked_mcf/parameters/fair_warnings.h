@@ -9,8 +9,7 @@
 namespace tracked_mcf {
 
 /// Returns warnings for a user about patches whose surroundings are rough, and about those that
-/// have less continuity than was asked for. `advice` is not used.
-std::vector<std::string> warnings_of(const FairParameters& parameters, const FairReport& report,
-                                     const std::string& advice);
+/// have less continuity than was asked for.
+std::vector<std::string> warnings_of(const FairParameters& parameters, const FairReport& report);
 
 }  // namespace tracked_mcf

@@ -51,9 +51,8 @@ std::string early_stop(const FlowReport& report, int iterations) {
                    " would have changed the surface so much that its volume cannot be restored. "
                    "Take more steps, or a smaller detail size or step size.";
         case Stop::NothingMoves:
-            if (made > 0) return stopped + "everything that could move has pinched.";
             return "Nothing has moved: all of the surface is constrained. Free the boundary, or "
-                   "select more; where cells are locked, take a greater depth.";
+                   "select more; with the method Paper, take a greater depth.";
     }
     return {};
 }
@@ -66,18 +65,6 @@ std::string limited_step_size(const FlowReport& report) {
     text << "The step size is limited to " << report.step_size << " squared units of the mesh, "
          << "instead of " << report.asked_step_size << ": waves longer than " << report.detail_size
          << " keep more than half of their amplitude. More steps go further.";
-    return text.str();
-}
-
-/// Empty unless the grid is too coarse for the detail of a surface that moves.
-std::string unresolved_detail(const FlowReport& report) {
-    if (report.depth >= report.resolving_depth || report.stop == Stop::NothingMoves) return {};
-    std::ostringstream text;
-    text.precision(3);
-    text << "The cells of depth " << report.depth << " are " << report.cell_size
-         << " wide, too wide for the detail size " << report.detail_size
-         << ". If the mesh has detail as small as that, take depth " << report.resolving_depth
-         << ".";
     return text.str();
 }
 
@@ -152,7 +139,8 @@ std::string shortfall(const FlowReport& report, double tolerance) {
     text << "The solver stopped short of the tolerance " << tolerance << " in " << count << " of "
          << steps.size() << " steps: " << (count > 1 ? "the worst is " : "") << "step "
          << worst - steps.begin() + 1 << ", at " << worst->error_estimate << " after "
-         << worst->solver_iterations << " iterations.";
+         << worst->solver_iterations
+         << " iterations. Look at the result; a smaller detail size may help.";
     return text.str();
 }
 
@@ -163,17 +151,15 @@ bool converged(const FlowReport& report) {
                        [](const StepReport& step) { return step.reached_tolerance; });
 }
 
-std::vector<std::string> warnings_of(const FlowParameters& parameters, const FlowReport& report,
-                                     const std::string& advice) {
+std::vector<std::string> warnings_of(const FlowParameters& parameters, const FlowReport& report) {
     std::vector<std::string> warnings = surface_warnings(report);
-    for (const std::string& warning :
-         {early_stop(report, parameters.iterations), limited_step_size(report),
-          unresolved_detail(report), fine_detail(parameters, report), handles(report),
-          lost_shape(report), sudden_loss(report)}) {
+    for (const std::string& warning : {early_stop(report, parameters.iterations),
+                                       limited_step_size(report), fine_detail(parameters, report),
+                                       handles(report), lost_shape(report), sudden_loss(report)}) {
         if (!warning.empty()) warnings.push_back(warning);
     }
     const std::string short_steps = shortfall(report, parameters.tolerance);
-    if (!short_steps.empty()) warnings.push_back(short_steps + ' ' + advice);
+    if (!short_steps.empty()) warnings.push_back(short_steps);
     return warnings;
 }
 

@@ -12,9 +12,7 @@ namespace tracked_mcf {
 /// Returns whether all steps reached the tolerance.
 bool converged(const FlowReport& report);
 
-/// Returns warnings for a user, most with what to do. `advice` is the host's, for steps that did
-/// not reach the tolerance.
-std::vector<std::string> warnings_of(const FlowParameters& parameters, const FlowReport& report,
-                                     const std::string& advice);
+/// Returns warnings for a user, most with what to do.
+std::vector<std::string> warnings_of(const FlowParameters& parameters, const FlowReport& report);
 
 }  // namespace tracked_mcf

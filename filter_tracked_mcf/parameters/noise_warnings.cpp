@@ -103,8 +103,7 @@ std::string loss(const NoiseReport& report) {
 
 }  // namespace
 
-std::vector<std::string> warnings_of(const NoiseParameters& parameters, const NoiseReport& report,
-                                     const std::string& /*advice*/) {
+std::vector<std::string> warnings_of(const NoiseParameters& parameters, const NoiseReport& report) {
     std::vector<std::string> warnings = surface_warnings(report);
     for (const std::string& warning :
          {stop_text(report), stairs_text(report), too_small(parameters, report), loss(report)}) {

@@ -9,9 +9,7 @@
 namespace tracked_mcf {
 
 /// Returns warnings for a user: surface_warnings(), if no noise was removed and why, and if parts
-/// of the surface have lost more than noise. `advice` is for solvers that stop short, which this
-/// filter has not.
-std::vector<std::string> warnings_of(const NoiseParameters& parameters, const NoiseReport& report,
-                                     const std::string& advice);
+/// of the surface have lost more than noise.
+std::vector<std::string> warnings_of(const NoiseParameters& parameters, const NoiseReport& report);
 
 }  // namespace tracked_mcf

@@ -73,8 +73,8 @@ ReportValue stop_name(NoiseStop stop) {
     return {std::string(name())};
 }
 
-ReportValue step_values(const StepReport& step, Solver solver) {
-    const bool no_tolerance = solver == Solver::OneWCycle;
+ReportValue step_values(const StepReport& step, Method method) {
+    const bool no_tolerance = method == Method::Paper;
     return {ReportObject{{"assemble_seconds", {step.assemble_seconds}},
                          {"solve_seconds", {step.solve_seconds}},
                          {"residual_before", {step.residual_before}},
@@ -92,7 +92,7 @@ ReportObject report_values(const FlowParameters& parameters, const ReportObject&
                            const FlowReport& report, const std::vector<std::string>& warnings) {
     ReportList steps;
     for (const StepReport& step : report.steps)
-        steps.push_back(step_values(step, parameters.solver));
+        steps.push_back(step_values(step, parameters.method));
     return {{"parameters", {parameter_values(parameters, inputs)}},
             {"vertices", {report.vertices}},
             {"triangles", {report.triangles}},

@@ -27,7 +27,7 @@ struct ReportValue {
 
 /// Returns the parameters and then the `inputs`, the warnings, and the flow's report under its
 /// names in the code, without the quality and what only warnings and summary() use. It has also
-/// `converged` and `volume_after`. The stabilisation is the one used. W-cycles have no tolerance:
+/// `converged` and `volume_after`. W-cycles have no tolerance:
 /// error_estimate and reached_tolerance of their steps are null.
 ReportObject report_values(const FlowParameters& parameters, const ReportObject& inputs,
                            const FlowReport& report, const std::vector<std::string>& warnings);

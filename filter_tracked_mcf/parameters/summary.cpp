@@ -174,8 +174,8 @@ std::string solver_details(const FlowParameters& parameters, const FlowReport& r
          << least->solver_iterations;
     if (most->solver_iterations > least->solver_iterations)
         text << " to " << most->solver_iterations;
-    text << (parameters.solver == Solver::OneWCycle ? " W-cycles of multigrid"
-                                                    : " iterations of conjugate gradients")
+    text << (parameters.method == Method::Paper ? " W-cycles of multigrid"
+                                                : " iterations of conjugate gradients")
          << " in each step.\n";
     return text.str();
 }

@@ -69,16 +69,14 @@ namespace run_filter_detail {
 
 namespace {
 
-const char* const kAdvice = "Look at the result; a smaller detail size or depth may help.";
-
 template <class Report>
 double volume_change(const Report& report) {
     return report.oriented_consistently ? report.volume_change
                                         : std::numeric_limits<double>::quiet_NaN();
 }
 
-double error_estimate(Solver solver, const StepReport& step) {
-    if (solver != Solver::OneWCycle) return step.error_estimate;
+double error_estimate(Method method, const StepReport& step) {
+    if (method == Method::Converged) return step.error_estimate;
     return step.residual_before == 0 ? 0 : step.residual_after / step.residual_before;
 }
 
@@ -113,7 +111,7 @@ std::string message_of(const Parameters& parameters, const Report& report) {
     std::string text = summary(parameters, report);
     if (!report.quality.empty())
         text += "\nColorize by vertex Quality shows the new vertex quality.";
-    for (const std::string& warning : warnings_of(parameters, report, kAdvice))
+    for (const std::string& warning : warnings_of(parameters, report))
         text += "\nWarning: " + warning;
     return text;
 }
@@ -124,7 +122,7 @@ template std::string message_of(const FairParameters&, const FairReport&);
 
 Outputs outputs_of(const FlowParameters& parameters, const FlowReport& report) {
     const double error =
-        report.steps.empty() ? 0 : error_estimate(parameters.solver, report.steps.back());
+        report.steps.empty() ? 0 : error_estimate(parameters.method, report.steps.back());
     return {{"detail_size", report.detail_size},
             {"step_size", report.step_size},
             {"depth", report.depth},

@@ -31,8 +31,6 @@ using namespace nb::literals;
 
 namespace {
 
-const char* const kAdvice = "Give a larger tolerance or a smaller detail_size.";
-
 nb::module_ numpy() {
     return nb::module_::import_("numpy");
 }
@@ -212,7 +210,7 @@ nb::tuple filtered(nb::handle vertices, nb::handle faces, const nb::object& on_s
         return run(mesh, inputs, parameters, progress_by(progress),
                    observer_by(on_step, mesh.single_precision));
     }();
-    const std::vector<std::string> warnings = warnings_of(parameters, report, kAdvice);
+    const std::vector<std::string> warnings = warnings_of(parameters, report);
 
     ReportObject given_inputs;
     for (const Input& input : input_table<Parameters>()) {

@@ -99,18 +99,6 @@ int choice_of(const Parameter& parameter, nb::handle value) {
                            "is " + given + "; give one of " + literals(parameter) + ".");
 }
 
-/// Returns whether the default is not the same with method paper, as that of the stabilisation.
-bool depends_on_method(const ParameterOf<FlowParameters>& parameter) {
-    FlowParameters paper;
-    paper.solver = Solver::OneWCycle;
-    return parameter.type == Parameter::Type::Real && parameter.get(paper) != parameter.initial;
-}
-
-template <class Parameters>
-bool depends_on_method(const ParameterOf<Parameters>& /*parameter*/) {
-    return false;
-}
-
 /// Returns the type as in the function's signature.
 template <class Parameters>
 std::string annotation(const ParameterOf<Parameters>& parameter) {
@@ -120,7 +108,7 @@ std::string annotation(const ParameterOf<Parameters>& parameter) {
         case Parameter::Type::Integer:
             return "int";
         case Parameter::Type::Real:
-            return depends_on_method(parameter) ? "float | None" : "float";
+            return "float";
         case Parameter::Type::Length:
             return "float | str";
         case Parameter::Type::Choice:
@@ -129,11 +117,10 @@ std::string annotation(const ParameterOf<Parameters>& parameter) {
     return "Literal[" + literals(parameter) + "]";
 }
 
-/// Returns the function's default, or None if the core chooses it.
+/// Returns the function's default.
 template <class Parameters>
 nb::object default_of(const ParameterOf<Parameters>& parameter) {
     const ParameterValue value = parameter.initial;
-    if (depends_on_method(parameter)) return nb::none();
     if (parameter.type == Parameter::Type::Choice)
         return python_name(parameter.choices.at(static_cast<std::size_t>(std::get<int>(value))));
     return std::visit([](auto held) { return nb::cast(held); }, value);
@@ -144,8 +131,6 @@ std::string help_of(const ParameterOf<Parameters>& parameter) {
     std::string text;
     if (parameter.type == Parameter::Type::Length)
         text = "In units of the mesh, or as '1%' of its bounding box's diagonal. ";
-    if (depends_on_method(parameter))
-        text = "None takes " + code_of(nb::cast(std::get<double>(parameter.initial))) + ". ";
     return text + parameter.help;
 }
 

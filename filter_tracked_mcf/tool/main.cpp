@@ -8,7 +8,10 @@
 #include <optional>
 
 #include "filter_tracked_mcf/core/parameter_table.h"
+#include "filter_tracked_mcf/parameters/fair_warnings.h"
+#include "filter_tracked_mcf/parameters/flow_warnings.h"
 #include "filter_tracked_mcf/parameters/length.h"
+#include "filter_tracked_mcf/parameters/noise_warnings.h"
 #include "filter_tracked_mcf/parameters/run.h"
 #include "filter_tracked_mcf/parameters/summary.h"
 #include "filter_tracked_mcf/tool/command_line.h"
@@ -99,7 +102,7 @@ void smooth(CommandLineOf<Parameters> line) {
 
     file.set_quality(report.quality);
     output.write([&](std::ostream& out) { file.write(mesh, out, line.output); });
-    std::vector<std::string> all_warnings = warnings(line, report);
+    std::vector<std::string> all_warnings = warnings_of(line.parameters, report);
     const std::string conversion = file.conversion_warning(line.output);
     if (!conversion.empty()) all_warnings.push_back(conversion);
     if (report_file) {

@@ -5,9 +5,6 @@
 #include <variant>
 
 #include "filter_tracked_mcf/core/parameter_table.h"
-#include "filter_tracked_mcf/parameters/fair_warnings.h"
-#include "filter_tracked_mcf/parameters/flow_warnings.h"
-#include "filter_tracked_mcf/parameters/noise_warnings.h"
 #include "filter_tracked_mcf/parameters/report_values.h"
 
 namespace tracked_mcf {
@@ -76,24 +73,6 @@ std::string report_json(const CommandLineOf<NoiseParameters>& line, const NoiseR
 std::string report_json(const CommandLineOf<FairParameters>& line, const FairReport& report,
                         const std::vector<std::string>& warnings) {
     return json_of(line, report, warnings);
-}
-
-std::vector<std::string> warnings(const CommandLineOf<FlowParameters>& line,
-                                  const FlowReport& report) {
-    const char* const advice = stabilization_of(line.parameters) < kDefaultStabilization
-                                   ? "Give a larger --stabilization or --tolerance."
-                                   : "Give a larger --tolerance or a smaller --detail-size.";
-    return warnings_of(line.parameters, report, advice);
-}
-
-std::vector<std::string> warnings(const CommandLineOf<NoiseParameters>& line,
-                                  const NoiseReport& report) {
-    return warnings_of(line.parameters, report, "");
-}
-
-std::vector<std::string> warnings(const CommandLineOf<FairParameters>& line,
-                                  const FairReport& report) {
-    return warnings_of(line.parameters, report, "");
 }
 
 }  // namespace tracked_mcf

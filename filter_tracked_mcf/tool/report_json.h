@@ -19,14 +19,4 @@ std::string report_json(const CommandLineOf<NoiseParameters>& line, const NoiseR
 std::string report_json(const CommandLineOf<FairParameters>& line, const FairReport& report,
                         const std::vector<std::string>& warnings);
 
-/// Returns warnings, one line each, that are printed even without a summary.
-std::vector<std::string> warnings(const CommandLineOf<FlowParameters>& line,
-                                  const FlowReport& report);
-
-std::vector<std::string> warnings(const CommandLineOf<NoiseParameters>& line,
-                                  const NoiseReport& report);
-
-std::vector<std::string> warnings(const CommandLineOf<FairParameters>& line,
-                                  const FairReport& report);
-
 }  // namespace tracked_mcf

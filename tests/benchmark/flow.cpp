@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <CLI/CLI.hpp>
-#include <cstdint>
 #include <memory>
-#include <optional>
-#include <vector>
 
-#include "filter_tracked_mcf/core/flow/flow.h"
+#include "filter_tracked_mcf/core/flow/paper_flow.h"
 #include "filter_tracked_mcf/core/memory/process_memory.h"
 #include "filter_tracked_mcf/core/parallel/parallel.h"
 #include "filter_tracked_mcf/core/parallel/progress_meter.h"
@@ -17,58 +14,35 @@
 #include "tests/benchmark/sphere_error.h"
 #include "tests/benchmark/subcommands.h"
 #include "tests/benchmark/tracked_options.h"
-#include "tests/support/plans.h"
+#include "tests/experiments/configuration.h"
 
 namespace tracked_mcf::benchmark {
 
 namespace {
 
 /// Sets a flow up as evolve() does and prints the time of each phase.
-void set_up(const TriangleMesh& mesh, const FlowParameters& parameters, std::optional<Flow>& flow) {
+std::unique_ptr<SurfaceFlow> set_up(const TriangleMesh& mesh, const FlowParameters& parameters) {
     SetupTimes times;
     const Progress progress = times.progress();
     const ProgressMeter meter(progress);
     const ProcessStopwatch stopwatch;
     enter_setup_phase(kCheckMesh);
     validate(mesh);
-    flow.emplace(plan_of(mesh, parameters));
+    std::unique_ptr<SurfaceFlow> flow = experiments::make_flow(mesh, parameters);
     print_seconds("setup", 0, stopwatch.seconds());
     for (const auto& [phase, seconds] : times.finish())
         print_seconds("setup: " + phase, 0, seconds);
+    return flow;
 }
 
 void print_sizes(const FlowReport& report) {
     print_quantity("vertices", 0, report.vertices);
     print_quantity("triangles", 0, report.triangles);
     print_quantity("depth", 0, report.depth);
-    print_quantity("cells", 0, report.cells);
-    print_quantity("elements", 0, report.elements);
     print_quantity("unknowns", 0, report.unknowns);
-    print_quantity("fragments", 0, report.fragments);
-    print_quantity("samples", 0, report.samples);
 }
 
-/// Prints the memory of the structures that a step reads and writes.
-void print_bytes(const Flow& flow) {
-    const TrackedElements& elements = flow.stepper().elements();
-    const auto bytes_of = [](const auto& values) { return values.size() * sizeof(values[0]); };
-    const auto element_count = static_cast<std::size_t>(elements.finest().element_count());
-    print_quantity("sample_bytes", 0, Samples::kBytesPerSample * elements.samples.size());
-    print_quantity("fragment_bytes", 0, bytes_of(elements.fragments));
-    print_quantity("element_system_bytes", 0,
-                   element_count * (sizeof(MatrixBlock) / kBlockElements + sizeof(ElementVector)));
-    const auto unknown_count = static_cast<std::size_t>(flow.state().displacement.rows());
-    print_quantity("coefficient_bytes", 0, 3 * sizeof(double) * unknown_count);
-    // A product with the finest level's matrix, or the smoother's, reads the elements' matrices and
-    // unknowns, reads one vector, and reads and writes another.
-    print_quantity(
-        "product_bytes", 0,
-        element_count * (sizeof(MatrixBlock) / kBlockElements + 8 * sizeof(std::int32_t)) +
-            unknown_count * 3 * 4 * sizeof(float));
-    print_quantity("step_size_in_cells", 0, flow.stepper().size().in_cells);
-}
-
-bool step(Flow& flow, int number) {
+bool step(SurfaceFlow& flow, int number) {
     const ProcessStopwatch stopwatch;
     if (!flow.step()) return false;
     print_seconds("step", number, stopwatch.seconds());
@@ -76,17 +50,18 @@ bool step(Flow& flow, int number) {
     print_quantity("assemble_seconds", number, report.assemble_seconds);
     print_quantity("solve_seconds", number, report.solve_seconds);
     print_quantity("iterations", number, report.solver_iterations);
-    print_quantity("error_estimate", number, report.error_estimate);
     return true;
 }
 
-/// Measures the assembly of the elements' matrices alone.
-void print_assembly(const Flow& flow) {
+/// Measures the assembly of the octree's element matrices alone.
+void print_assembly(const PaperFlow& flow, double step_size) {
+    const TrackedElements& elements = flow.elements();
+    print_quantity("samples", 0, elements.samples.size());
+    const double cell = elements.grid.cell_size;
     ElementSystems systems;
     for (int repetition = 0; repetition < 4; ++repetition) {
         const ProcessStopwatch stopwatch;
-        assemble_elements(flow.stepper().elements(), flow.state().displacement,
-                          {1.0F, static_cast<float>(flow.stepper().size().in_cells)}, systems);
+        assemble_elements(elements, flow.displacement(), step_size / (cell * cell), false, systems);
         // The first repetition also allocates memory.
         if (repetition > 0) print_seconds("kernel", repetition, stopwatch.seconds());
     }
@@ -98,11 +73,9 @@ void run(const TrackedOptions& options) {
     TriangleMesh mesh = named_mesh(options.mesh);
     print_header();
     print_quantity("mesh_memory_bytes", 0, peak_memory_bytes());
-    std::optional<Flow> flow;
-    set_up(mesh, parameters, flow);
+    const std::unique_ptr<SurfaceFlow> flow = set_up(mesh, parameters);
     print_quantity("setup_memory_bytes", 0, peak_memory_bytes());
     print_sizes(flow->report());
-    print_bytes(*flow);
     for (int number = 1; number <= options.steps; ++number) {
         if (!step(*flow, number)) break;
     }
@@ -111,7 +84,8 @@ void run(const TrackedOptions& options) {
     print_seconds("move", 0, stopwatch.seconds());
     print_quantity("peak_memory_bytes", 0, peak_memory_bytes());
     print_sphere_error(options.mesh, mesh.positions, options.step_size, options.steps);
-    print_assembly(*flow);
+    if (const auto* paper = dynamic_cast<const PaperFlow*>(flow.get()))
+        print_assembly(*paper, options.step_size);
 }
 
 }  // namespace

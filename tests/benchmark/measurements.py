@@ -11,7 +11,7 @@ import statistics
 import subprocess
 import sys
 
-OURS, REBUILT = "ours", "rebuilt"
+OURS, TRACKED, REBUILT = "ours", "paper's, tracked", "paper's, rebuilt"
 IC, MIC, CGAL = "IC(0)-CG", "modified IC(0)-CG", "CGAL"
 BASELINE_INSTRUCTIONS = "ours, baseline instructions"
 OTHER_BINARY = "ours, other binary"

@@ -2,7 +2,6 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
-#include "filter_tracked_mcf/core/flow/flow.h"
 #include "filter_tracked_mcf/core/memory/process_memory.h"
 #include "filter_tracked_mcf/core/parallel/parallel.h"
 #include "tests/benchmark/meshes.h"
@@ -10,7 +9,7 @@
 #include "tests/benchmark/sphere_error.h"
 #include "tests/benchmark/subcommands.h"
 #include "tests/benchmark/tracked_options.h"
-#include "tests/support/plans.h"
+#include "tests/experiments/configuration.h"
 
 namespace tracked_mcf::benchmark {
 
@@ -18,18 +17,18 @@ namespace {
 
 void step(TriangleMesh& mesh, const FlowParameters& parameters, int number) {
     const ProcessStopwatch whole;
-    Flow flow(plan_of(mesh, parameters));
+    const std::unique_ptr<SurfaceFlow> flow = experiments::make_flow(mesh, parameters);
     print_seconds("setup", number, whole.seconds());
-    flow.step();
+    flow->step();
     const ProcessStopwatch moving;
-    flow.move_vertices(mesh.positions);
+    flow->move_vertices(mesh.positions);
     print_seconds("move", number, moving.seconds());
     print_seconds("step", number, whole.seconds());
-    const StepReport& report = flow.report().steps.at(0);
+    const StepReport& report = flow->report().steps.at(0);
     print_quantity("assemble_seconds", number, report.assemble_seconds);
     print_quantity("solve_seconds", number, report.solve_seconds);
     print_quantity("iterations", number, report.solver_iterations);
-    print_quantity("unknowns", number, flow.report().unknowns);
+    print_quantity("unknowns", number, flow->report().unknowns);
 }
 
 void run(const TrackedOptions& options) {

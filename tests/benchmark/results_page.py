@@ -2,12 +2,10 @@
 """Makes the results page, tables and verdicts, from the measurements alone."""
 
 import machine
-from measurements import (BASELINE_INSTRUCTIONS, CGAL, IC, MIC, OTHER_BINARY, OURS, REBUILT, TRIAD,
+from measurements import (BASELINE_INSTRUCTIONS, CGAL, IC, MIC, OTHER_BINARY, OURS, REBUILT, TRACKED, TRIAD,
                           NOISE_JOBS, RELIEF, WHOLE_JOBS)
 
 PROTOTYPE_NANOSECONDS = 41  # for the assembly of a sample
-
-SMOOTHER_ALONE = 4  # largest δ in squared cells without coarser levels: kStiff of the core
 
 BYTES_OF_ITERATION = 252  # of IC(0)-CG, for each vertex
 
@@ -141,27 +139,24 @@ class Page:
         for step_size, limit in ((middle, 0.5), (large, 0.2), (small, 1.5)):
             target(f"step at δ = {step_size:g}, relative to {IC}",
                    ratio(self._step(OURS, step_size), self._step(IC, step_size)), limit)
-        nanoseconds = ratio(self._ours("kernel_cpu_seconds"), self._ours("samples"))
-        target("element matrices, per sample", nanoseconds and 1e9 * nanoseconds,
+        nanoseconds = ratio(*(self._ours(quantity, peer=TRACKED) for quantity in ("kernel_cpu_seconds", "samples")))
+        target("paper's method: element matrices, per sample", nanoseconds and 1e9 * nanoseconds,
                PROTOTYPE_NANOSECONDS / 3, unit="ns")
         setup = self._ours("setup_cpu_seconds")
         microseconds = ratio(setup, self._ours("triangles"))
         target("set-up, per triangle", microseconds and 1e6 * microseconds, 1.2, unit="µs")
         target(f"set-up, in steps of δ = {middle:g}", ratio(setup, self._step(OURS, middle)), 8)
-        target("rebuilt at every step, relative to tracked",
-               ratio(self._step(REBUILT, middle), self._step(OURS, middle)), 7, at_least=True)
+        target("paper's method: rebuilt at every step, relative to tracked",
+               ratio(self._step(REBUILT, middle), self._step(TRACKED, middle)), 7, at_least=True)
         for what in ("setup", "step"):
             one, two = (self._ours(f"{what}_seconds", threads=threads) for threads in (1, 2))
             target(f"two threads, {what}: speed-up", ratio(one, two), 1.7, at_least=True)
             one, two = (self._ours(f"{what}_cpu_seconds", threads=threads) for threads in (1, 2))
             target(f"two threads, {what}: processor time, relative to one thread", ratio(two, one), 1.15)
         target("memory", ratio(self._ours("peak_memory_bytes"), 1e6), 700, unit="MB")
-        target("memory, bunny_scan_871k, depth 9",
-               ratio(self._ours("peak_memory_bytes", mesh="bunny_scan_871k, depth 9"), 1e9), 1.6,
-               unit="GB")
         for what, spread in (("step", self._spread("step_cpu_seconds")),
                              ("memory", self._spread("peak_memory_bytes"))):
-            target(f"{what} per unknown, largest relative to smallest", spread, 1.25)
+            target(f"{what} per vertex, largest relative to smallest", spread, 1.25)
         largest = self._of.values("peak_memory_bytes", peer=OURS)
         target("memory of the largest run", max(largest) / 1e9 if largest else None, 20,
                unit="GB")
@@ -174,9 +169,8 @@ class Page:
         self._table(["what", "measured", "target", "verdict"], rows)
 
     def _steps(self):
-        self._title("Steps", "Processor seconds of a step (and wall seconds), iterations, memory. Steps "
-                    "get cheaper as the displacement becomes predictable; these are medians over a "
-                    "flow's. "
+        self._title("Steps", "Processor seconds of a step (and wall seconds), iterations, memory: medians over a "
+                    "flow's steps. "
                     f"{MIC} is the same peer with what its factorisation leaves out put on the "
                     "diagonal: stronger on good triangles, useless on bad ones.")
         rows = []
@@ -223,13 +217,13 @@ class Page:
         self._table(["phase", "processor seconds", "wall", "wall, two threads", "a triangle"], rows)
 
     def _rebuilt(self):
-        self._title("Tracked against rebuilt", "The non-tracked octree is set up anew from the evolved "
-                    "mesh before every step.")
+        self._title("Tracked against rebuilt", "The paper's method. The non-tracked octree is set up anew from "
+                    "the evolved mesh before every step.")
         rows = []
-        for peer in (OURS, REBUILT):
+        for peer in (TRACKED, REBUILT):
             case = {"peer": peer, "mesh": self._main, "threads": 1, "step_size": self._middle}
             setup = self._of.median("setup_cpu_seconds", **case) if peer == REBUILT else None
-            rows.append([{OURS: "tracked"}.get(peer, peer), *map(digits, (
+            rows.append([peer, *map(digits, (
                 setup, self._phase("assemble", **case), self._phase("solve", **case),
                 self._of.median("move_cpu_seconds", **case) if peer == REBUILT else None,
                 self._step(peer, self._middle)))])
@@ -258,10 +252,8 @@ class Page:
     def _instructions(self):
         self._title("Instructions", "Forced by `TRACKED_MCF_INSTRUCTIONS=ssse3`; the other binary is "
                     "that of `--binary`, such as one built with `-march=native`.")
-        self._table(["", "step", "elements' matrices", "mean radius error"], [
-            [peer, digits(self._step(peer, self._middle)),
-             digits(self._ours("kernel_cpu_seconds", peer=peer)),
-             digits(self._ours("mean_radius_error", peer=peer))]
+        self._table(["", "step", "mean radius error"], [
+            [peer, digits(self._step(peer, self._middle)), digits(self._ours("mean_radius_error", peer=peer))]
             for peer in (OURS, BASELINE_INSTRUCTIONS, OTHER_BINARY)])
 
     def _accuracy(self):
@@ -299,67 +291,45 @@ class Page:
     def _scaled(self):
         return [mesh for mesh in self._of.meshes(peer=OURS) if mesh.endswith(", scaled")]
 
-    def _per_unknown(self, quantity, mesh):
+    def _per_vertex(self, quantity, mesh):
         return ratio(self._of.median(quantity, peer=OURS, mesh=mesh),
-                     self._of.median("unknowns", peer=OURS, mesh=mesh))
+                     self._of.median("vertices", peer=OURS, mesh=mesh))
 
     def _spread(self, quantity):
-        values = [self._per_unknown(quantity, mesh) for mesh in self._scaled()]
+        values = [self._per_vertex(quantity, mesh) for mesh in self._scaled()]
         values = [value for value in values if value is not None]
         return max(values) / min(values) if len(values) > 1 else None
 
     def _scale(self):
-        self._title("Scale", "δ is the same in squared cells at every size, so the solver's work is, "
-                    "too. Where the automatic depth changes, the unknowns for a vertex do.")
+        self._title("Scale", "δ is the same in squared edges at every size.")
         rows = []
         for mesh in self._scaled():
             case = {"peer": OURS, "mesh": mesh}
             rows.append([
-                mesh.replace(", scaled", ""), digits(self._of.median("depth", **case)),
-                digits(self._of.median("unknowns", **case)),
+                mesh.replace(", scaled", ""),
                 digits(self._of.median("step_cpu_seconds", **case)),
-                digits(1e6 * self._per_unknown("step_cpu_seconds", mesh), "µs"),
-                digits(1e6 * self._per_unknown("setup_cpu_seconds", mesh), "µs"),
-                digits(self._per_unknown("peak_memory_bytes", mesh)),
+                digits(1e6 * self._per_vertex("step_cpu_seconds", mesh), "µs"),
+                digits(1e6 * self._per_vertex("setup_cpu_seconds", mesh), "µs"),
+                digits(self._per_vertex("peak_memory_bytes", mesh)),
                 digits(self._of.median("peak_memory_bytes", **case) / 1e9, "GB"),
                 digits(self._of.median("iterations", **case))])
-        self._table(["mesh", "depth", "unknowns", "step", "an unknown", "set-up, an unknown",
-                     "bytes an unknown", "memory", "iterations"], rows)
+        self._table(["mesh", "step", "a vertex", "set-up, a vertex", "bytes a vertex", "memory", "iterations"], rows)
 
     def _floors(self):
-        self._title("Floors", "What a step must at least move, over the best bandwidth that the triad "
-                    "reached. Assembly: samples, fragments and coefficients read, elements' matrices and "
-                    "right sides written. Solver: products with the finest level's matrix or the "
-                    "smoother's, each with the elements' unknowns and two vectors: one an iteration for "
-                    "conjugate gradients and five for the V-cycle or, where it has coarser levels, eight "
-                    "and a third more for these; and two for the guess. "
-                    f"{IC}: {BYTES_OF_ITERATION} bytes a vertex and iteration, matrix, factor "
-                    "and five vectors.")
+        self._title("Floors", f"What a solve of {IC} must at least move, over the best bandwidth that the triad "
+                    f"reached: {BYTES_OF_ITERATION} bytes a vertex and iteration, matrix, factor and five vectors.")
         bandwidth = self._bandwidth()
         rows = []
-
-        def floor(step_size, peer, phase, moved):
-            seconds = self._phase(phase, peer=peer, mesh=self._main, threads=1, step_size=step_size)
-            if None not in (bandwidth, seconds):
-                rows.append([f"{step_size:g}", f"{peer}, {phase}", digits(moved / 1e6, "MB"),
-                             digits(moved / bandwidth), digits(seconds),
-                             digits(seconds * bandwidth / moved)])
-
         for step_size in self._step_sizes:
-            case = {"mesh": self._main, "threads": 1, "step_size": step_size}
-            vertices, iterations = (self._of.median(quantity, peer=IC, **case)
-                                    for quantity in ("vertices", "iterations"))
-            own = [self._of.median(quantity, peer=OURS, **case) for quantity in (
-                "sample_bytes", "fragment_bytes", "element_system_bytes", "coefficient_bytes")]
-            product, own_iterations, step_size_in_cells = (
-                self._of.median(quantity, peer=OURS, **case)
-                for quantity in ("product_bytes", "iterations", "step_size_in_cells"))
-            if None not in (vertices, iterations, product, own_iterations, step_size_in_cells, *own):
-                floor(step_size, OURS, "assemble", sum(own))
-                products = 1 + 8 * 4 / 3 if step_size_in_cells > SMOOTHER_ALONE else 6
-                floor(step_size, OURS, "solve", product * (products * own_iterations + 2))
-                floor(step_size, IC, "solve", BYTES_OF_ITERATION * vertices * iterations)
-        self._table(["δ", "phase", "bytes", "floor", "measured", "times the floor"], rows)
+            case = {"peer": IC, "mesh": self._main, "threads": 1, "step_size": step_size}
+            vertices, iterations = (self._of.median(quantity, **case) for quantity in ("vertices", "iterations"))
+            seconds = self._phase("solve", **case)
+            if None in (bandwidth, vertices, iterations, seconds):
+                continue
+            moved = BYTES_OF_ITERATION * vertices * iterations
+            rows.append([f"{step_size:g}", digits(moved / 1e6, "MB"), digits(moved / bandwidth), digits(seconds),
+                         digits(seconds * bandwidth / moved)])
+        self._table(["δ", "bytes", "floor", "measured", "times the floor"], rows)
 
     def _other_meshes(self):
         self._title("Other meshes", f"{IC} stops after 1000 iterations.")

@@ -16,7 +16,7 @@ import sys
 
 import numpy
 
-from measurements import (BASELINE_INSTRUCTIONS, CGAL, IC, MIC, OTHER_BINARY, OURS, REBUILT, TRIAD,
+from measurements import (BASELINE_INSTRUCTIONS, CGAL, IC, MIC, OTHER_BINARY, OURS, REBUILT, TRACKED, TRIAD,
                           NOISE_JOBS, RELIEF, WHOLE_JOBS, Case, Measurements)
 from results_page import Page
 
@@ -72,10 +72,11 @@ def label(frequency):
     return f"sphere, {vertices / 1e6:.1f} M" if vertices >= 1e6 else f"sphere, {vertices // 1000} k"
 
 
-def ours(mesh, name, step_size, threads=1, steps=STEPS, peer=OURS, more=(), environment=()):
+def ours(mesh, name, step_size, threads=1, steps=STEPS, peer=OURS, environment=()):
     return Case(peer, name, step_size, threads,
                 ("rebuilt" if peer == REBUILT else "flow", mesh, "--step-size", step_size, "--threads",
-                 threads, "--steps", steps, *more), environment)
+                 threads, "--steps", steps, "--solver", "paper" if peer in (TRACKED, REBUILT) else "converged"),
+                environment)
 
 
 def baseline(mesh, name, step_size, threads=1, steps=STEPS, peer=IC):
@@ -120,7 +121,7 @@ class Benchmark:
             return
         triads = [Case(TRIAD, threads=n, words=("triad", "--threads", n)) for n in (1, 2)]
         measurements.run(triads + self._compared(), self._repetitions)
-        measurements.run(self._tunings() + self._cgal() + self._rebuilt() + self._accuracy(), 1)
+        measurements.run(self._tunings() + self._cgal() + self._papers() + self._accuracy(), 1)
         measurements.run(self._other_meshes() + self._scale(), 1)
 
     def _compared(self):
@@ -152,43 +153,33 @@ class Benchmark:
         return [cgal(sphere(self._frequency), self.main, step_size) for step_size in step_sizes] + [
             cgal(clean, self.clean, MIDDLE), ours(clean, self.clean, MIDDLE, steps=1)]
 
-    def _rebuilt(self):
-        return [ours(sphere(self._frequency), self.main, MIDDLE, steps=2, peer=REBUILT)]
+    def _papers(self):
+        return [ours(sphere(self._frequency), self.main, MIDDLE, steps=2, peer=peer) for peer in (TRACKED, REBUILT)]
 
     def _accuracy(self):
-        """Returns cases with a known exact radius, on coarser grids and meshes, too."""
-        steps = STEPS
+        """Returns cases with a known exact radius, on a coarser mesh, too."""
         cases = []
         for frequency in (self._frequency // 2, self._frequency):
-            name = f"{label(frequency)}, without noise, {steps} steps"
+            name = f"{label(frequency)}, without noise, {STEPS} steps"
             mesh = sphere(frequency, noise=0)
-            cases.append(baseline(mesh, name, MIDDLE, steps=steps))
-            cases.append(ours(mesh, name, MIDDLE, steps=steps))
-        # The automatic depth is about log2 of the frequency.
-        coarse = max(1, self._frequency.bit_length() - 2)
-        cases.append(ours(mesh, f"{name}, depth {coarse}", MIDDLE, steps=steps,
-                          more=("--depth", coarse)))
+            cases += [baseline(mesh, name, MIDDLE), ours(mesh, name, MIDDLE)]
         return cases
 
     def _scale(self):
         largest = 2 * self._frequency if self._arguments.quick else self._arguments.largest
         frequencies = [f for f in (16, 32, 64, 128, 256, 512, 1024, 2048)
                        if self._frequency // 4 <= f <= largest]
-        # δ in squared cells, and so the solver's work, is the same for all. The first step also
-        # allocates memory.
+        # δ is the same for all in squared edges. The first step also allocates memory.
         return [ours(sphere(f), f"{label(f)}, scaled", MIDDLE * (256 / f)**2, steps=4)
                 for f in frequencies]
 
     def _other_meshes(self):
         cases = []
-        for mesh, name, depths in self._files():
+        for mesh, name in self._files():
             step_sizes = [MIDDLE] if self._arguments.quick else STEP_SIZES
             for step_size in step_sizes:
                 cases.append(ours(mesh, name, step_size, steps=2))
                 cases += [baseline(mesh, name, step_size, steps=2, peer=peer) for peer in (IC, MIC)]
-            for depth in depths:
-                cases.append(ours(mesh, f"{name}, depth {depth}", MIDDLE, steps=2,
-                                  more=("--depth", depth)))
         return cases
 
     def _whole_jobs(self):
@@ -226,17 +217,17 @@ class Benchmark:
         return [(armadillo, "armadillo")] if armadillo.exists() else []
 
     def _files(self):
-        """Returns names for the driver and for tables, and depths besides the automatic one."""
+        """Returns names for the driver and for tables."""
         around = round(5.477 * self._frequency)
         tube = f"open tube, {around * (around // 3 + 1) // 1000} k"
-        meshes = [(f"tube:{around}", tube, ())]
+        meshes = [(f"tube:{around}", tube)]
         quick = self._arguments.quick
         armadillo = self._arguments.build / "cgal-meshes" / "armadillo.off"
         if armadillo.exists():
-            meshes.append((f"{armadillo}:{1 if quick else 2}", "armadillo, refined", ()))
+            meshes.append((f"{armadillo}:{1 if quick else 2}", "armadillo, refined"))
         if self._arguments.meshes and not quick:
             packed = self._arguments.meshes / f"{LARGE_SCAN}.ply.xz"
-            meshes.append((unpacked(packed, self._output), LARGE_SCAN, (9,)))
+            meshes.append((unpacked(packed, self._output), LARGE_SCAN))
         return meshes
 
 

@@ -21,7 +21,7 @@ def flow(tool, compressed):
         scan, report = pathlib.Path(folder, "scan.ply"), pathlib.Path(folder, "report.json")
         with lzma.open(compressed) as source, open(scan, "wb") as target:
             shutil.copyfileobj(source, target)
-        subprocess.run([tool, scan, pathlib.Path(folder, "smooth.ply"), "--method", "shared-cells", "--depth", "9",
+        subprocess.run([tool, scan, pathlib.Path(folder, "smooth.ply"), "--method", "paper", "--depth", "9",
                         "--iterations", "5", "--report", report], check=True)
         return json.loads(report.read_text())
 

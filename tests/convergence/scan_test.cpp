@@ -52,17 +52,20 @@ double longest_edge(const TriangleMesh& mesh) {
 }
 
 /// Flows a mesh and checks the properties that pinching does not change.
-FlowReport flow(TriangleMesh& mesh, Solver solver, double step_size, int iterations) {
+FlowReport flow(TriangleMesh& mesh, Method method, double step_size, int iterations) {
     const TriangleMesh before = mesh;
     FlowParameters parameters;
-    parameters.solver = solver;
+    parameters.order = 1;
+    parameters.method = method;
     parameters.step_size = step_size;
     parameters.iterations = iterations;
     FlowReport report = evolve(mesh, parameters);
     for (std::size_t i = 1; i < report.steps.size(); ++i) {
+        // The area leaves collapsed samples out, of which some come back.
+        if (report.steps[i].collapsed_samples > 0) continue;
         EXPECT_LE(report.steps[i].area, report.steps[i - 1].area + 1e-6 * report.area_before) << i;
-        EXPECT_TRUE(report.steps[i].reached_tolerance) << i;
     }
+    for (const StepReport& step : report.steps) EXPECT_TRUE(step.reached_tolerance);
     Eigen::AlignedBox3d box;
     for (const auto& position : before.positions) box.extend(position);
     for (const auto& position : mesh.positions) EXPECT_TRUE(box.contains(position));
@@ -80,10 +83,10 @@ constexpr const char* kScans[] = {"armadillo.off", "camel.off", "mannequin-devil
 constexpr const char* kScans[] = {"armadillo.off", "camel.off", "mannequin-devil.off"};
 #endif
 
-class LongFlow : public testing::TestWithParam<std::tuple<const char*, Solver>> {
+class LongFlow : public testing::TestWithParam<std::tuple<const char*, Method>> {
 protected:
     static const char* scan() { return std::get<0>(GetParam()); }
-    static Solver solver() { return std::get<1>(GetParam()); }
+    static Method method() { return std::get<1>(GetParam()); }
 
     void SetUp() override {
         const std::string path = std::string(TRACKED_MCF_CGAL_MESHES) + "/" + scan();
@@ -105,28 +108,26 @@ protected:
 
 TEST_P(LongFlow, ShortStepsStayStableAndSmooth) {
     TriangleMesh mesh = before_;
-    const FlowReport report = flow(mesh, solver(), 1e-5, 200);
+    const FlowReport report = flow(mesh, method(), 1e-5, 200);
     print(report, mesh);
     EXPECT_LT(roughness(mesh, before_), roughness(before_, before_));
 }
 
 TEST_P(LongFlow, LongStepsStayStable) {
     TriangleMesh mesh = before_;
-    const FlowReport report = flow(mesh, solver(), 5e-4, 80);
+    const FlowReport report = flow(mesh, method(), 5e-4, 80);
     print(report, mesh);
     EXPECT_LT(report.area_after, 0.25 * report.area_before);
 }
 
-INSTANTIATE_TEST_SUITE_P(Scans, LongFlow,
-                         testing::Combine(testing::ValuesIn(kScans),
-                                          testing::Values(Solver::Converged, Solver::OneWCycle)),
-                         [](const auto& test) {
-                             std::string name = std::get<0>(test.param);
-                             for (char& c : name) c = std::isalnum(c) != 0 ? c : '_';
-                             return name + (std::get<1>(test.param) == Solver::Converged
-                                                ? "_Converged"
-                                                : "_OneWCycle");
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    Scans, LongFlow,
+    testing::Combine(testing::ValuesIn(kScans), testing::Values(Method::Converged, Method::Paper)),
+    [](const auto& test) {
+        std::string name = std::get<0>(test.param);
+        for (char& c : name) c = std::isalnum(c) != 0 ? c : '_';
+        return name + (std::get<1>(test.param) == Method::Converged ? "_Converged" : "_Paper");
+    });
 
 }  // namespace
 }  // namespace tracked_mcf

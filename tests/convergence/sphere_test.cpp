@@ -31,8 +31,7 @@ struct Radius {
 /// Returns the parameters of the paper's solver and system.
 FlowParameters papers(Cubature cubature) {
     FlowParameters parameters;
-    parameters.solver = Solver::OneWCycle;
-    parameters.separate_sheets = false;
+    parameters.method = Method::Paper;
     parameters.cubature = cubature;
     return parameters;
 }
@@ -40,6 +39,7 @@ FlowParameters papers(Cubature cubature) {
 Radius radius_after_flow(FlowParameters parameters, int steps) {
     TriangleMesh mesh = shapes::geodesic_sphere(128);
     EXPECT_EQ(mesh.positions.size(), 163842U);
+    parameters.order = 1;
     parameters.depth = 7;
     parameters.step_size = kStepSize / 4;  // the unit sphere's longest side is 2
     parameters.iterations = steps;
@@ -87,15 +87,6 @@ TEST(Sphere, ConvergedSolverReachesTheErrorOfTheMesh) {
     EXPECT_LT(radius.worst_error, 5e-5);
 }
 
-TEST(Sphere, GridSolverReachesTheErrorOfTheGrid) {
-    FlowParameters on_grid;
-    on_grid.solver = Solver::Grid;
-    const Radius radius = radius_after_flow(on_grid, kSteps);
-    print("grid", radius);
-    EXPECT_LT(std::abs(radius.error), 4e-6);
-    EXPECT_LT(radius.worst_error, 3e-5);
-}
-
 TEST(Sphere, SizesAreThoseOfThePaper) {
     // The paper's Table 1 has 3.7e5 vertices, 3.8e6 split triangles and 5.1e5 unknowns at depth 8.
     // The last three counts depend on the sphere's orientation: expect this one's, within 1 %.
@@ -103,8 +94,7 @@ TEST(Sphere, SizesAreThoseOfThePaper) {
     FlowParameters parameters;
     parameters.step_size = kStepSize / 4;
     parameters.iterations = 1;
-    parameters.solver = Solver::Grid;
-    parameters.separate_sheets = false;
+    parameters.method = Method::Paper;
     const FlowReport report = evolve(mesh, parameters);
     EXPECT_EQ(report.vertices, 368642);
     EXPECT_EQ(report.triangles, 737280);

@@ -29,7 +29,7 @@ mkdir -p "$demo"
 plugin=$build/filter_tracked_mcf/plugin/libfilter_tracked_mcf.so
 libraries=$(sed -n 's/^MESHLAB_LIBRARY_DIR:INTERNAL=//p' "$build/CMakeCache.txt")
 "$hosts/private_prefix.sh" "$demo/meshlab" "$libraries/plugins" "$plugin"
-"$hosts/flow_script.sh" detail_size=0.08 order=2 > "$demo/smooth.mlx" # 5 % of the diagonal, order 2
+"$hosts/flow_script.sh" detail_size=0.08 > "$demo/smooth.mlx" # 5 % of the diagonal
 rm -f "$demo/smooth.ply"
 if ! xvfb-run -a "$demo/meshlab/bin/meshlabserver" -i "$mesh" -s "$demo/smooth.mlx" \
     -o "$demo/smooth.ply" > "$demo/meshlabserver.log" 2>&1 || [ ! -e "$demo/smooth.ply" ] ||

@@ -9,12 +9,12 @@
 #include <string>
 #include <vector>
 
-#include "filter_tracked_mcf/core/flow/flow.h"
+#include "filter_tracked_mcf/core/flow/paper_flow.h"
 #include "filter_tracked_mcf/tool/mesh_file.h"
 #include "tests/experiments/csv.h"
 #include "tests/experiments/experiments.h"
 #include "tests/experiments/options.h"
-#include "tests/support/plans.h"
+#include "tests/support/elements.h"
 
 namespace tracked_mcf::experiments {
 
@@ -66,9 +66,9 @@ public:
         : options_(options),
           file_(options.mesh),
           mesh_(file_.triangle_mesh()),
-          flow_(plan_of(
+          flow_(paper_plan_of(
               mesh_, options.parameters(options.depths.front(), options.configurations.front()))),
-          elements_(flow_.stepper().elements()),
+          elements_(flow_.elements()),
           identity_(identity_coefficients(elements_)),
           in_patch_(elements_in_patch()) {}
 
@@ -86,8 +86,7 @@ private:
         Corners corners;
         for (std::size_t i = 0; i < corners.size(); ++i) {
             const std::int32_t unknown = elements_.finest().unknowns[element][i];
-            corners[i] =
-                (identity_.row(unknown) + flow_.state().displacement.row(unknown)).transpose();
+            corners[i] = (identity_.row(unknown) + flow_.displacement().row(unknown)).transpose();
         }
         return corners;
     }
@@ -178,7 +177,7 @@ private:
     CellOptions options_;
     MeshFile file_;
     TriangleMesh mesh_;
-    Flow flow_;
+    PaperFlow flow_;
     const TrackedElements& elements_;
     Coefficients identity_;
     std::vector<bool> in_patch_;
@@ -195,9 +194,10 @@ void run(const CellOptions& options) {
 void add_cells(CLI::App& app) {
     const auto [command, options] = add_experiment(
         app, "cells",
-        "Writes the finest cells that a patch of the surface carries with it: tracked_STEPS.ply, "
-        "the deformed cells; grid_STEPS.ply, the cells of the grid that have vertices of the patch "
-        "now; surface_STEPS.ply. Prints how many there are, how many of the grid's the patch did "
+        "Writes the finest cells that a patch of the surface carries with it in the paper's flow: "
+        "tracked_STEPS.ply, the deformed cells; grid_STEPS.ply, the cells of the grid that have "
+        "vertices of the patch now; surface_STEPS.ply. Prints how many there are, how many of the "
+        "grid's the patch did "
         "not have at the start ('fresh'), the share of vertices that have left their initial cell, "
         "and the largest distance of a vertex from the bounding box of its deformed cell "
         "('outside') and from its initial cell, in sides of a cell.",

@@ -1,125 +1,169 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Measures the flow at every wavelength that a mesh has, on its own elements and on a grid.
+"""Measures the flow at every wavelength that a mesh has: on a plane, a sphere, scans, and two resolutions.
 
-The tables:
+ℓ is the detail size. Lengths are in mean edges. The measure is the share of their height that small waves keep: the
+displacement along the normal, projected onto the waves. "Rest" is the RMS of this displacement that is no multiple of the
+waves, over that of the waves; "sideways" is the RMS across the normal, over the same. The tables:
 
-- the share of the height that plane waves keep, on a plane whose axes are turned against the grid's. The ideal is that of a
-  flow without elements: 1 - h^m in each of three steps of order m, with h = δk² / (1 + δk²);
-- terrain whose heights are rounded to whole metres: RMS distance from the terrain, beside MeshLab's Taubin smoother and
-  VTK's windowed sinc filter, which have the best of many settings for the exact terrain;
-- a wave over a plane whose edges are five times as long on one side as on the other: the share that either side keeps;
-- a cylinder between two rings, which comes to rest at the catenoid: area over that of the catenoid, and triangles whose
-  normals have turned round.
-
-"grid" is the method shared-cells, at the depth that it chooses.
+- plane waves, on a plane whose axes are turned, far from its rim. The ideal is the exact flow: 1 - hᵐ in each of three steps
+  of order m, with h = δk² / (1 + δk²). Rest and sideways are the largest of a row;
+- bumps on a sphere: random spherical harmonics of degree n, with waves of 2πR / √(n(n + 1)). The ideal is exact for small
+  bumps, the shrinking radius included (kept_on_sphere in flow.py);
+- heights on scans: random sums of eigenfunctions of the Laplacian with eigenvalues next to (2π / wave)². The measure is the
+  difference of the results with and without these heights. Beside it is the share on a plane. It is no exact ideal here: where
+  the surface is curved, waves keep more. "Direct" is the flow by SciPy with direct solves in double precision, with the same
+  linear elements. So it shares the effects of curvature and of the elements, but not those of the solver;
+- a wave over a plane whose edges are five times as long on one side as on the other: the share that either side keeps.
 
 Needs PyMeshLab and VTK: external/pymeshlab.sh build/pymeshlab, build/pymeshlab/bin/python -m pip install vtk, then
-build/pymeshlab/bin/python every_wavelength.py.
+build/pymeshlab/bin/python every_wavelength.py. The scans need SciPy, too: build/pymeshlab/bin/python -m pip install scipy.
 """
-
-import pathlib
-import tempfile
 
 import numpy
 import shapes
 from experiment import Experiment
-from leaving_in_place import CELL, terrain
-from measures import area, distance
+from flow import Flow, kept, kept_on_sphere
+from measures import across, along, root_mean_square, topology_of
 from other_noise import rotation
-from ply import read_mesh, write_ply
-from smoothers import best, taubin_families
-from surface import Surface
-from windowed_sinc import sinc_families
+from scan import Scan
+from surface import SEED, Surface
 
-METHODS = {"mesh": "converged", "grid": "shared-cells"}
-STEPS = 3
-DETAIL_SIZES = [2.5, 4, 8, 16, 32]  # in edges, and so are waves
-WAVES = [2.5, 3.3, 5, 8, 16, 32, 64]
+try:
+    import cotangents
+except ImportError:
+    cotangents = None
+
+DETAIL_SIZES = [2.5, 4, 8, 16, 32, 64]
+WAVES = [2.5, 3.3, 5, 8, 16, 32, 64, 128, 256]
 SIDE = 180  # of the plane, in quads
 TURN = rotation(0.7, 0.3)
-HEIGHT = 0.6  # half that of the cylinder
+HARMONICS = 12
+SHARED_SCANS, CGAL_SCANS = ["stanford_bunny.ply", "nefertiti_50k.ply"], ["bunny00.off", "nefertiti.off"]
 
 
-def kept(wave, detail_size, order):
-    """Returns the share of its height that a plane wave ideally keeps."""
-    h = (1 - 2 ** (-1 / STEPS)) ** (1 / order)
-    waves = h / (1 - h) * (detail_size / wave) ** 2  # δk²
-    return (1 - (waves / (1 + waves)) ** order) ** STEPS
+def scaled(surface):
+    """Returns the surface with mean edges of 1, without vertices that no face uses."""
+    used, faces = numpy.unique(surface.faces, return_inverse=True)
+    return Surface(surface.name, surface.vertices[used] / surface.edge, faces.reshape(-1, 3))
 
 
-class Flow:
-    """Runs the program on vertices and faces."""
-
-    def __init__(self, experiment, folder):
-        self.experiment, self.folder = experiment, folder
-
-    def __call__(self, method, vertices, faces, *words):
-        """Returns the moved vertices, and the report."""
-        source, target = self.folder / "in.ply", self.folder / "out.ply"
-        write_ply(source, vertices, faces)
-        report, _ = self.experiment.smooth(source, target, "--method", METHODS[method], *words)
-        return read_mesh(target)[0], report
+def height_of(wave):
+    return 0.01 * min(wave, 10)
 
 
-def share(flow, method, surface, wave, inside, *words):
-    """Returns the share of its height that a wave over a plane keeps where `inside` is true."""
-    height = 0.01 * min(wave, 10) * numpy.sin(2 * numpy.pi * surface.vertices[:, 0] / wave)
-    waved = surface.vertices + height[:, None] * (0, 0, 1)
-    moved = flow(method, waved @ TURN.T, surface.faces, *words)[0] @ TURN
-    return float((moved[inside, 2] * height[inside]).sum() / (height[inside] ** 2).sum())
+def split(moved, waves):
+    """Returns the multiple of the waves in the heights `moved`, and the RMS of the rest over that of the waves."""
+    share = float((moved * waves).sum() / (waves ** 2).sum())
+    return share, root_mean_square(moved - share * waves) / root_mean_square(waves)
+
+
+def over_plane(flow, surface, wave, inside, *words):
+    """Flows a wave over a plane. Returns its share, the rest and the sideways movement where `inside` is true."""
+    waves = height_of(wave) * numpy.sin(2 * numpy.pi * surface.vertices[:, 0] / wave)
+    waved = surface.vertices + waves[:, None] * (0, 0, 1)
+    moved = flow(waved @ TURN.T, surface.faces, *words)[0] @ TURN - surface.vertices
+    sideways = root_mean_square(numpy.linalg.norm(moved[inside, :2], axis=1)) / root_mean_square(waves[inside])
+    return *split(moved[inside, 2], waves[inside]), sideways
 
 
 def waves_over_a_plane(experiment, flow):
-    plane = Surface("plane", *shapes.sheet(SIDE, SIDE))
-    plane = Surface("plane", plane.vertices / plane.edge, plane.faces)  # edges of length 1
-    x, y = plane.vertices[:, :2].T / plane.vertices[:, 0].max()
-    inside = (abs(x - 0.5) < 0.25) & (abs(y - 0.5) < 0.25)
-    rows, errors = [], {"at ℓ and 2 ℓ": [], "below ℓ / 2": []}
-    for detail_size in DETAIL_SIZES:
-        waves = sorted({*(wave for wave in WAVES if wave <= 2 * detail_size), detail_size, 2 * detail_size})
+    rows, errors = [], {"at": [], "below": [], "default": []}
+    for detail_size in (2.5, 8) if experiment.options.quick else DETAIL_SIZES:
+        # √δ is at most 0.15 ℓ. The rim is at least ten times as far away.
+        plane = scaled(Surface("plane", *shapes.sheet(max(SIDE, round(12 * detail_size)), max(SIDE, round(5 * detail_size)))))
+        x, y = (plane.vertices / plane.vertices.max(axis=0).clip(1e-9)).T[:2]
+        inside = (abs(x - 0.5) < 0.25) & (abs(y - 0.5) < 0.125)
+        waves = sorted({*(wave for wave in WAVES if wave <= 4 * detail_size), *(n * detail_size for n in (1, 2, 4))})
         for order in (1, 2):
             exact = [kept(wave, detail_size, order) for wave in waves]
-            rows += [{"detail size": detail_size, "order": order, "of": "ideal", **dict(zip(waves, exact))}]
-            for method in METHODS:
-                found = [share(flow, method, plane, wave, inside, "--detail-size", detail_size, "--order", order)
-                         for wave in waves]
-                rows += [{"detail size": detail_size, "order": order, "of": method, **dict(zip(waves, found))}]
-                if method == "grid" or detail_size < 4:
-                    continue
-                for wave, value, ideal in zip(waves, found, exact):
-                    if wave in (detail_size, 2 * detail_size):
-                        errors["at ℓ and 2 ℓ"].append(abs(value / ideal - 1))
-                    elif wave < detail_size / 2:
-                        errors["below ℓ / 2"].append(value - ideal)
+            found = [over_plane(flow, plane, wave, inside, "--detail-size", detail_size, "--order", order) for wave in waves]
+            key = {"detail size": detail_size, "order": order}
+            rows += [{**key, "of": "ideal", **dict(zip(waves, exact))},
+                     {**key, "of": "flow", **dict(zip(waves, (share for share, _, _ in found))),
+                      "rest": max(rest for _, rest, _ in found), "sideways": max(sideways for _, _, sideways in found)}]
+            for wave, (value, _, _), ideal in zip(waves, found, exact):
+                if detail_size < 4:
+                    errors["default"].append(value - ideal)
+                elif wave in (detail_size, 2 * detail_size):
+                    errors["at"].append(abs(value / ideal - 1))
+                elif wave < detail_size / 2:
+                    errors["below"].append(value - ideal)
     columns = sorted({key for row in rows for key in row if not isinstance(key, str)})
     experiment.say("## Plane waves: the share of their height that stays\n")
-    experiment.table(["ℓ, edges", "order", "", *(f"{wave:g}" for wave in columns)],
+    experiment.table(["ℓ", "order", "", *(f"{wave:g}" for wave in columns), "rest", "sideways"],
                      [[row["detail size"], row["order"], row["of"],
-                       *(f"{row[wave]:.3f}" if wave in row else "" for wave in columns)] for row in rows])
+                       *(f"{row[wave]:.3f}" if wave in row else "" for wave in columns),
+                       *(f"{row[name]:.4f}" if name in row else "" for name in ("rest", "sideways"))] for row in rows])
     experiment.record([{"table": "waves", **row} for row in rows])
-    experiment.check("mesh, ℓ of 4 edges or more, waves of ℓ and 2 ℓ: largest relative error", max(errors["at ℓ and 2 ℓ"]),
-                     at_most=0.02)
-    experiment.check("mesh, the same, waves below ℓ / 2: most that stays above the ideal", max(errors["below ℓ / 2"]),
-                     at_most=0.05)
+    experiment.check("ℓ of 4 edges or more, waves of ℓ and 2 ℓ: largest relative error", max(errors["at"]), at_most=0.02)
+    experiment.check("the same, waves below ℓ / 2: most that stays above the ideal", max(errors["below"]), at_most=0.05)
+    experiment.check("ℓ of 2.5 edges: most that stays above the ideal", max(errors["default"]), at_most=0.07)
 
 
-def terraces(experiment, flow):
-    ground = terrain(200, 200)
-    rounded = ground.vertices.copy()
-    rounded[:, 2] = numpy.round(rounded[:, 2])
-    rows = [["input", "", distance(ground, rounded) * ground.edge]]
-    for metres, order in ((100, 2), (150, 2), (250, 3)):
-        for method in METHODS:
-            moved = flow(method, rounded, ground.faces, "--detail-size", metres, "--order", order)[0]
-            rows.append([method, f"{metres} m, order {order}", distance(ground, moved) * ground.edge])
-    if not experiment.options.quick:
-        for name, families in (("Taubin", taubin_families), ("windowed sinc", sinc_families)):
-            result, _ = best(ground, rounded, families(ground, rounded))
-            rows.append([name, "best setting", distance(ground, result["vertices"]) * ground.edge])
-    experiment.say(f"\n## Terrain in whole metres, cells of {CELL:g} m\n")
-    experiment.table(["", "detail size", "RMS distance, m"], rows)
-    experiment.record([{"table": "terrain", "of": of, "setting": setting, "RMS": value} for of, setting, value in rows])
+def harmonic(degree, directions):
+    """Returns a random spherical harmonic: a sum of zonal ones around random axes."""
+    random = numpy.random.default_rng(SEED)
+    axes = random.normal(size=(HARMONICS, 3))
+    cosines = directions @ (axes / numpy.linalg.norm(axes, axis=1)[:, None]).T
+    return numpy.polynomial.legendre.legval(cosines, [0] * degree + [1]) @ random.normal(size=HARMONICS)
+
+
+def bumps_on_a_sphere(experiment, flow):
+    ball = scaled(Surface("sphere", *shapes.sphere(5 if experiment.options.quick else 6)))
+    radius = float(numpy.linalg.norm(ball.vertices[0]))
+    directions = ball.vertices / radius
+    rows = []
+    for detail_size in (8,) if experiment.options.quick else (8, 16, 32):
+        for order, wanted in ((order, n * detail_size) for order in (1, 2) for n in (0.5, 1, 2)):
+            degree = round(numpy.hypot(2 * numpy.pi * radius / wanted, 0.5) - 0.5)
+            wave = 2 * numpy.pi * radius / numpy.sqrt(degree * (degree + 1))
+            scale = height_of(wave) / root_mean_square(harmonic(degree, directions))
+            bumpy = directions * (radius + scale * harmonic(degree, directions))[:, None]
+            moved, _ = flow(bumpy, ball.faces, "--detail-size", detail_size, "--order", order)
+            radii = numpy.linalg.norm(moved, axis=1)
+            ideal, last_radius = kept_on_sphere(degree, radius, detail_size, order)
+            share, rest = split(radii - radii.mean(), scale * harmonic(degree, moved / radii[:, None]))
+            sideways = root_mean_square(numpy.linalg.norm(across(ball, moved - bumpy), axis=1)) / height_of(wave)
+            rows.append([detail_size, order, degree, f"{wave:.1f}", f"{kept(wave, detail_size, order):.4f}", f"{ideal:.4f}",
+                         f"{share:.4f}", f"{rest:.4f}", f"{sideways:.3f}", f"{radii.mean() / last_radius - 1:.1e}"])
+    headers = ["ℓ", "order", "degree", "wave", "plane", "ideal", "flow", "rest", "sideways", "error of the radius"]
+    experiment.say(f"\n## Bumps on a sphere with a radius of {radius:.0f} edges\n")
+    experiment.table(headers, rows)
+    experiment.record([{"table": "sphere", **dict(zip(headers, row))} for row in rows])
+    errors = [abs(float(row[6]) / float(row[5]) - 1) for row in rows if float(row[3]) > 0.75 * row[0]]
+    experiment.check("sphere, waves of ℓ and 2 ℓ: largest relative error", max(errors), at_most=0.02)
+    experiment.check("sphere, the radius: largest relative error", max(abs(float(row[9])) for row in rows), at_most=1e-4)
+
+
+def heights_on_scans(experiment, flow):
+    if cotangents is None:
+        experiment.say("\nThe scans were left out, because this Python has no SciPy.\n")
+        return
+    rows = []
+    for path in experiment.scans(SHARED_SCANS, CGAL_SCANS):
+        surface = scaled(Scan(path))
+        vertices, faces = surface.vertices, surface.faces
+        fixed = numpy.isin(numpy.arange(len(vertices)), topology_of(surface).rim)
+        for detail_size in (8,) if experiment.options.quick else (8, 16):
+            methods = {"flow": lambda x: flow(x, faces, "--detail-size", detail_size, "--order", 2)[0],
+                       "direct": lambda x: cotangents.flow_by_direct_solves(x, faces, fixed, detail_size, 2)}
+            without = {name: method(vertices) for name, method in methods.items()}
+            for wave in (detail_size / 2, detail_size, 2 * detail_size):
+                waves = height_of(wave) * cotangents.random_waves(surface, wave, numpy.random.default_rng(SEED))
+                row = [surface.name, detail_size, wave, kept(wave, detail_size, 2)]
+                for name, method in methods.items():
+                    difference = method(vertices + waves[:, None] * surface.normals) - without[name]
+                    sideways = root_mean_square(numpy.linalg.norm(across(surface, difference), axis=1))
+                    row += [*split(along(surface, difference), waves), sideways / root_mean_square(waves)]
+                rows.append(row)
+    headers = ["", "ℓ", "wave", "plane", *(f"{name}{what}" for name in methods for what in ("", ", rest", ", sideways"))]
+    experiment.say("\n## Random heights on scans, order 2\n")
+    experiment.table(headers, rows)
+    experiment.record([{"table": "scans", **dict(zip(["of", *headers[1:]], row))} for row in rows])
+    long = [row for row in rows if row[2] >= row[1]]
+    experiment.check("scans, waves of ℓ and 2 ℓ: largest relative distance of the share from that of direct solves",
+                     max(abs(row[4] / row[7] - 1) for row in long), at_most=0.02)
 
 
 def two_resolutions(experiment, flow):
@@ -130,62 +174,27 @@ def two_resolutions(experiment, flow):
     vertices, faces = shapes.sheet(len(widths), 4 * coarse)
     vertices[:, 0], vertices[:, 1] = x[vertices[:, 0].astype(int)], vertices[:, 1] * fine / 2
     plane = Surface("two resolutions", vertices, faces)
-    across, middle = vertices[:, 0], coarse * fine
+    across_x, middle = vertices[:, 0], coarse * fine
     inside = abs(vertices[:, 1] / vertices[:, 1].max() - 0.5) < 0.25
-    sides = {"coarse": inside & (across > 0.3 * middle) & (across < 0.8 * middle),
-             "fine": inside & (across > 1.2 * middle) & (across < 1.7 * middle)}
+    sides = {"coarse": inside & (across_x > 0.3 * middle) & (across_x < 0.8 * middle),
+             "fine": inside & (across_x > 1.2 * middle) & (across_x < 1.7 * middle)}
     detail_size = 8 * fine
     rows = []
     for waves in (3, 5, 8, 16):
         rows.append([waves, "ideal", *[kept(waves * fine, detail_size, 2)] * 2])
-        for method in METHODS:
-            rows.append([waves, method, *(share(flow, method, plane, waves * fine, side, "--detail-size", detail_size,
-                                                "--order", 2) for side in sides.values())])
+        words = "--detail-size", detail_size, "--order", 2
+        rows.append([waves, "flow", *(over_plane(flow, plane, waves * fine, side, *words)[0] for side in sides.values())])
     experiment.say("\n## Two resolutions, 1 : 5, ℓ of 8 coarse edges\n")
     experiment.table(["wave, coarse edges", "", *sides], rows)
     experiment.record([{"table": "two resolutions", "wave": wave, "of": of, "coarse": here, "fine": there}
                        for wave, of, here, there in rows])
 
 
-def catenoid(experiment, flow):
-    columns, rows_of = 96, 41
-    faces = shapes.grid_faces(columns, rows_of - 1, 1)
-    turn, z = numpy.meshgrid(numpy.arange(columns) * 2 * numpy.pi / columns, numpy.linspace(-HEIGHT, HEIGHT, rows_of),
-                             indexing="ij")
-    cylinder = numpy.stack([numpy.cos(turn).ravel(), numpy.sin(turn).ravel(), z.ravel()], 1)
-    below, above = 0.6, 1.0  # the waist c, where c cosh(h / c) = 1
-    while above - below > 1e-12:
-        c = (below + above) / 2
-        below, above = (c, above) if c * numpy.cosh(HEIGHT / c) < 1 else (below, c)
-    exact = numpy.pi * c * (2 * HEIGHT + c * numpy.sinh(2 * HEIGHT / c))
-
-    def normals(vertices):
-        corners = vertices[faces]
-        return numpy.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-
-    rows = []
-    for size, steps in ((1, 20), (0.01, 200), (0.001, 1000))[:2 if experiment.options.quick else 3]:
-        for method in METHODS:
-            moved, report = flow(method, cylinder, faces, "--step-size", size, "--absolute", "--iterations", steps)
-            folded = int(((normals(moved) * normals(cylinder)).sum(1) <= 0).sum())
-            rows.append([f"{steps} steps of {size:g}", method, area(faces, moved) / exact, folded, report["stop"]])
-            if method == "mesh":
-                experiment.check(f"catenoid, {steps} steps: distance of the area from the exact one, relative",
-                                 abs(rows[-1][2] - 1), at_most=1e-3)
-                experiment.check(f"catenoid, {steps} steps: folded triangles", folded, at_most=0)
-    experiment.say("\n## A cylinder between two rings\n")
-    experiment.table(["", "", "area over the catenoid's", "folded", "stop"],
-                     [[*row[:2], f"{row[2]:.5f}", *row[3:]] for row in rows])
-    experiment.record([{"table": "catenoid", "setting": setting, "of": of, "area": value, "folded": folded, "stop": stop}
-                       for setting, of, value, folded, stop in rows])
-
-
 def main():
     experiment = Experiment("every_wavelength", __doc__)
-    with tempfile.TemporaryDirectory() as folder:
-        flow = Flow(experiment, pathlib.Path(folder))
-        for table in (waves_over_a_plane, terraces, two_resolutions, catenoid):
-            table(experiment, flow)
+    flow = Flow(experiment)
+    for table in (waves_over_a_plane, bumps_on_a_sphere, heights_on_scans, two_resolutions):
+        table(experiment, flow)
     experiment.finish()
 
 

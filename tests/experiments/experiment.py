@@ -261,8 +261,3 @@ def geometric_mean(values):
 def label(mesh):
     """Returns a mesh's name for tables: a file name without folder and extension."""
     return mesh.stem if isinstance(mesh, pathlib.Path) else "sphere"
-
-
-def kappa(value):
-    """Returns the driver's name for the default configuration with this stabilization weight."""
-    return f"{CONVERGED},kappa={value:g}"

@@ -9,9 +9,6 @@ class App;
 /// on standard output. The scripts in this folder choose the cases and make tables and plots.
 namespace tracked_mcf::experiments {
 
-/// Measures the distance to the cotangent flow.
-void add_accuracy(CLI::App& app);
-
 /// Writes the finest cells that a patch carries with it.
 void add_cells(CLI::App& app);
 

@@ -11,7 +11,6 @@ int main(int argc, char** argv) {
     using namespace tracked_mcf::experiments;
     CLI::App app("Measures the flow. The scripts in tests/experiments call this.");
     app.require_subcommand(1);
-    add_accuracy(app);
     add_cells(app);
     add_sphere(app);
     add_stages(app);

@@ -1,23 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/experiments/method.h"
 
+#include <algorithm>
 #include <numeric>
-#include <optional>
 #include <random>
 #include <stdexcept>
 #include <vector>
 
 #include "filter_tracked_mcf/core/cells/grid.h"
-#include "filter_tracked_mcf/core/flow/flow.h"
-#include "filter_tracked_mcf/core/flow/preserving.h"
+#include "filter_tracked_mcf/core/flow/paper_flow.h"
 #include "filter_tracked_mcf/core/mesh/domain.h"
-#include "filter_tracked_mcf/core/solver/step_solver.h"
+#include "filter_tracked_mcf/core/mesh/measures.h"
 #include "filter_tracked_mcf/core/system/constrained_cells.h"
-#include "filter_tracked_mcf/core/system/element_matrices.h"
-#include "filter_tracked_mcf/core/system/stabilization.h"
+#include "tests/experiments/configuration.h"
 #include "tests/support/cotangent_flow.h"
 #include "tests/support/elements.h"
-#include "tests/support/plans.h"
 #include "tests/support/process_time.h"
 #include "tests/support/shapes.h"
 
@@ -45,7 +42,8 @@ void add_step(const FlowReport& from, double seconds, MethodReport& to) {
     to.assemble_seconds += assembling;
     to.solve_seconds += seconds - assembling;
     to.iterations += last.solver_iterations;
-    to.collapsed = static_cast<double>(last.collapsed_samples) / static_cast<double>(from.samples);
+    to.collapsed = static_cast<double>(last.collapsed_samples) /
+                   static_cast<double>(std::max<std::int64_t>(1, from.samples));
     to.reached_tolerance = last.reached_tolerance;
     to.residual = last.residual_before > 0 ? last.residual_after / last.residual_before : 0;
 }
@@ -54,7 +52,7 @@ class Tracked : public Method {
 public:
     Tracked(const TriangleMesh& mesh, const FlowParameters& parameters) {
         const double start = cpu_seconds();
-        flow_.emplace(plan_of(mesh, parameters));
+        flow_ = make_flow(mesh, parameters);
         report_.setup_seconds = cpu_seconds() - start;
     }
 
@@ -69,24 +67,24 @@ public:
     MethodReport report() const override { return report_; }
 
 private:
-    std::optional<Flow> flow_;
+    std::unique_ptr<SurfaceFlow> flow_;
     MethodReport report_;
 };
 
 class Rebuilt : public Method {
 public:
     Rebuilt(const TriangleMesh& mesh, const FlowParameters& parameters)
-        : mesh_(mesh), parameters_(parameters), cube_(enclosing_grid(mesh, 0)) {
+        : mesh_(mesh),
+          parameters_(parameters),
+          grid_(paper_plan_of(mesh, parameters).surface.grid) {
         const double side = longest_side(mesh);
         parameters_.step_size = relative_step_size(mesh, parameters) * side * side;
         parameters_.absolute = true;
-        if (parameters.depth > 0) return;
-        parameters_.depth = Flow(plan_of(mesh, parameters)).report().depth;
     }
 
     bool step() override {
         const double start = cpu_seconds();
-        Flow flow(plan_of(mesh_, parameters_, with_depth(cube_, parameters_.depth)));
+        PaperFlow flow(paper_plan_of(mesh_, parameters_, grid_));
         const double stepping = cpu_seconds();
         report_.setup_seconds += stepping - start;
         if (!flow.step()) return false;
@@ -97,16 +95,14 @@ public:
 
     /// The vertices of a mesh that was split come first.
     void move(TriangleMesh& mesh) const override {
-        for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-            mesh.positions[i] = mesh_.positions[i];
-        }
+        std::copy_n(mesh_.positions.begin(), mesh.positions.size(), mesh.positions.begin());
     }
     MethodReport report() const override { return report_; }
 
 private:
     TriangleMesh mesh_;
     FlowParameters parameters_;
-    Grid cube_;
+    Grid grid_;
     MethodReport report_;
 };
 
@@ -132,56 +128,41 @@ void draw_samples(int count, TrackedElements& elements) {
 class MonteCarlo : public Method {
 public:
     MonteCarlo(const TriangleMesh& mesh, const FlowParameters& parameters, int count)
-        : parameters_(parameters),
+        : cycles_(parameters.cycles),
           elements_(build_tracked_elements(Domain(mesh, BoundaryCondition::Free),
                                            enclosing_grid(mesh, parameters.depth),
-                                           parameters.cubature, parameters.separate_sheets)),
-          stabilization_(elements_),
+                                           parameters.cubature)),
+          multigrid_(elements_, constrained_unknowns(elements_)),
           displacement_(Coefficients::Zero(elements_.finest().unknown_count(), 3)) {
         draw_samples(count, elements_);
-        parameters_.boundary = BoundaryCondition::Free;
-        auto constrained = constrained_unknowns(elements_, parameters_.boundary);
-        constrained_ = constrained.back();
-        solver_ =
-            make_step_solver(elements_, std::move(constrained),
-                             parameters_.solver == Solver::OneWCycle ? parameters_.cycles : 0);
         const double cells = longest_side(mesh) / elements_.grid.cell_size;
-        step_size_in_cells_ = relative_step_size(mesh, parameters) * cells * cells;
+        step_size_ = relative_step_size(mesh, parameters) * cells * cells;
     }
 
     bool step() override {
-        assemble_elements(elements_, displacement_, {1, static_cast<float>(step_size_in_cells_)},
-                          systems_);
-        stabilization_.add(stabilization_of(parameters_), step_size_in_cells_, systems_.matrices);
-        if (first_area_ == 0) first_area_ = systems_.area;
-        solver_->take(systems_.matrices, constrained_,
-                      step_size_in_cells_ * first_area_ / systems_.area);
-        StepReport report;
-        solver_->solve(systems_.right_sides, parameters_.tolerance, solution_, report);
-        displacement_ += solution_.x;
+        assemble_elements(elements_, displacement_, step_size_, false, systems_);
+        multigrid_.refresh(systems_.matrices);
+        multigrid_.finest().assemble(systems_.right_sides, right_side_);
+        set_zero(x_, right_side_.cols());
+        for (int i = 0; i < cycles_; ++i) multigrid_.cycle(right_side_, x_);
+        displacement_ += x_.topRows<3>().transpose().cast<double>();
         return displacement_.allFinite();
     }
 
     void move(TriangleMesh& mesh) const override {
-        for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-            mesh.positions[i] += elements_.grid.cell_size *
-                                 evaluate_vertex(elements_, displacement_, elements_.vertices[i]);
-        }
+        add_at_vertices(elements_, displacement_, mesh.positions);
     }
 
     MethodReport report() const override { return {}; }
 
 private:
-    FlowParameters parameters_;
+    int cycles_;
     TrackedElements elements_;
-    Stabilization stabilization_;
-    std::vector<std::uint8_t> constrained_;
-    std::unique_ptr<StepSolver> solver_;
-    double step_size_in_cells_ = 0;
-    double first_area_ = 0;  ///< of the surface in the first step, grid units²
+    Multigrid multigrid_;
+    double step_size_ = 0;  ///< in squared sides of a cell
     Coefficients displacement_;
     ElementSystems systems_;
-    Solution solution_;
+    Field right_side_, x_;
 };
 
 class Cotangent : public Method {

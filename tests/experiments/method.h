@@ -38,11 +38,11 @@ public:
 
 /// Returns the flow of this name:
 ///
-///   tracked        the elements of the initial surface (the paper's method)
-///   rebuilt        new elements from the present surface before each step (Chuang et al. 2009), on
-///                  the octree's initial cube
+///   tracked        the flow that the parameters ask for, see make_flow()
+///   rebuilt        the paper's, with new elements from the present surface before each step
+///                  (Chuang et al. 2009), on the octree's initial cube
 ///   rebuilt-split  the same, after every triangle was split into four
-///   monte-carlo-N  as tracked, with N samples of each element, drawn at random from all of them;
+///   monte-carlo-N  the paper's, with N samples of each element, drawn at random from all of them;
 ///                  the boundary is free (section 5.5)
 ///   cotangent      linear elements on the triangles (Dziuk 1991), see CotangentFlow
 ///

@@ -13,7 +13,7 @@ FlowParameters Options::parameters(int depth, const std::string& configuration) 
 }
 
 void add_common_options(CLI::App& command, Options& options) {
-    command.add_option("mesh", options.mesh, "a file, or sphere:FREQUENCY");
+    command.add_option("mesh", options.mesh, "a file");
     command.add_option("--depths,--depth", options.depths, "0: automatic");
     command.add_option("--steps", options.steps, "numbers of steps after which to measure");
     command.add_option("--step-sizes,--step-size", options.step_sizes);

@@ -16,7 +16,7 @@ cmake -S . -B build -DTRACKED_MCF_PLUGIN=OFF -DTRACKED_MCF_TESTS=ON -DTRACKED_MC
 cmake --build build -j "$(nproc)" --target tracked_mcf_experiments tracked_mcf_benchmark
 
 failed=()
-for script in tests/experiments/paper/{table,error,kappa,figure}*.py; do
+for script in tests/experiments/paper/{table,error,figure}*.py; do
     "$script" "$@" || failed+=("$script")
 done
 [ ${#failed[@]} = 0 ] || { echo "reproduce_paper.sh: failed: ${failed[*]}" >&2 && exit 1; }

@@ -87,6 +87,25 @@ def cube(n):
     return box((n, n, n))
 
 
+def sphere(subdivisions):
+    """Returns a sphere around the origin, an icosahedron with each triangle divided into four so many times."""
+    golden = (1 + numpy.sqrt(5)) / 2
+    corners = numpy.array([(0, a, b * golden) for a in (-1, 1) for b in (-1, 1)])
+    vertices = numpy.concatenate([numpy.roll(corners, axis, axis=1) for axis in range(3)])
+    apart = numpy.linalg.norm(vertices[:, None] - vertices, axis=2) > 2.1
+    faces = numpy.array([face for face in itertools.combinations(range(12), 3) if not apart[numpy.ix_(face, face)].any()])
+    inwards = numpy.linalg.det(vertices[faces]) < 0
+    faces[inwards] = faces[inwards][:, ::-1]
+    for _ in range(subdivisions):
+        sides = numpy.sort(numpy.stack([faces, numpy.roll(faces, -1, axis=1)], -1), axis=-1)
+        ends, middle = numpy.unique(sides.reshape(-1, 2), axis=0, return_inverse=True)
+        middle = len(vertices) + middle.reshape(-1, 3)
+        vertices = numpy.concatenate([vertices, vertices[ends].mean(axis=1)])
+        vertices /= numpy.linalg.norm(vertices, axis=1)[:, None]
+        faces = numpy.concatenate([middle, *(numpy.stack([faces[:, k], middle[:, k], middle[:, k - 1]], 1) for k in range(3))])
+    return vertices / numpy.linalg.norm(vertices[faces[:, 0]] - vertices[faces[:, 1]], axis=1).mean(), faces
+
+
 def oblique_block():
     """Returns a block of 12 triangles, two sides of which are rhomboids."""
     vertices, quads = box_of_quads((1, 1, 1))

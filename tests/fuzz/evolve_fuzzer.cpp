@@ -66,18 +66,14 @@ FlowParameters parameters_of(Bytes& bytes) {
     if (bytes.flag()) p.detail_size = bytes.number();
     if (bytes.flag()) p.step_size = bytes.number();
     p.flow = bytes.pick({FlowKind::MeanCurvature, FlowKind::Conformalized});
-    p.boundary = bytes.pick(
-        {BoundaryCondition::Locked, BoundaryCondition::LockedCells, BoundaryCondition::Free});
+    p.boundary = bytes.pick({BoundaryCondition::Locked, BoundaryCondition::Free});
     p.preserve = bytes.pick({Preserve::None, Preserve::Area, Preserve::Volume});
     p.quality = bytes.pick({Quality::None, Quality::Displacement, Quality::MeanCurvature});
     p.cubature = bytes.pick({Cubature::ThreePoints, Cubature::OnePoint, Cubature::Degree6});
-    p.separate_sheets = bytes.flag();
-    p.solver = bytes.pick({Solver::Converged, Solver::Grid, Solver::OneWCycle});
+    p.method = bytes.pick({Method::Converged, Method::Paper});
     p.cycles = bytes.integer(0, 3);
     if (bytes.flag()) p.tolerance = bytes.number();
-    if (bytes.flag()) p.stabilization = bytes.number();
     p.local_detail_size = bytes.flag();
-    p.constrain_pinches = bytes.flag();
     return p;
 }
 

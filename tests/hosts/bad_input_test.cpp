@@ -109,7 +109,7 @@ void preserve_the_area_of_a_selection(MeshModel&, RichParameterList& list) {
 void conformalize_an_open_volume(MeshModel& layer, RichParameterList& list) {
     vcg::tri::Allocator<CMeshO>::DeleteFace(layer.cm, layer.cm.face[7]);
     list.setValue("flow", *host::choice(1));
-    list.setValue("boundary", *host::choice(2));
+    list.setValue("boundary", *host::choice(1));
     list.setValue("preserve", *host::choice(2));
 }
 
@@ -148,7 +148,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"StepSizeNegative", set<FloatValue>("step_size", -1e-5f), "step_size"},
         BadInput{"StepSizeNaN", set<FloatValue>("step_size", kNaN), "step_size"},
         BadInput{"StepSizeInfinite", set<FloatValue>("step_size", kInfinity), "step_size"},
-        BadInput{"BoundaryTooLarge", set_choice("boundary", 3), "boundary"},
+        BadInput{"BoundaryTooLarge", set_choice("boundary", 2), "boundary"},
         BadInput{"BoundaryNegative", set_choice("boundary", -1), "boundary"},
         BadInput{"FlowTooLarge", set_choice("flow", 2), "flow"},
         BadInput{"FlowNegative", set_choice("flow", -1), "flow"},
@@ -164,7 +164,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"AbsoluteOfTheWrongType", replace<RichInt>("absolute", 1), "absolute"},
         BadInput{"AbsoluteStepSizeNaN", set_absolute_step_size(kNaN), "step_size"},
         BadInput{"AbsoluteStepSizeInfinite", set_absolute_step_size(kInfinity), "step_size"},
-        BadInput{"MethodTooLarge", set_choice("method", 3), "method"},
+        BadInput{"MethodTooLarge", set_choice("method", 2), "method"},
         BadInput{"MethodNegative", set_choice("method", -1), "method"},
         BadInput{"DepthOfTheWrongType", replace<RichFloat>("depth", 5.0F), "depth"}),
     [](const auto& test) { return std::string(test.param.name); });

@@ -26,10 +26,10 @@ using ::testing::HasSubstr;
 TEST(ParameterTable, NamesTheValuesOfEachChoiceInTheirOrder) {
     const std::map<std::string, std::pair<ParameterValue, std::string>> labels = {
         {"flow", {static_cast<int>(FlowKind::Conformalized), "Conformalized"}},
-        {"boundary", {static_cast<int>(BoundaryCondition::LockedCells), "Locked cells (paper)"}},
+        {"boundary", {static_cast<int>(BoundaryCondition::Free), "Free"}},
         {"preserve", {static_cast<int>(Preserve::Volume), "Volume"}},
         {"quality", {static_cast<int>(Quality::MeanCurvature), "Mean curvature"}},
-        {"method", {2, "Paper"}}};
+        {"method", {static_cast<int>(Method::Paper), "Paper"}}};
     for (const auto& parameter : parameter_table<FlowParameters>()) {
         if (parameter.type != Parameter::Type::Choice || parameter.label.empty()) continue;
         const auto& [value, label] = labels.at(parameter.name);
@@ -42,15 +42,15 @@ TEST(ParameterTable, NamesTheValuesOfEachChoiceInTheirOrder) {
 }
 
 TEST(ParameterTable, ANumberThatIsNoChoiceIsRefusedWithTheLabels) {
-    for (const int index : {-1, 3, std::numeric_limits<int>::max()}) {
+    for (const int index : {-1, 2, std::numeric_limits<int>::max()}) {
         FlowParameters parameters;
         parameters.boundary = static_cast<BoundaryCondition>(index);
         try {
             validate(parameters);
             ADD_FAILURE() << index << " was accepted";
         } catch (const InvalidParameter& error) {
-            EXPECT_EQ(error.what(), "boundary is " + std::to_string(index) +
-                                        "; give 0 to 2: Locked, Locked cells (paper), Free.");
+            EXPECT_EQ(error.what(),
+                      "boundary is " + std::to_string(index) + "; give 0 to 1: Locked, Free.");
         }
     }
 }
@@ -117,7 +117,7 @@ TEST(Outputs, AreTheReportsNumbers) {
     EXPECT_EQ(outputs_of(parameters, report).at("stopped_early"), Outputs::mapped_type(1));
     report.steps[0].reached_tolerance = false;
     EXPECT_EQ(outputs_of(parameters, report).at("converged"), Outputs::mapped_type(0));
-    parameters.solver = Solver::OneWCycle;
+    parameters.method = Method::Paper;
     EXPECT_EQ(outputs_of(parameters, report).at("error_estimate"), Outputs::mapped_type(0.25));
     report.steps.clear();
     EXPECT_EQ(outputs_of(parameters, report).at("error_estimate"), Outputs::mapped_type(0.0));
@@ -232,12 +232,12 @@ TEST(Summary, OfNoiseHasAFactInEachLine) {
 
 TEST(NoiseWarnings, SayWhyNothingWasRemovedAndWhatToDo) {
     const auto warning = [](const NoiseReport& report) {
-        const std::vector<std::string> warnings = warnings_of(NoiseParameters(), report, "");
+        const std::vector<std::string> warnings = warnings_of(NoiseParameters(), report);
         EXPECT_EQ(warnings.size(), 1U);
         return warnings.empty() ? std::string() : warnings.front();
     };
     NoiseReport report;
-    EXPECT_TRUE(warnings_of(NoiseParameters(), report, "").empty());
+    EXPECT_TRUE(warnings_of(NoiseParameters(), report).empty());
     report.stop = NoiseStop::TooFewVertices;
     EXPECT_THAT(warning(report), HasSubstr("Nothing has moved: fewer than 100 vertices"));
     report.stop = NoiseStop::TooManyCreases;
@@ -263,10 +263,10 @@ TEST(NoiseWarnings, SayWhyNothingWasRemovedAndWhatToDo) {
     given.noise_size = report.noise_size = 4;
     report.noise = 1;
     report.rms_displacement = 0.2;
-    EXPECT_THAT(warnings_of(given, report, ""),
+    EXPECT_THAT(warnings_of(given, report),
                 testing::ElementsAre(HasSubstr("Hardly any noise of the size 4 was removed.")));
     report.rms_displacement = 0.6;
-    EXPECT_TRUE(warnings_of(given, report, "").empty());
+    EXPECT_TRUE(warnings_of(given, report).empty());
     report = {};
     report.shrunken_parts = 2;
     report.lost_area = 0.12;
@@ -301,7 +301,7 @@ TEST(EarlyStop, NamesTheStepTheReasonAndTheRemedy) {
     parameters.iterations = 10;
     FlowReport report;
     const auto early_stop = [&] {
-        const std::vector<std::string> warnings = warnings_of(parameters, report, "");
+        const std::vector<std::string> warnings = warnings_of(parameters, report);
         return warnings.empty() ? "" : warnings.front();
     };
     EXPECT_EQ(early_stop(), "");
@@ -327,16 +327,12 @@ TEST(EarlyStop, NamesTheStepTheReasonAndTheRemedy) {
     EXPECT_EQ(
         early_stop(),
         "Nothing has moved: all of the surface is constrained. Free the boundary, or select more; "
-        "where cells are locked, take a greater depth.");
+        "with the method Paper, take a greater depth.");
     report.stop = Stop::Pinched;
     report.steps.resize(3);
     EXPECT_EQ(early_stop(),
               "The flow stopped after step 3 of 10: so much has pinched that preserving would "
               "inflate what is left.");
-    report.stop = Stop::NothingMoves;
-    report.steps.resize(1);
-    EXPECT_EQ(early_stop(),
-              "The flow stopped after step 1 of 10: everything that could move has pinched.");
 }
 
 TEST(Warnings, TellThatAClosedMeshIsInsideOut) {
@@ -349,22 +345,22 @@ TEST(Warnings, TellThatAClosedMeshIsInsideOut) {
         flow.area_before = noise.area_before = 10;
         flow.volume_before = noise.volume_before = volume;
         noise.vertices = noise.steps = 1;
-        const std::vector<std::string> of_flow = warnings_of(FlowParameters(), flow, "");
-        EXPECT_EQ(warnings_of(NoiseParameters(), noise, ""), of_flow);
+        const std::vector<std::string> of_flow = warnings_of(FlowParameters(), flow);
+        EXPECT_EQ(warnings_of(NoiseParameters(), noise), of_flow);
         return of_flow;
     };
     EXPECT_EQ(warnings(-1), std::vector<std::string>{warning});
     for (const double volume : {1.0, 0.0, -1e-9}) EXPECT_TRUE(warnings(volume).empty());
 }
 
-TEST(Warnings, TellOfALimitedStepADetailBelowACellAndASuddenLoss) {
+TEST(Warnings, TellOfALimitedStepAFineDetailAndASuddenLoss) {
     FlowReport report;
     report.detail_size = report.cell_size = report.step_size = report.asked_step_size = 1;
     report.steps.resize(2);
     report.steps[0].area = 10;
     report.steps[1].area = report.area_after = 9.1;
     report.longest_side = 1024;
-    const auto warnings = [&] { return warnings_of({}, report, ""); };
+    const auto warnings = [&] { return warnings_of({}, report); };
     EXPECT_TRUE(warnings().empty());
     report.asked_step_size = 4;
     ASSERT_EQ(warnings().size(), 1U);
@@ -372,20 +368,11 @@ TEST(Warnings, TellOfALimitedStepADetailBelowACellAndASuddenLoss) {
               "The step size is limited to 1 squared units of the mesh, instead of 4: waves longer "
               "than 1 keep more than half of their amplitude. More steps go further.");
     report.asked_step_size = 1;
-    report.cell_size = 2;
-    report.depth = 7;
-    report.resolving_depth = 9;
-    ASSERT_EQ(warnings().size(), 1U);
-    EXPECT_EQ(warnings()[0],
-              "The cells of depth 7 are 2 wide, too wide for the detail size 1. If the mesh has "
-              "detail as small as that, take depth 9.");
-    report.depth = 9;
     report.mean_edge = 2;
     ASSERT_EQ(warnings().size(), 1U);
-    EXPECT_EQ(
-        warnings()[0],
-        "The detail size is 0.5 mean edges; below 2 little changes. The default is 2.5 edges, "
-        "5.");
+    EXPECT_EQ(warnings()[0],
+              "The detail size is 0.5 mean edges; below 2 little changes. The default is 3 edges, "
+              "6.");
     report.mean_edge = 0.5;
     EXPECT_TRUE(warnings().empty());
     report.genus = 2;

@@ -62,7 +62,7 @@ protected:
             parameters.setValue(name, BoolValue(random(2) == 1));
         }
         const std::pair<const char*, int> choices[] = {
-            {"preserve", 3}, {"boundary", 3}, {"quality", 3}, {"flow", 2}, {"method", 3}};
+            {"preserve", 3}, {"boundary", 2}, {"quality", 3}, {"flow", 2}, {"method", 2}};
         for (const auto& [name, count] : choices) {
             parameters.setValue(name, *host::choice(random(count)));
         }

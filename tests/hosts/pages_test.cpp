@@ -35,7 +35,7 @@ Rows matches(const std::string& text, const std::string& pattern) {
 
 std::string default_in_words(const Parameter& parameter) {
     const ParameterValue value = parameter.initial;
-    if (&parameter == &parameter_table<FlowParameters>()[0]) return "2.5 mean edge lengths";
+    if (&parameter == &parameter_table<FlowParameters>()[0]) return "3 mean edge lengths";
     if (const bool* const is_on = std::get_if<bool>(&value)) return *is_on ? "on" : "off";
     if (parameter.type == Parameter::Type::Choice) {
         const NamedChoice& choice = parameter.choices.at(std::size_t(std::get<int>(value)));

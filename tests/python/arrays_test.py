@@ -40,7 +40,7 @@ COARSE = {"depth": 5, "detail_size": 0.2}
 COARSE_OPTIONS = ["--depth", "5", "--detail-size", "0.2"]
 
 # Further runs than those of all hosts. Between them, they set every parameter.
-RUNS = [*runs.RUNS, "detail_size=20%", "tolerance=1e-5", "stabilization=1 method=shared-cells", "cycles=2 method=paper", "cubature=12 method=shared-cells",
+RUNS = [*runs.RUNS, "detail_size=20%", "tolerance=1e-5", "cycles=2 method=paper", "cubature=12 method=paper",
         "threads=1"]
 NOISE_RUNS = ["crease_angle=5", "noise=0.02", "noise=1%", "noise_size=0.1", "detail_size=0.3", "largest_movement=0.1%",
               "boundary=locked", "boundary=smooth", "along_normals=true", "quality=displacement", "threads=1"]
@@ -86,7 +86,7 @@ NOISE_WRONG = [
     ({"crease_angle": 180}, InvalidParameter, "crease_angle is 180; give 0 to 179 degrees"),
     ({"noise": numpy.inf}, InvalidParameter, "noise is inf"),
     ({"largest_movement": "-1%"}, InvalidParameter, "largest_movement is -1; give 0 or more"),
-    ({"boundary": "locked-cells"}, InvalidParameter, "give one of 'locked', 'free'"),
+    ({"boundary": "open"}, InvalidParameter, "give one of 'locked', 'free'"),
     ({"quality": "mean-curvature"}, InvalidParameter, "give one of 'none', 'displacement'"),
     ({"threads": -1}, InvalidParameter, "threads is -1"),
 ]
@@ -581,16 +581,16 @@ class Errors(unittest.TestCase):
         script = ("import resource, tracked_mcf, arrays_test\n"
                   "limit = 1 << 30\n"
                   "resource.setrlimit(resource.RLIMIT_DATA, (limit, limit))\n"
-                  "try: arrays_test.smooth(method='shared-cells', depth=11)\n"
+                  "try: arrays_test.smooth(method='paper', depth=12)\n"
                   "except tracked_mcf.NotEnoughMemory as error: print(error)")
-        self.assertIn("Choose depth", said_by(script))
+        self.assertIn("Choose a smaller depth", said_by(script))
 
     def test_warnings(self):
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
-            _, report = smooth(method="shared-cells", depth=2, detail_size=0.2)
+            _, report = smooth(detail_size=0.01)
         self.assertEqual([str(warning.message) for warning in caught], report["warnings"])
-        self.assertIn("The cells of depth 2 ", report["warnings"][0])
+        self.assertIn(" mean edges; below 2 little changes", report["warnings"][0])
         self.assertIs(caught[0].category, tracked_mcf.FlowWarning)
         self.assertTrue(issubclass(tracked_mcf.FlowWarning, UserWarning))
         self.assertEqual(caught[0].filename, __file__)
@@ -599,7 +599,7 @@ class Errors(unittest.TestCase):
         self.assertEqual(raised.filename, __file__)
         with warnings.catch_warnings(), self.assertRaises(tracked_mcf.FlowWarning):
             warnings.simplefilter("error")
-            smooth(method="shared-cells", depth=2, detail_size=0.2)
+            smooth(detail_size=0.01)
         with warnings.catch_warnings():
             warnings.simplefilter("error")
             self.assertEqual(smooth()[1]["warnings"], [])
@@ -707,8 +707,8 @@ class Steps(unittest.TestCase):
     def test_warnings(self):
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
-            self.assertEqual(len(list(self.steps(method="shared-cells", depth=2, detail_size=0.2))), 3)
-        self.assertIn("The cells of depth 2 ", str(caught[0].message))
+            self.assertEqual(len(list(self.steps(detail_size=0.01))), 3)
+        self.assertIn(" mean edges; below 2 little changes", str(caught[0].message))
         self.assertIs(caught[0].category, tracked_mcf.FlowWarning)
         self.assertEqual(caught[0].filename, __file__)
 
@@ -748,8 +748,8 @@ class Documents(WithFolder):
             self.assertLessEqual(max(map(len, lines)), 76)  # help() indents them by 4
             for name in names[2:]:
                 self.assertRegex(inspect.getdoc(public), f"\n    {name}\\b")
-        for name, value in (("detail_size", 0.0), ("order", 1), ("preserve", "none"), ("cubature", 3),
-                            ("absolute", False), ("selected", None), ("stabilization", None)):
+        for name, value in (("detail_size", 0.0), ("order", 2), ("preserve", "none"), ("cubature", 3),
+                            ("absolute", False), ("selected", None)):
             self.assertIs(type(keywords[name].default), type(value))
             self.assertEqual(keywords[name].default, value)
         self.assertEqual(keywords["preserve"].annotation, "Literal['none', 'area', 'volume'] | None")

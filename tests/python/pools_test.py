@@ -49,14 +49,14 @@ def steps_of(function, vertices):
 def with_warnings_as_errors(vertices):
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        smooth(vertices, method="shared-cells", depth=2, detail_size=0.01)
+        smooth(vertices, detail_size=0.01)
 
 
 def with_little_memory(vertices):
     limits = resource.getrlimit(resource.RLIMIT_DATA)
     resource.setrlimit(resource.RLIMIT_DATA, (1 << 30, limits[1]))
     try:
-        smooth(vertices, method="shared-cells", depth=12)
+        smooth(vertices, method="paper", depth=12)
     finally:
         resource.setrlimit(resource.RLIMIT_DATA, limits)
 
@@ -67,7 +67,7 @@ WRONG = [
     (functools.partial(smooth, faces=FACES + 9), tracked_mcf.InvalidMesh, "faces refers to vertex 9, "),
     (functools.partial(smooth, progress=never), tracked_mcf.Cancelled, "Stopped as asked."),
     (with_warnings_as_errors, tracked_mcf.FlowWarning, "The detail size is "),
-    (with_little_memory, tracked_mcf.NotEnoughMemory, "Choose depth"),
+    (with_little_memory, tracked_mcf.NotEnoughMemory, "Choose a smaller depth"),
     (functools.partial(smooth, oder=2), TypeError, "unexpected keyword argument 'oder'"),
 ]
 

@@ -57,51 +57,21 @@ TEST(CommandLine, DefaultsAreThoseOfTheFlow) {
     EXPECT_EQ(line.properties.at("selected"), "");
     EXPECT_EQ(line.parameters.preserve, defaults.preserve);
     EXPECT_EQ(line.parameters.cubature, defaults.cubature);
-    EXPECT_EQ(line.parameters.separate_sheets, defaults.separate_sheets);
-    EXPECT_EQ(line.parameters.solver, defaults.solver);
+    EXPECT_EQ(line.parameters.method, defaults.method);
     EXPECT_EQ(line.parameters.tolerance, defaults.tolerance);
-    EXPECT_EQ(line.parameters.stabilization, defaults.stabilization);
     EXPECT_EQ(line.parameters.cycles, defaults.cycles);
     EXPECT_EQ(line.parameters.threads, defaults.threads);
 }
 
 TEST(CommandLine, EveryOptionIsTaken) {
-    const auto line = parse({"a.PLY",
-                             "b.Stl",
-                             "--detail-size",
-                             "0.75%",
-                             "--local-detail-size",
-                             "--order",
-                             "4",
-                             "--depth",
-                             "7",
-                             "--step-size",
-                             "2.5e-4",
-                             "--absolute",
-                             "--iterations=3",
-                             "--flow",
-                             "conformalized",
-                             "--boundary",
-                             "free",
-                             "--selected",
-                             "my quality",
-                             "--preserve",
-                             "Volume",
-                             "--method",
-                             "paper",
-                             "--tolerance",
-                             "1e-10",
-                             "--stabilization",
-                             "0.5",
-                             "--cubature",
-                             "12",
-                             "--cycles",
-                             "4",
-                             "--threads",
-                             "2",
-                             "--report",
-                             "r.json",
-                             "--quiet"});
+    const auto line =
+        parse({"a.PLY",      "b.Stl",      "--detail-size",  "0.75%",       "--local-detail-size",
+               "--order",    "4",          "--depth",        "7",           "--step-size",
+               "2.5e-4",     "--absolute", "--iterations=3", "--flow",      "conformalized",
+               "--boundary", "free",       "--selected",     "my quality",  "--preserve",
+               "Volume",     "--method",   "paper",          "--tolerance", "1e-10",
+               "--cubature", "12",         "--cycles",       "4",           "--threads",
+               "2",          "--report",   "r.json",         "--quiet"});
     EXPECT_EQ(line.lengths.at("detail_size").value, 0.75);
     EXPECT_TRUE(line.lengths.at("detail_size").in_per_cent);
     EXPECT_TRUE(line.parameters.local_detail_size);
@@ -114,10 +84,8 @@ TEST(CommandLine, EveryOptionIsTaken) {
     EXPECT_EQ(line.parameters.boundary, BoundaryCondition::Free);
     EXPECT_EQ(line.properties.at("selected"), "my quality");
     EXPECT_EQ(line.parameters.preserve, Preserve::Volume);
-    EXPECT_FALSE(line.parameters.separate_sheets);
-    EXPECT_EQ(line.parameters.solver, Solver::OneWCycle);
+    EXPECT_EQ(line.parameters.method, Method::Paper);
     EXPECT_EQ(line.parameters.tolerance, 1e-10);
-    EXPECT_EQ(line.parameters.stabilization, 0.5);
     EXPECT_EQ(line.parameters.cubature, Cubature::Degree6);
     EXPECT_EQ(line.parameters.cycles, 4);
     EXPECT_EQ(line.parameters.threads, 2);
@@ -186,19 +154,7 @@ TEST(CommandLine, NegativeNumbersAndNotANumberReachTheFlowsOwnCheck) {
     EXPECT_EQ(parse({"a.ply", "b.ply", "--step-size", "-1"}).parameters.step_size, -1);
     EXPECT_TRUE(std::isnan(parse({"a.ply", "b.ply", "--step-size", "nan"}).parameters.step_size));
     EXPECT_EQ(parse({"a.ply", "b.ply", "--depth", "-2"}).parameters.depth, -2);
-    EXPECT_EQ(parse({"a.ply", "b.ply", "--stabilization", "-1"}).parameters.stabilization, -1.0);
     EXPECT_TRUE(std::isnan(parse({"a.ply", "b.ply", "--tolerance", "nan"}).parameters.tolerance));
-}
-
-TEST(CommandLine, TheMethodDecidesOnTheStabilizationUnlessItIsGiven) {
-    const auto stabilization = [](std::vector<const char*> options) {
-        options.insert(options.begin(), {"a.ply", "b.ply"});
-        return stabilization_of(parse(options).parameters);
-    };
-    EXPECT_EQ(stabilization({"--method", "shared-cells"}), kDefaultStabilization);
-    EXPECT_EQ(stabilization({"--method", "paper"}), 0);
-    EXPECT_EQ(stabilization({"--method", "paper", "--stabilization", "0.02"}), 0.02);
-    EXPECT_EQ(stabilization({"--stabilization", "0"}), 0);
 }
 
 TEST(CommandLine, InvalidArgumentsAreNamed) {
@@ -208,16 +164,15 @@ TEST(CommandLine, InvalidArgumentsAreNamed) {
     EXPECT_THAT(complaint({"a.ply", "b.ply", "--iterations", "2.5"}),
                 HasSubstr("--iterations = 2.5"));
     EXPECT_THAT(complaint({"a.ply", "b.ply", "--depth", "99999999999"}), HasSubstr("--depth"));
-    EXPECT_THAT(complaint({"a.ply", "b.ply", "--boundary", "open"}), HasSubstr("locked-cells"));
+    EXPECT_THAT(complaint({"a.ply", "b.ply", "--boundary", "open"}), HasSubstr("locked"));
     EXPECT_THAT(complaint({"a.ply", "b.ply", "--flow", "x"}), HasSubstr("conformalized"));
     EXPECT_THAT(complaint({"a.ply", "b.ply", "--preserve", "x"}), HasSubstr("volume"));
     EXPECT_THAT(complaint({"a.ply", "b.ply", "--rescale", "volume"}), HasSubstr("--rescale"));
     EXPECT_THAT(complaint({"a.ply", "b.ply", "--order", "x"}), HasSubstr("--order = x"));
     EXPECT_THAT(complaint({"a.ply", "b.ply", "--order", "1.5"}), HasSubstr("--order = 1.5"));
     EXPECT_THAT(complaint({"a.ply", "b.ply", "--cubature", "2"}), HasSubstr("12"));
-    EXPECT_THAT(complaint({"a.ply", "b.ply", "--method", "cg"}), HasSubstr("shared-cells"));
+    EXPECT_THAT(complaint({"a.ply", "b.ply", "--method", "cg"}), HasSubstr("paper"));
     EXPECT_THAT(complaint({"a.ply", "b.ply", "--tolerance", "x"}), HasSubstr("--tolerance = x"));
-    EXPECT_THAT(complaint({"a.ply", "b.ply", "--stabilization", "x"}), HasSubstr("stabilization"));
     EXPECT_THAT(complaint({"a.ply", "b.ply", "--speed", "2"}), HasSubstr("--speed"));
     EXPECT_THAT(complaint({"a.ply", "b.ply", "c.ply"}), HasSubstr("c.ply"));
     EXPECT_THAT(complaint({"a.ply", "b.ply", "--bad"}), HasSubstr("tracked_mcf --help"));
@@ -254,15 +209,14 @@ TEST(CommandLine, HelpNamesEveryOptionAndExplainsTheSharedParameters) {
                                "--flow",
                                "mean-curvature|conformalized",
                                "--boundary",
-                               "locked|locked-cells|free",
+                               "locked|free",
                                "--selected",
                                "PROPERTY",
                                "--preserve",
                                "none|area|volume",
                                "--method",
-                               "converged|shared-cells|paper",
+                               "converged|paper",
                                "--tolerance",
-                               "--stabilization",
                                "--cubature",
                                "1|3|12",
                                "--cycles",

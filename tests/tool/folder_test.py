@@ -113,9 +113,9 @@ class Folder(unittest.TestCase):
 
     def test_each_worker_has_its_share_of_the_memory(self):
         """A flow at depth 10 needs more than 2 GB."""
-        code, messages = self.smooth("--method", "shared-cells", "--depth", "10", megabytes=1000)
+        code, messages = self.smooth("--method", "paper", "--depth", "10", megabytes=1000)
         self.assertEqual(code, 1, messages)
-        self.assertEqual(len(re.findall("(?m)^.*: tracked_mcf: Depth 10 would need .* Choose depth", messages)), 3)
+        self.assertEqual(len(re.findall("(?m)^.*: tracked_mcf: Depth 10 of the paper's method would need .* Choose a smaller depth", messages)), 3)
         self.assertEqual(self.outputs(), {})
 
     def test_refuses_to_write_into_the_folder_of_the_meshes(self):

@@ -37,7 +37,8 @@ std::vector<double> numbers_in(const std::string& off) {
 using Program = ProgramFixture;
 
 TEST_F(Program, SmoothsAndSummarises) {
-    const ProgramRun result = run("a.off b.ply --depth 4 --step-size 5e-4 --iterations 3");
+    const ProgramRun result =
+        run("a.off b.ply --order 1 --depth 4 --step-size 5e-4 --iterations 3");
     EXPECT_EQ(result.exit_code, 0);
     EXPECT_THAT(result.errors, IsEmpty()) << "no progress bar where there is no terminal";
     EXPECT_THAT(result.output,
@@ -91,7 +92,7 @@ TEST_F(Program, AToleranceThatIsNotReachedIsAWarningEvenWhenQuiet) {
     EXPECT_TRUE(std::filesystem::exists(folder_ / "b.ply"));
 }
 
-TEST_F(Program, SolversDiffer) {
+TEST_F(Program, MethodsDiffer) {
     const std::string options = "a.off b.off --depth 4 --step-size 1e-3 --iterations 1 ";
     const auto smoothed = [&](const std::string& more) {
         const ProgramRun result = run(options + more);
@@ -100,14 +101,11 @@ TEST_F(Program, SolversDiffer) {
     };
     const std::string converged = smoothed("");
     const std::string one_cycle = smoothed("--method paper");
-    EXPECT_EQ(smoothed("--method converged --tolerance 1e-3 --stabilization 0.01"), converged);
-    EXPECT_EQ(smoothed("--method paper --cycles 1 --stabilization 0"), one_cycle);
+    EXPECT_EQ(smoothed("--method converged --tolerance 1e-3"), converged);
+    EXPECT_EQ(smoothed("--method paper --cycles 1"), one_cycle);
     EXPECT_NE(one_cycle, converged);
     EXPECT_NE(smoothed("--method paper --cycles 2"), one_cycle);
     EXPECT_NE(smoothed("--tolerance 1e-8"), converged);
-    const std::string shared = smoothed("--method shared-cells");
-    EXPECT_NE(shared, converged);
-    EXPECT_NE(smoothed("--method shared-cells --stabilization 0.1"), shared);
 }
 
 TEST_F(Program, TheDefaultMethodHasTheVerticesAsUnknowns) {
@@ -125,7 +123,7 @@ TEST_F(Program, TheDefaultMethodHasTheVerticesAsUnknowns) {
         return std::stoi(report.substr(report.find("\"unknowns\": ") + 12));
     };
     EXPECT_EQ(unknowns(""), 8);
-    EXPECT_GT(unknowns("--method shared-cells"), 100);
+    EXPECT_GT(unknowns("--method paper"), 100);
 }
 
 TEST_F(Program, AbsoluteStepsAreInSquaredUnitsOfTheMesh) {
@@ -166,7 +164,7 @@ TEST_F(Program, ADetailSizeInPerCentIsPartOfTheBoxesDiagonal) {
 
 TEST_F(Program, TheDetailSizeIsOneOfTheTwoWaysToGiveTheStepSize) {
     const auto positions = [&](const std::string& options) {
-        const ProgramRun result = run("a.off b.off --depth 4 --iterations 1 " + options);
+        const ProgramRun result = run("a.off b.off --order 1 --depth 4 --iterations 1 " + options);
         EXPECT_EQ(result.exit_code, 0) << result.errors;
         return numbers_in(read_file(folder_ / "b.off"));
     };
@@ -185,7 +183,7 @@ TEST_F(Program, OrdersDiffer) {
     };
     std::vector<std::string> results = {smoothed("--order 1"), smoothed("--order 2"),
                                         smoothed("--order 3"), smoothed("--order 4")};
-    EXPECT_EQ(smoothed(""), results[0]);
+    EXPECT_EQ(smoothed(""), results[1]);
     std::sort(results.begin(), results.end());
     EXPECT_EQ(std::unique(results.begin(), results.end()), results.end());
 }
@@ -274,40 +272,21 @@ TEST_F(Program, AFlowThatVanishesStopsWithAWarningAndItsLastGoodPositions) {
 
 TEST_F(Program, AMeshThatCannotMoveIsAWarning) {
     write_file(folder_ / "grid.off", grid(5));
-    const ProgramRun result =
-        run("grid.off b.off --depth 1 --boundary locked-cells --method paper");
+    const ProgramRun result = run("grid.off b.off --depth 1 --method paper");
     EXPECT_EQ(result.exit_code, 0);
     EXPECT_EQ(
         result.errors,
         "tracked_mcf: warning: Nothing has moved: all of the surface is constrained. Free the "
-        "boundary, or select more; where cells are locked, take a greater depth.\n");
+        "boundary, or select more; with the method Paper, take a greater depth.\n");
     EXPECT_THAT(result.output, AllOf(StartsWith("Smoothed 25 vertices by 0 steps of "),
                                      HasSubstr("\n16 vertices kept their positions.\n")));
-}
-
-TEST_F(Program, AWarningNamesTheDepthThatResolvesTheDetail) {
-    write_file(folder_ / "grid.off", grid(20));
-    const auto errors_at = [&](const std::string& depth) {
-        return run("grid.off b.ply --method shared-cells --detail-size 12% --quiet --depth " +
-                   depth)
-            .errors;
-    };
-    const std::string errors = errors_at("2");
-    std::smatch depth;
-    ASSERT_TRUE(std::regex_match(
-        errors, depth,
-        std::regex("tracked_mcf: warning: The cells of depth 2 are [0-9.]+ wide, too wide for the "
-                   "detail size [0-9.]+. If the mesh has detail as small as that, take depth "
-                   "([0-9]+).\n")))
-        << errors;
-    EXPECT_THAT(errors_at(depth[1]), IsEmpty());
 }
 
 TEST_F(Program, DetailFinerThanTheMeshIsAWarningAndAddsNoDepth) {
     write_file(folder_ / "grid.off", grid(20));
     const ProgramRun fine = run("grid.off b.ply --detail-size 1% --report fine.json");
     EXPECT_THAT(fine.errors, StartsWith("tracked_mcf: warning: The detail size is 0.2"));
-    EXPECT_THAT(fine.errors, HasSubstr(" mean edges; below 2 little changes. The default is 2.5 "));
+    EXPECT_THAT(fine.errors, HasSubstr(" mean edges; below 2 little changes. The default is 3 "));
     ASSERT_EQ(run("grid.off b.ply --detail-size 0.001% --report finer.json").exit_code, 0);
     const auto depth_of = [&](const char* report) {
         const std::string text = read_file(folder_ / report);
@@ -335,7 +314,7 @@ TEST_F(Program, FlowsDiffer) {
 
 TEST_F(Program, ReplacesItsInputWhenAsked) {
     const double before = area("a.off");
-    EXPECT_EQ(run("a.off a.off --depth 4 --step-size 1e-3").exit_code, 0);
+    EXPECT_EQ(run("a.off a.off --order 1 --depth 4 --step-size 1e-3").exit_code, 0);
     EXPECT_LT(area("a.off"), 0.99 * before);
 }
 
@@ -392,7 +371,7 @@ TEST_F(Program, EmptyValuesAreRefused) {
     for (const char* option :
          {"--detail-size", "--order", "--depth", "--step-size", "--iterations", "--flow",
           "--boundary", "--selected", "--preserve", "--quality", "--method", "--tolerance",
-          "--stabilization", "--cycles", "--cubature", "--threads", "--report"}) {
+          "--cycles", "--cubature", "--threads", "--report"}) {
         const ProgramRun result = run("a.off b.ply " + std::string(option) + " \"\"");
         EXPECT_EQ(result.exit_code, 2) << option;
         EXPECT_THAT(result.errors, HasSubstr(option));
@@ -425,7 +404,7 @@ TEST_F(Program, WrongUseExitsWith2) {
                                   "a.off b.ply --preserve x",
                                   "a.off b.ply --quality x",
                                   "a.off b.off --quality displacement",
-                                  "a.off b.ply --quality mean-curvature --flow conformalized",
+                                  "a.off b.ply --method paper --flow conformalized",
                                   "a.off b.ply --rescale volume",
                                   "a.off b.ply --selected flags",
                                   "a.off b.ply --absolute --step-size inf",
@@ -434,9 +413,6 @@ TEST_F(Program, WrongUseExitsWith2) {
                                   "a.off b.ply --tolerance 0",
                                   "a.off b.ply --tolerance 1",
                                   "a.off b.ply --tolerance nan",
-                                  "a.off b.ply --stabilization -0.1",
-                                  "a.off b.ply --stabilization nan",
-                                  "a.off b.ply --stabilization inf",
                                   "a.off b.xyz",
                                   "a.off \"\"",
                                   "a.off b.ply --report b.ply"}) {
@@ -449,7 +425,7 @@ TEST_F(Program, WrongUseExitsWith2) {
     EXPECT_THAT(run("a.off b.ply --order 5").errors, HasSubstr("order is 5; give 1 to 4."));
     EXPECT_THAT(
         run("a.off b.ply --detail-size -1").errors,
-        HasSubstr("--detail-size is -1; give 0 or more, in units of the mesh, where 0 takes 2.5 "
+        HasSubstr("--detail-size is -1; give 0 or more, in units of the mesh, where 0 takes 3 "
                   "mean edge lengths."));
     EXPECT_THAT(run("a.off b.ply --detail_size 1").errors,
                 HasSubstr("Do you mean --detail-size? Run"));

@@ -90,12 +90,12 @@ TEST_F(ProgramOnUnix, FullDiskExitsWith3AndLeavesTheOldFile) {
 TEST_F(ProgramOnUnix, TooLittleMemoryExitsWith1BeforeTheWork) {
     if (TRACKED_MCF_SANITIZED) GTEST_SKIP() << "sanitizers need the whole address space";
     write_file(folder_ / "b.ply", "before");
-    const ProgramRun result =
-        run_program(folder_, "a.off b.ply --method shared-cells --depth 12 --report r.json",
-                    "ulimit -v 2000000;");
+    const ProgramRun result = run_program(
+        folder_, "a.off b.ply --method paper --depth 12 --report r.json", "ulimit -v 2000000;");
     EXPECT_EQ(result.exit_code, 1);
-    EXPECT_THAT(result.errors, StartsWith("tracked_mcf: Depth 12 would need about "));
-    EXPECT_THAT(result.errors, HasSubstr(" GB are free. Choose depth "));
+    EXPECT_THAT(result.errors,
+                StartsWith("tracked_mcf: Depth 12 of the paper's method would need about "));
+    EXPECT_THAT(result.errors, HasSubstr(" GB are free. Choose a smaller depth"));
     EXPECT_THAT(result.output, IsEmpty());
     EXPECT_EQ(read_file(folder_ / "b.ply"), "before");
     EXPECT_FALSE(std::filesystem::exists(folder_ / "r.json"));

@@ -10,10 +10,10 @@
 #include <stdexcept>
 #include <vector>
 
+#include "filter_tracked_mcf/core/cells/grid.h"
 #include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/mesh/measures.h"
 #include "filter_tracked_mcf/core/parallel/progress_meter.h"
-#include "filter_tracked_mcf/core/solver/conjugate_gradients.h"
 #include "tests/support/not_finite.h"
 #include "tests/support/shapes.h"
 #include "tests/support/surface_distance.h"
@@ -22,53 +22,44 @@
 namespace tracked_mcf {
 namespace {
 
-TEST(Evolve, ThePapersSolverSamplesEachSplitTriangle) {
-    TriangleMesh mesh = shapes::bumpy_sphere(20);
-    FlowParameters papers = parameters(5, 1e-3, 1);
-    papers.solver = Solver::OneWCycle;
-    const FlowReport report = evolve(mesh, papers);
-    EXPECT_EQ(report.samples, 3 * report.split_triangles);
-}
-
-TEST(Evolve, SmallFragmentsAreSampledAccurately) {
-    const TriangleMesh initial = shapes::bumpy_sphere(20);
-    const auto flowed = [&](Cubature cubature) {
-        TriangleMesh mesh = initial;
-        FlowParameters p = parameters(6, 1e-3, 3);
-        p.solver = Solver::Grid;
-        p.cubature = cubature;
-        evolve(mesh, p);
-        return mesh;
-    };
-    const TriangleMesh exact = flowed(Cubature::Degree6);
-    const double error = rms_distance(flowed(Cubature::ThreePoints), exact);
-    // 0.8e-4. If fragments of any size had three samples, it would be 7.5e-4.
-    EXPECT_LT(error, 1.5e-4 * rms_distance(initial, exact));
-}
-
-TEST(Evolve, ReportsSizesAndResiduals) {
+TEST(Evolve, ReportsThePapersSizesAndResiduals) {
     TriangleMesh mesh = shapes::bumpy_sphere(20);
     FlowParameters p = parameters(5, 1e-3, 3);
-    p.solver = Solver::Grid;
+    p.method = Method::Paper;
     const FlowReport report = evolve(mesh, p);
     EXPECT_EQ(report.vertices, 4002);
     EXPECT_EQ(report.triangles, 8000);
     EXPECT_EQ(report.depth, 5);
     EXPECT_GT(report.cells, 1000);
+    EXPECT_EQ(report.elements, report.cells);
     EXPECT_GT(report.unknowns, report.cells);
     EXPECT_GT(report.fragments, report.triangles);
     EXPECT_GT(report.split_triangles, report.fragments);
-    EXPECT_GE(report.samples, 3 * report.fragments);
-    EXPECT_LT(report.samples, 3 * report.split_triangles);
+    EXPECT_EQ(report.samples, 3 * report.split_triangles);
     EXPECT_EQ(report.constrained_unknowns, 0);
     EXPECT_LT(report.area_after, report.area_before);
     EXPECT_GT(report.peak_memory_bytes, 1000000);
     ASSERT_EQ(report.steps.size(), 3U);
     for (const StepReport& step : report.steps) {
         EXPECT_LT(step.residual_after, 0.2 * step.residual_before);
+        EXPECT_EQ(step.solver_iterations, 1);
         EXPECT_EQ(step.collapsed_samples, 0);
     }
     EXPECT_NEAR(report.steps[0].area, report.area_before, 1e-6 * report.area_before);
+}
+
+TEST(Evolve, ThePapersAutomaticDepthHasAboutAsManyUnknownsAsVertices) {
+    for (const TriangleMesh& mesh : {shapes::geodesic_sphere(20), shapes::bumpy_sphere(60),
+                                     shapes::torus(120, 40, 1, 0.3), shapes::square(50)}) {
+        FlowParameters p = parameters(0, 1e-5, 1);
+        p.method = Method::Paper;
+        TriangleMesh after = mesh;
+        const FlowReport report = evolve(after, p);
+        const double ratio =
+            static_cast<double>(report.unknowns) / static_cast<double>(report.vertices);
+        EXPECT_GT(ratio, 0.35) << report.depth;
+        EXPECT_LT(ratio, 2.5) << report.depth;
+    }
 }
 
 TEST(Evolve, ReportsTheOctreeOnlyIfThereIsOne) {
@@ -85,7 +76,7 @@ TEST(Evolve, ReportsTheOctreeOnlyIfThereIsOne) {
     for (const StepReport& step : report.steps) {
         EXPECT_LT(step.residual_after, 0.01 * step.residual_before);
     }
-    const FlowReport of_default = evolve(mesh, FlowParameters());  // removes waves of 2.5 edges
+    const FlowReport of_default = evolve(mesh, FlowParameters());  // removes short waves
     EXPECT_EQ(of_default.depth, 0);
     EXPECT_EQ(of_default.cells, 0);
 }
@@ -117,9 +108,9 @@ TEST(Evolve, ReportsHowTheSurfaceChanged) {
 
 TEST(Evolve, ReportsOfASoupWhatItReportsOfTheMesh) {
     const TriangleMesh mesh = bumpy_cap(20);
-    for (const Solver solver : {Solver::Converged, Solver::Grid, Solver::OneWCycle}) {
+    for (const Method method : {Method::Converged, Method::Paper}) {
         FlowParameters p = parameters(5, 1e-3, 2);
-        p.solver = solver;
+        p.method = method;
         TriangleMesh welded = mesh, soup = shapes::soup(mesh);
         const FlowReport of_mesh = evolve(welded, p), of_soup = evolve(soup, p);
         EXPECT_EQ(of_soup.vertices, of_mesh.vertices);
@@ -274,13 +265,26 @@ TEST(Evolve, RejectsParametersOutOfRangeAndNamesThem) {
         expect_rejected<InvalidParameter>(mesh, p, "tolerance");
     }
     p.tolerance = 1e-3;
-    for (const Solver solver : {Solver::Converged, Solver::Grid, Solver::OneWCycle}) {
-        p.solver = solver;
-        for (const double weight : {-1e-9, 1001.0, kNaN, kInfinity, -kInfinity}) {
-            p.stabilization = weight;
-            expect_rejected<InvalidParameter>(mesh, p, "stabilization");
-        }
-    }
+}
+
+TEST(Evolve, RefusesWhatThePapersMethodDoesNotHave) {
+    const TriangleMesh mesh = shapes::bumpy_sphere(6);
+    FlowParameters paper;
+    paper.method = Method::Paper;
+    FlowParameters p = paper;
+    p.flow = FlowKind::Conformalized;
+    expect_rejected<InvalidParameter>(mesh, p, "flow asks for what the method Paper");
+    p = paper;
+    p.preserve = Preserve::Area;
+    expect_rejected<InvalidParameter>(mesh, p, "preserve asks for");
+    p = paper;
+    p.local_detail_size = true;
+    expect_rejected<InvalidParameter>(mesh, p, "local_detail_size asks for");
+    TriangleMesh after = mesh;
+    EXPECT_THROW(evolve(after, Selection(mesh.triangles.size(), 1), paper), InvalidParameter);
+    EXPECT_THROW(evolve(after, Inputs({}, std::vector<double>(mesh.positions.size(), 1)), paper),
+                 InvalidParameter);
+    EXPECT_TRUE(same_bits(after, mesh));
 }
 
 TEST(Evolve, SaysWhichNumbersAParameterMayBe) {
@@ -301,7 +305,7 @@ TEST(Evolve, SaysWhichNumbersAParameterMayBe) {
     p.detail_size = -1;
     EXPECT_EQ(
         complaint(p),
-        "detail_size is -1; give 0 or more, in units of the mesh, where 0 takes 2.5 mean edge "
+        "detail_size is -1; give 0 or more, in units of the mesh, where 0 takes 3 mean edge "
         "lengths.");
     p.detail_size = 0;
     p.order = 5;
@@ -312,12 +316,7 @@ TEST(Evolve, SaysWhichNumbersAParameterMayBe) {
     EXPECT_EQ(complaint(p),
               "tolerance is 1; give a number greater than 0 and less than 1, such as 1e-3.");
     p.tolerance = 1e-10;
-    p.stabilization = -1;
-    EXPECT_EQ(complaint(p), "stabilization is -1; give 0 to 1000, where 0 is none.");
-    for (const double weight : {0.0, kMaximumStabilization}) {
-        p.stabilization = weight;
-        EXPECT_EQ(complaint(p), "none");
-    }
+    EXPECT_EQ(complaint(p), "none");
 }
 
 TEST(Evolve, AcceptsAnyAbsoluteStepSize) {
@@ -333,32 +332,16 @@ TEST(Evolve, AcceptsAnyAbsoluteStepSize) {
     EXPECT_TRUE(same_bits(far, evolved(cap, p)));
 }
 
-TEST(Evolve, StabilizesTheGridByDefault) {
-    FlowParameters p;
-    EXPECT_EQ(stabilization_of(p), kDefaultStabilization);
-    p.solver = Solver::OneWCycle;
-    EXPECT_EQ(stabilization_of(p), 0);
-    p.stabilization = 0.1;
-    EXPECT_EQ(stabilization_of(p), 0.1);
-    p.solver = Solver::Grid;
-    p.stabilization = 0;
-    EXPECT_EQ(stabilization_of(p), 0);
-}
-
 TEST(Evolve, ReachesATightToleranceOrReportsThatItDidNot) {
     FlowParameters p = parameters(4, 1e-3, 2);
-    for (p.solver = Solver::Converged;; p.solver = Solver::Grid) {
-        for (const double tolerance : {1e-10, 1e-30}) {  // double precision cannot reach the second
-            p.tolerance = tolerance;
-            TriangleMesh mesh = shapes::bumpy_sphere(10);
-            for (const StepReport& step : evolve(mesh, p).steps) {
-                EXPECT_EQ(step.reached_tolerance, tolerance == 1e-10);
-                EXPECT_EQ(step.reached_tolerance, step.error_estimate <= tolerance);
-                EXPECT_GT(step.solver_iterations, 3);
-                EXPECT_LE(step.solver_iterations, kMaximumSolverIterations);
-            }
+    for (const double tolerance : {1e-10, 1e-30}) {  // double precision cannot reach the second
+        p.tolerance = tolerance;
+        TriangleMesh mesh = shapes::bumpy_sphere(10);
+        for (const StepReport& step : evolve(mesh, p).steps) {
+            EXPECT_EQ(step.reached_tolerance, tolerance == 1e-10);
+            EXPECT_EQ(step.reached_tolerance, step.error_estimate <= tolerance);
+            EXPECT_GT(step.solver_iterations, 3);
         }
-        if (p.solver == Solver::Grid) break;
     }
 }
 
@@ -438,10 +421,10 @@ TEST(Evolve, HugeStepsAndTinyMeshesStayFinite) {
 TEST(Evolve, ClosedMeshesStayInTheirBoxAtAnyStepSize) {
     const TriangleMesh mesh = shapes::bumpy_sphere(16);
     const Grid box = enclosing_grid(mesh, 0);
-    for (const Solver solver : {Solver::Converged, Solver::Grid, Solver::OneWCycle}) {
+    for (const Method method : {Method::Converged, Method::Paper}) {
         for (const double step : {1.0, 1e2, 1e4, 1e6, 1e9}) {
             FlowParameters p = parameters(6, step, 2);
-            p.solver = solver;
+            p.method = method;
             for (const auto& position : evolved(mesh, p).positions) {
                 const Eigen::Vector3d local = box.to_grid(position);
                 EXPECT_GT(local.minCoeff(), 0) << step;

@@ -13,6 +13,7 @@ namespace tracked_mcf {
 
 inline FlowParameters parameters(int depth, double step_size, int iterations) {
     FlowParameters p;
+    p.order = 1;  // the flow itself
     p.depth = depth;
     p.step_size = step_size;
     p.iterations = iterations;

@@ -2,46 +2,67 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <vector>
 
-#include "filter_tracked_mcf/core/solver/element_multigrid.h"
 #include "filter_tracked_mcf/core/solver/paper/multigrid.h"
+#include "filter_tracked_mcf/core/solver/vertex_octree.h"
 #include "filter_tracked_mcf/core/system/constrained_cells.h"
 #include "filter_tracked_mcf/core/system/element_matrices.h"
-#include "filter_tracked_mcf/core/system/stabilization.h"
 #include "tests/support/elements.h"
 #include "tests/support/shapes.h"
+#include "tests/unit/mesh_system.h"
 
 namespace tracked_mcf {
 
-/// Options of a System.
-struct SystemOptions {
-    bool lock = false;         ///< constrain the cells of the boundary
-    double stabilization = 0;  ///< weight
+/// Levels of an octree, coarsest first, and the matrices of the finest elements.
+struct LevelSystem {
+    const Level& finest() const { return levels.back(); }
+
+    std::vector<Level> levels;
+    MatrixBlocks matrices;
 };
 
-/// The system of a flow's first step on a mesh.
+/// Returns those of a flow's first step on the octree that preconditions: the one of the mesh's
+/// vertices, in which close sheets have elements of their own. `step` is in squared cells.
+inline LevelSystem vertex_system(const TriangleMesh& mesh, int depth, double step) {
+    const FlowSurface surface = flow_surface(mesh);
+    Eigen::AlignedBox3d box;
+    for (const Eigen::Vector3d& position : surface.positions) box.extend(position);
+    const Grid grid = with_depth(cube_around(box), depth);
+    const VertexOctree octree(surface.stars, surface.positions, grid);
+    const TriangleElements elements = elements_of(surface);
+    MeshSystem system(surface.stars, surface.fixed);
+    system.take(elements, step * grid.cell_size * grid.cell_size);
+    LevelSystem result{octree.levels(), {}};
+    octree.assemble(system, elements, result.matrices);
+    return result;
+}
+
+/// The system of the first step of the paper's flow on a mesh. `step` is in squared cells.
 struct FirstStep {
-    FirstStep(const TriangleMesh& mesh, int depth, float step, const SystemOptions& options)
+    FirstStep(const TriangleMesh& mesh, int depth, double step, bool lock = false)
         : elements(
               build_tracked_elements(mesh, enclosing_grid(mesh, depth), Cubature::ThreePoints)),
-          constrained(constrained_unknowns(
-              elements, options.lock ? BoundaryCondition::LockedCells : BoundaryCondition::Free)) {
-        assemble_elements(elements, Coefficients::Zero(elements.finest().unknown_count(), 3),
-                          {1, step}, systems);
-        Stabilization(elements).add(options.stabilization, step, systems.matrices);
+          constrained(constrained_unknowns(elements)) {
+        if (!lock) {
+            for (auto& level : constrained) std::fill(level.begin(), level.end(), std::uint8_t{0});
+        }
+        assemble_elements(elements, Coefficients::Zero(elements.finest().unknown_count(), 3), step,
+                          false, systems);
     }
     Field zero() const { return Field::Zero(4, elements.finest().unknown_count()); }
+    LevelSystem levels() const { return {elements.levels, systems.matrices}; }
 
     TrackedElements elements;
     std::vector<std::vector<std::uint8_t>> constrained;
     ElementSystems systems;
 };
 
-/// The system of the first step with the paper's solver.
+/// The same with the paper's solver.
 struct System : FirstStep {
-    System(const TriangleMesh& mesh, int depth, float step, const SystemOptions& options = {})
-        : FirstStep(mesh, depth, step, options), multigrid(elements, constrained) {
+    System(const TriangleMesh& mesh, int depth, double step, bool lock = false)
+        : FirstStep(mesh, depth, step, lock), multigrid(elements, constrained) {
         multigrid.refresh(systems.matrices);
         multigrid.finest().assemble(systems.right_sides, right_side);
     }
@@ -55,31 +76,32 @@ struct System : FirstStep {
     Field right_side;
 };
 
-/// The system of the first step with the multigrid that preconditions conjugate gradients.
-struct ElementSystem : FirstStep {
-    ElementSystem(const TriangleMesh& mesh, int depth, float step,
-                  const SystemOptions& options = {})
-        : FirstStep(mesh, depth, step, options), multigrid(elements.levels, constrained) {
-        multigrid.refresh(systems.matrices, step);
-        multigrid.assemble(systems.right_sides, right_side);
-    }
-
-    ElementMultigrid multigrid;
-    Field right_side;
-};
-
-inline Field random_field(const FirstStep& step) {
-    Field random = Field::Random(4, step.elements.finest().unknown_count());
+inline Field random_field(const Level& level) {
+    Field random = Field::Random(4, level.unknown_count());
     random.row(3).setZero();
     return random;
 }
 
+/// Returns the product of the matrix of a system's finest level and a vector.
+inline Field times(const LevelSystem& system, const Field& x) {
+    const Level& level = system.finest();
+    Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(4, level.unknown_count());
+    for (std::int32_t element = 0; element < level.element_count(); ++element) {
+        const auto& unknowns = level.unknowns[element];
+        for (int i = 0; i < 8; ++i) {
+            for (int j = 0; j < 8; ++j) {
+                sum.col(unknowns[i]) +=
+                    system.matrices.at(element, i, j) * x.col(unknowns[j]).cast<double>();
+            }
+        }
+    }
+    return sum.cast<float>();
+}
+
 /// Returns A times a random field. A random right-hand side would mostly excite nearly dependent
 /// functions, which would hide all other errors of an operator.
-inline Field random_right_side(const ElementSystem& system) {
-    Field right_side;
-    system.multigrid.multiply(random_field(system), right_side);
-    return right_side;
+inline Field random_right_side(const LevelSystem& system) {
+    return times(system, random_field(system.finest()));
 }
 
 using Dense = Eigen::MatrixXd;
@@ -103,8 +125,8 @@ inline Dense assembled(const Level& level, const MatrixBlocks& matrices) {
 }
 
 /// Returns the finest level's matrix.
-inline Dense assembled(const FirstStep& step) {
-    return assembled(step.elements.finest(), step.systems.matrices);
+inline Dense assembled(const LevelSystem& system) {
+    return assembled(system.finest(), system.matrices);
 }
 
 /// Returns a field as one row per unknown.
@@ -112,7 +134,7 @@ inline Dense as_dense(const Field& field) {
     return field.cast<double>().transpose();
 }
 
-/// Two nearby sheets, so that several unknowns are at one corner.
+/// Two nearby sheets, so that several unknowns of an octree of vertices are at one corner.
 inline TriangleMesh two_shells() {
     const TriangleMesh sphere = shapes::bumpy_sphere(20);
     return shapes::merged(sphere,

@@ -83,11 +83,6 @@ Eigen::AlignedBox3d box_of(const TriangleMesh& mesh, const std::vector<bool>& ve
     return box;
 }
 
-bool is_well_posed(const FlowParameters& parameters) {
-    const double weight = stabilization_of(parameters);
-    return weight >= 1e-3 && weight <= 10;
-}
-
 std::string number(double value) {
     std::ostringstream text;
     text << value;

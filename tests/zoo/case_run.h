@@ -30,10 +30,6 @@ std::vector<bool> vertices_of(const TriangleMesh& mesh, const Selection& selecti
 /// Returns the bounding box of some vertices.
 Eigen::AlignedBox3d box_of(const TriangleMesh& mesh, const std::vector<bool>& vertices);
 
-/// Returns whether conjugate gradients solve the system as they say. With little stabilisation, it
-/// is nearly singular. Beside a large one, single precision loses the rest of the system.
-bool is_well_posed(const FlowParameters& parameters);
-
 /// Returns a number as messages give it.
 std::string number(double value);
 

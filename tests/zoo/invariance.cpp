@@ -33,8 +33,6 @@ void shuffle(std::vector<std::int32_t>& items, Random& random) {
 /// solved, and no decision was made that rounding could turn.
 bool is_regular(const Case& made, const FlowReport& report) {
     if (!made.makes_flow()) return true;
-    const FlowParameters& parameters = made.parameters;
-    if (parameters.solver == Solver::Grid && !is_well_posed(parameters)) return false;
     if (report.stop != Stop::None) return false;
     return std::all_of(report.steps.begin(), report.steps.end(), [](const StepReport& step) {
         return step.reached_tolerance && step.collapsed_samples == 0;

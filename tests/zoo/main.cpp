@@ -73,7 +73,7 @@ Case Zoo::make_case(std::int64_t number) const {
     if (options_.fair) return fair_case_of(options_.seed, number);
     Case made = case_of(options_.seed, number);
     if (options_.tolerance > 0) {
-        made.parameters.solver = Solver::Converged;
+        made.parameters.method = Method::Converged;
         made.parameters.tolerance = options_.tolerance;
     }
     return made;

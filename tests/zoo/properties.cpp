@@ -10,7 +10,6 @@
 #include <string>
 #include <utility>
 
-#include "filter_tracked_mcf/core/flow/confinement.h"
 #include "filter_tracked_mcf/core/flow/preserving.h"
 #include "filter_tracked_mcf/core/mesh/measures.h"
 #include "filter_tracked_mcf/core/mesh/mesh_topology.h"
@@ -166,7 +165,7 @@ void Checker::check_time() {
                  static_cast<double>(base_.report.fragments));
     const double size = static_cast<double>(case_.mesh.triangles.size()) + fragments;
     const FlowParameters& parameters = case_.parameters;
-    const int cycles = parameters.solver == Solver::OneWCycle ? parameters.cycles : 1;
+    const int cycles = parameters.method == Method::Paper ? parameters.cycles : 1;
     const double solves = 1.0 * parameters.iterations * parameters.order * cycles;
     allow_time(0.5 + 1e-4 * size * (10 + solves));
 }
@@ -203,8 +202,9 @@ void Checker::check_finite() {
 }
 
 /// Both flows obey a maximum principle for each coordinate. On the mesh, steps of order 1 keep it;
-/// the grid's functions do up to the margin of flow/confinement.h. A surface that is scaled, or
-/// inflated by a pressure, keeps to the cube of flow/preserving.cpp around each of its components.
+/// others, and the paper's, do up to the margins of flow/mesh_flow.cpp and flow/paper_flow.h. A
+/// surface that is scaled, or inflated by a pressure, keeps to the cube of flow/preserving.cpp
+/// around each of its components.
 ///
 /// Steps of fourth order, which remove noise, obey no maximum principle. They keep to a larger box,
 /// see confinement() in core/noise/noisy_surface.h.
@@ -213,15 +213,15 @@ void Checker::check_box() {
     const double diagonal = box_.diagonal().norm();
     if (case_.noise) return check_box_within(kNoiseMargin * diagonal);
     if (case_.fair) return check_box_within(kFairMargin * diagonal);
-    if (parameters.solver == Solver::Converged && parameters.order == 1 &&
+    if (parameters.method == Method::Converged && parameters.order == 1 &&
         parameters.preserve == Preserve::None) {
         const double farthest =
             std::max(box_.min().cwiseAbs().maxCoeff(), box_.max().cwiseAbs().maxCoeff());
         return check_box_within(1e-10 * diagonal + 1e-15 * farthest);  // rounding
     }
-    double allowed = Confinement::kMarginInDiagonals * diagonal +
-                     Confinement::kMarginInCells * base_.report.cell_size;
-    if (parameters.order > 1) allowed += Confinement::kMarginInDetail * diagonal;
+    constexpr double of_paper = 0.1, of_orders = 0.1 + 0.02;
+    double allowed = parameters.method == Method::Paper ? of_paper * diagonal : 0;
+    if (parameters.order > 1) allowed = std::max(allowed, of_orders * diagonal);
     if (parameters.preserve != Preserve::None) {
         const double growth = parameters.flow == FlowKind::Conformalized
                                   ? kLargestConformalizedGrowth
@@ -270,9 +270,7 @@ void Checker::check_area() {
     const FlowReport& report = base_.report;
     const FlowParameters& parameters = case_.parameters;
     if (parameters.order > 1 || parameters.preserve != Preserve::None) return;
-    const bool is_close =
-        parameters.boundary != BoundaryCondition::Locked && parameters.solver != Solver::Converged;
-    const double factor = is_close ? 1 + 1e-5 : 1 + 1e-3;
+    const double factor = parameters.method == Method::Paper ? 1 + 1e-5 : 1 + 1e-3;
     const double sides = sum_of_sides(case_.mesh, case_.inputs.selection);
     for (const StepReport& step : report.steps) {
         const double before = report.steps.front().area;
@@ -281,12 +279,10 @@ void Checker::check_area() {
         fail(Property::Area, "tracked surface: " + number(step.area / before) + " times");
         return;
     }
-    const bool to_tolerance = parameters.solver == Solver::Converged ||
-                              (parameters.solver == Solver::Grid && is_well_posed(parameters));
     const bool is_line = report.area_before < 1e-9 * box_.diagonal().norm() * sides;
-    if (!to_tolerance || is_line || parameters.flow != FlowKind::MeanCurvature) return;
-    const double in_cells = report.constrained_vertices > 0 ? 0.1 : 1e-6;
-    const double error = in_cells * report.cell_size + 1e-3 * report.largest_displacement;
+    if (parameters.method == Method::Paper || is_line || parameters.flow != FlowKind::MeanCurvature)
+        return;
+    const double error = 1e-6 * report.mean_edge + 1e-3 * report.largest_displacement;
     const double allowed = 1.001 * report.area_before + error * sides;
     if (report.area_after <= allowed) return;
     const Run split = run(split_in_four(case_));

@@ -84,17 +84,19 @@ void set_step_size(FlowParameters& parameters, double side, Random& random) {
 
 /// Parameters that change the discretisation or the solver. Most cases have the defaults.
 void set_numerics(FlowParameters& parameters, Random& random) {
-    if (random.chance(0.3)) parameters.solver = random.pick({Solver::Grid, Solver::OneWCycle});
-    // The mesh has no cells to lock.
-    const bool locks_cells = parameters.boundary == BoundaryCondition::LockedCells;
-    if (locks_cells && parameters.solver == Solver::Converged) parameters.solver = Solver::Grid;
-    if (random.chance(0.2)) parameters.separate_sheets = false;
     if (random.chance(0.2)) parameters.tolerance = random.pick({0.5, 1e-1, 1e-6});
-    if (random.chance(0.2)) parameters.stabilization = random.pick({0.0, 1e-4, 1.0, 1e3});
     if (random.chance(0.2)) parameters.cycles = random.integer(2, 5);
     if (random.chance(0.2)) {
         parameters.cubature = random.pick({Cubature::OnePoint, Cubature::Degree6});
     }
+}
+
+/// Takes the paper's method, and nothing that it does not have.
+void make_papers(FlowParameters& parameters) {
+    parameters.method = Method::Paper;
+    parameters.flow = FlowKind::MeanCurvature;
+    parameters.preserve = Preserve::None;
+    parameters.local_detail_size = false;
 }
 
 FlowParameters random_parameters(double side, Random& random) {
@@ -104,18 +106,16 @@ FlowParameters random_parameters(double side, Random& random) {
     parameters.iterations = random.chance(0.3) ? random.integer(4, 50) : random.integer(1, 3);
     if (random.chance(0.3)) parameters.order = random.integer(2, kMaximumOrder);
     parameters.flow = random.pick({FlowKind::MeanCurvature, FlowKind::Conformalized});
-    parameters.boundary = random.pick(
-        {BoundaryCondition::Locked, BoundaryCondition::LockedCells, BoundaryCondition::Free});
+    parameters.boundary = random.pick({BoundaryCondition::Locked, BoundaryCondition::Free});
     if (random.chance(0.4)) parameters.preserve = random.pick({Preserve::Area, Preserve::Volume});
     // Scaling needs a free boundary; most of the other cases would only be refused.
     if (parameters.preserve != Preserve::None && random.chance(0.7)) {
         parameters.boundary = BoundaryCondition::Free;
     }
     if (random.chance(0.3)) parameters.quality = Quality::Displacement;
-    if (random.chance(0.3) && parameters.flow == FlowKind::MeanCurvature) {
-        parameters.quality = Quality::MeanCurvature;
-    }
+    if (random.chance(0.3)) parameters.quality = Quality::MeanCurvature;
     set_numerics(parameters, random);
+    if (random.chance(0.15)) make_papers(parameters);
     return parameters;
 }
 
@@ -153,7 +153,7 @@ double fragments_at(const TriangleMesh& mesh, const Selection& selection, int de
         const Eigen::Vector3d u = cells_per_unit * (mesh.positions[t[1]] - mesh.positions[t[0]]);
         const Eigen::Vector3d v = cells_per_unit * (mesh.positions[t[2]] - mesh.positions[t[0]]);
         // On average over positions, a triangle meets about as many cells as this, see
-        // core/plan/memory_estimate.h.
+        // core/plan/paper_memory.cpp.
         fragments += 1 + u.lpNorm<1>() + v.lpNorm<1>() + u.cross(v).lpNorm<1>();
     }
     return fragments;
@@ -184,6 +184,7 @@ Case case_of(std::uint64_t seed, std::int64_t number) {
         box_of_selected(made.mesh, made.inputs.selection).sizes().maxCoeff(), random);
     limit_work(made, kMostFragments);
     if (random.chance(0.1)) made.inputs.strength = random_strength(made.mesh, random);
+    if (made.parameters.method == Method::Paper) made.inputs = {};
     // Vertices on both sides of a crack take the strength of the first of them.
     if (made.kind == "cracked") made.inputs.strength.clear();
     return made;
@@ -232,8 +233,7 @@ template <class Parameters>
 void write_options(const Parameters& parameters, std::ostream& text) {
     for (const auto& parameter : parameter_table<Parameters>()) {
         const ParameterValue value = parameter.get(parameters);
-        // The default of the stabilisation depends on the method.
-        if (value == parameter.initial && parameter.name != "stabilization") continue;
+        if (value == parameter.initial) continue;
         std::string option = parameter.name;
         std::replace(option.begin(), option.end(), '_', '-');
         text << " --" << option;

@@ -94,46 +94,6 @@ const std::vector<CubatureNode>& cubature_rule(Cubature cubature) {
     return three;
 }
 
-bool is_small(const Polygon& polygon) {
-    const auto is_short = [&](int axis) {
-        const Extent extent = extent_along(polygon, axis);
-        return extent.largest - extent.smallest <= kSmall;
-    };
-    return is_short(0) && is_short(1) && is_short(2);
-}
-
-std::array<WeightedPoint, 3> nodes_of_whole(const Polygon& polygon,
-                                            const std::array<Eigen::Vector3d, 3>& triangle) {
-    const Eigen::Vector3d& origin = polygon.points[0];
-    Eigen::Matrix<double, 3, 2> axes;
-    // The median from the first corner: a triangle turned over is sampled alike.
-    axes.col(0) = (triangle[1] + triangle[2] - 2 * triangle[0]).normalized();
-    axes.col(1) =
-        twice_vector_area(triangle[0], triangle[1], triangle[2]).normalized().cross(axes.col(0));
-    PlaneMoments moments;
-    Eigen::Vector2d last = axes.transpose() * (polygon.points[1] - origin);
-    for (int i = 2; i < polygon.size; ++i) {
-        const Eigen::Vector2d next = axes.transpose() * (polygon.points[i] - origin);
-        moments.add(last, next);
-        last = next;
-    }
-    const double per_area = moments.area > 0 ? 1 / moments.area : 0;
-    const Eigen::Vector2d centroid = per_area * moments.first;
-    const Eigen::Matrix2d twice_covariance =
-        2 * (per_area * moments.second - centroid * centroid.transpose());
-    // The columns of √2 L, by Cholesky. Of a polygon that is a line, rounding leaves no more than
-    // the Cauchy-Schwarz inequality allows.
-    const auto root = [](double square) { return std::sqrt(std::max(square, 0.0)); };
-    const double along = root(twice_covariance(0, 0)), most = root(twice_covariance(1, 1));
-    const double shear = along > 0 ? twice_covariance(1, 0) / along : 0;
-    const Eigen::Vector2d a(along, std::clamp(shear, -most, most));
-    const Eigen::Vector2d b(0, std::sqrt(0.75) * root(most * most - a[1] * a[1]));
-    const auto node = [&](const Eigen::Vector2d& q) {
-        return WeightedPoint{origin + axes * q, moments.area / 3};
-    };
-    return {node(centroid + a), node(centroid - 0.5 * a + b), node(centroid - 0.5 * a - b)};
-}
-
 int fan_apex(const Polygon& polygon, const std::array<Eigen::Vector3d, 3>& triangle) {
     int apex = 0;
     for (int i = 1; i < polygon.size; ++i) {

@@ -31,19 +31,6 @@ struct WeightedPoint {
     double weight;
 };
 
-/// Returns whether three nodes for a polygon as a whole are nearly as exact as three for each
-/// triangle of its fan: it extends at most half a cell along each axis.
-bool is_small(const Polygon& polygon);
-
-/// Returns three nodes for a polygon of a triangle as a whole, exact to degree 2. They are the
-/// points c + √2 L u, where c is the centroid, L Lᵀ the covariance in the plane, and u are three
-/// unit vectors at angles of 120°. They lie inside, because a convex set in the plane contains the
-/// ellipse with √2 L as axes (Kannan, Lovász and Simonovits, "Isoperimetric problems for convex
-/// bodies and a localization lemma", 1995). Like a fan, they do not depend on the axes, nor on the
-/// side from which the triangle is seen.
-std::array<WeightedPoint, 3> nodes_of_whole(const Polygon& polygon,
-                                            const std::array<Eigen::Vector3d, 3>& triangle);
-
 /// Returns the index of the polygon's point nearest to the triangle's first corner. Ties are
 /// decided by the distance to the second corner, then to the third.
 int fan_apex(const Polygon& polygon, const std::array<Eigen::Vector3d, 3>& triangle);

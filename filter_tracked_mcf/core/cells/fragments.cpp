@@ -45,7 +45,7 @@ unsigned edges_of(const Polygon& polygon) {
     return edges;
 }
 
-/// Appends the fragments of a triangle. Their index_by_triangle is not set yet.
+/// Appends the fragments of a triangle.
 void add_fragments(const std::array<Eigen::Vector3d, 3>& corners, std::int32_t triangle,
                    bool degenerate, std::int32_t cells_per_side,
                    std::vector<FragmentEntry>& fragments, Pacer& pacer) {
@@ -54,7 +54,6 @@ void add_fragments(const std::array<Eigen::Vector3d, 3>& corners, std::int32_t t
         fragment.cell = morton_code(cell) & kCellBits;
         fragment.split_triangles =
             degenerate ? 0U : static_cast<unsigned>(std::max(polygon.size - 2, 0)) & kCountBits;
-        fragment.is_small = !degenerate && polygon.size > 3 && is_small(polygon) ? 1U : 0U;
         fragment.corners = corners_of(polygon) & kFlagBits;
         fragment.edges = edges_of(polygon) & kFlagBits;
         fragment.triangle = triangle;
@@ -93,14 +92,6 @@ RawVector<FragmentEntry> list_fragments(ClippedSurface& surface) {
     return fragments;
 }
 
-void number_by_triangle(RawVector<FragmentEntry>& fragments) {
-    if (fragments.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
-        throw InvalidParameter("The octree is too deep for this mesh; choose a smaller depth.");
-    }
-    parallel_for_rows(static_cast<std::int64_t>(fragments.size()),
-                      [&](std::int32_t i) { fragments[i].index_by_triangle = i; });
-}
-
 }  // namespace
 
 GridMesh to_grid(const SurfaceView& mesh, const Grid& grid) {
@@ -114,7 +105,6 @@ GridMesh to_grid(const SurfaceView& mesh, const Grid& grid) {
 ClippedSurface clip_to_grid(const SurfaceView& mesh, const Grid& grid) {
     ClippedSurface surface{grid, to_grid(mesh, grid), {}, 0};
     surface.fragments = list_fragments(surface);
-    number_by_triangle(surface.fragments);
     sort_by(surface.fragments, [](const FragmentEntry& fragment) { return fragment.cell; });
     return surface;
 }

@@ -34,17 +34,14 @@ GridMesh to_grid(const SurfaceView& mesh, const Grid& grid);
 inline constexpr double kDegenerate = 1e-12;
 
 /// A fragment: a (triangle, cell) pair, with flags of the triangle's corners and sides inside the
-/// closed cell. Degenerate triangles have fragments too. They carry no area, but they connect the
-/// surface, and their vertices need test functions. Bit-fields save memory: a surface has many
-/// fragments.
+/// closed cell. Degenerate triangles have fragments too: they carry no area, but their vertices
+/// need test functions. Bit-fields save memory: a surface has many fragments.
 struct FragmentEntry {
     MortonCode cell : 40;
-    std::uint64_t split_triangles : 8;  ///< triangles in the polygon's fan; 0 if degenerate
-    std::uint64_t is_small : 8;         ///< whether it has a fan, and is small (cubature.h)
-    std::uint64_t corners : 4;          ///< bit i: corner i of the triangle lies in the cell
-    std::uint64_t edges : 4;            ///< bit i: more than a point of side i of the triangle does
+    std::uint64_t split_triangles : 16;  ///< triangles in the polygon's fan; 0 if degenerate
+    std::uint64_t corners : 4;           ///< bit i: corner i of the triangle lies in the cell
+    std::uint64_t edges : 4;  ///< bit i: more than a point of side i of the triangle does
     std::int32_t triangle;
-    std::int32_t index_by_triangle;  ///< index of the fragment when sorted by triangle
 };
 static_assert(3 * kMaximumDepth <= 40 && sizeof(FragmentEntry) == 16);
 

@@ -9,11 +9,8 @@
 #include "filter_tracked_mcf/core/cells/bspline.h"
 #include "filter_tracked_mcf/core/cells/clip.h"
 #include "filter_tracked_mcf/core/cells/cubature.h"
-#include "filter_tracked_mcf/core/elements/curve_samples.h"
 #include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/mesh/measures.h"
-#include "filter_tracked_mcf/core/octree/sheet_links.h"
-#include "filter_tracked_mcf/core/octree/sheets.h"
 #include "filter_tracked_mcf/core/parallel/parallel.h"
 #include "filter_tracked_mcf/core/parallel/setup_phases.h"
 
@@ -37,13 +34,12 @@ void claim(std::atomic<std::int32_t>& vertex, std::int32_t element) {
 class ElementBuilder {
 public:
     ElementBuilder(TrackedElements& elements, const Domain& domain, const GridMesh& mesh,
-                   const RawVector<FragmentEntry>& entries, const Discretisation& discretisation)
+                   const RawVector<FragmentEntry>& entries, Cubature cubature)
         : elements_(elements),
           domain_(domain),
           mesh_(mesh),
           entries_(entries),
-          rule_(cubature_rule(discretisation.cubature)),
-          some_whole_(discretisation.whole_fragments),
+          rule_(cubature_rule(cubature)),
           claims_(mesh.positions.size()) {
         parallel_for_rows(static_cast<std::int64_t>(claims_.size()), [&](std::int32_t vertex) {
             claims_[vertex].store(kUnclaimed, std::memory_order_relaxed);
@@ -63,25 +59,16 @@ public:
     }
 
 private:
-    bool is_sampled_whole(const FragmentEntry& entry) const {
-        return some_whole_ && entry.is_small != 0;
-    }
-
-    std::int64_t sample_count(const FragmentEntry& entry) const {
-        const std::int64_t triangles = is_sampled_whole(entry) ? 1 : entry.split_triangles;
-        return static_cast<std::int64_t>(rule_.size()) * triangles;
-    }
-
     void allocate() {
         const std::int32_t element_count = elements_.finest().element_count();
         const auto entry_count = static_cast<std::int64_t>(entries_.size());
         const auto samples_of = [&](std::int64_t element) {
-            std::int64_t samples = 0;
+            std::int64_t split_triangles = 0;
             for (std::int64_t i = elements_.fragment_begin[element];
                  i < elements_.fragment_begin[element + 1]; ++i) {
-                samples += sample_count(entries_[i]);
+                split_triangles += entries_[i].split_triangles;
             }
-            return samples;
+            return split_triangles * static_cast<std::int64_t>(rule_.size());
         };
         parallel_prefix_sum(element_count, samples_of, elements_.sample_begin);
         const auto split_triangles = chunk_sums<std::int64_t>(
@@ -113,14 +100,9 @@ private:
                                         ? whole_triangle(corners)
                                         : clip_to_cell(corners, cell);
             const std::int64_t first_sample = next_sample;
-            const auto add = [&](const WeightedPoint& node) {
+            for_each_node(polygon, corners, rule_, [&](const WeightedPoint& node) {
                 elements_.samples.set(next_sample++, node.point - cell.cast<double>(), node.weight);
-            };
-            if (is_sampled_whole(entries_[i])) {
-                for (const WeightedPoint& node : nodes_of_whole(polygon, corners)) add(node);
-            } else {
-                for_each_node(polygon, corners, rule_, add);
-            }
+            });
             const Eigen::Vector3f normal =
                 twice_vector_area(corners[0], corners[1], corners[2]).normalized().cast<float>();
             elements_.fragments[i] = {{normal[0], normal[1], normal[2]},
@@ -155,82 +137,27 @@ private:
     const GridMesh& mesh_;
     const RawVector<FragmentEntry>& entries_;
     const std::vector<CubatureNode>& rule_;
-    const bool some_whole_;
     Claims claims_;
 };
 
-/// Groups the fragments into elements, sorts them by element, and builds the levels.
-void build_octree(TrackedElements& elements, const GridMesh& mesh, const MeshTopology& topology,
-                  RawVector<FragmentEntry>& entries, bool by_sheet) {
-    const int depth = elements.grid.depth;
-    FinestElements finest =
-        by_sheet ? separate_sheets(topology, entries) : one_element_per_cell(entries);
-    if (by_sheet) {
-        RawVector<Link> links = find_links(mesh, topology, entries, finest);
-        elements.levels = build_levels(std::move(finest.cells), std::move(links), depth);
-    } else {
-        elements.levels = build_levels(std::move(finest.cells), depth);
-    }
-    elements.fragment_begin = std::move(finest.fragment_begin);
-}
-
-/// The coarsest level has one element for each connected component.
-Components components_of(const std::vector<Level>& levels) {
-    Components components;
-    components.count = levels.front().element_count();
-    components.of_element.resize(levels.front().cells.size());
-    std::iota(components.of_element.begin(), components.of_element.end(), 0);
-    for (std::size_t level = 1; level < levels.size(); ++level) {
-        std::vector<std::int32_t> finer(levels[level].parents.size());
-        parallel_for_rows(levels[level].element_count(), [&](std::int32_t element) {
-            finer[element] = components.of_element[levels[level].parents[element]];
-        });
-        components.of_element = std::move(finer);
-    }
-    const Level& finest = levels.back();
-    components.of_unknown.resize(static_cast<std::size_t>(finest.unknown_count()));
-    for (std::int32_t element = 0; element < finest.element_count(); ++element) {
-        for (const std::int32_t unknown : finest.unknowns[element]) {
-            components.of_unknown[unknown] = components.of_element[element];
-        }
-    }
-    return components;
-}
-
-/// Sets the elements' densities to the mean of those of their triangles.
-void set_densities(TrackedElements& elements, const std::vector<double>& of_triangle,
-                   const RawVector<FragmentEntry>& fragments) {
-    const std::int32_t count = elements.finest().element_count();
-    elements.densities.assign(static_cast<std::size_t>(count) + kElementBatch, 1.0F);
-    parallel_for_rows(count, [&](std::int32_t element) {
-        double area = 0, mass = 0;
-        std::int64_t sample = elements.sample_begin[element];
-        for (std::int64_t i = elements.fragment_begin[element];
-             i < elements.fragment_begin[element + 1]; ++i) {
-            const std::int64_t end = sample + elements.fragments[i].sample_count;
-            for (; sample < end; ++sample) {
-                area += elements.samples.weight(sample);
-                mass += elements.samples.weight(sample) * of_triangle[fragments[i].triangle];
-            }
-        }
-        if (area > 0) elements.densities[element] = static_cast<float>(mass / area);
+/// Makes the fragments of each cell an element, as in the paper, and builds the levels.
+void build_octree(TrackedElements& elements, const RawVector<FragmentEntry>& fragments) {
+    const auto count = static_cast<std::int64_t>(fragments.size());
+    const auto cell = [](const FragmentEntry& fragment) -> MortonCode { return fragment.cell; };
+    elements.fragment_begin = parallel_collect_if<std::int64_t>(count, runs_by(fragments, cell),
+                                                                [](std::int64_t i) { return i; });
+    std::vector<MortonCode> cells(elements.fragment_begin.size());
+    parallel_for_rows(static_cast<std::int64_t>(cells.size()), [&](std::int32_t element) {
+        cells[element] = fragments[elements.fragment_begin[element]].cell;
     });
-}
-
-void count_vertices(TrackedElements& elements, const std::vector<std::uint8_t>& referenced) {
-    const auto count = static_cast<std::int64_t>(referenced.size());
-    elements.referenced_vertex_count =
-        parallel_count(count, [&](std::int64_t vertex) { return referenced[vertex] != 0; });
-    elements.constrained_vertex_count = parallel_count(count, [&](std::int64_t vertex) {
-        return referenced[vertex] != 0 && elements.vertex_constrained[vertex] != 0;
-    });
+    elements.fragment_begin.push_back(count);
+    elements.levels = build_levels(std::move(cells), elements.grid.depth);
 }
 
 }  // namespace
 
 TrackedElements build_tracked_elements(const Domain& domain, ClippedSurface surface,
-                                       const Discretisation& discretisation,
-                                       const std::vector<double>& densities) {
+                                       Cubature cubature) {
     const std::size_t triangle_count = domain.surface().triangles.size();
     if (surface.degenerate_count == static_cast<std::int64_t>(triangle_count)) {
         throw InvalidMesh(
@@ -241,31 +168,11 @@ TrackedElements build_tracked_elements(const Domain& domain, ClippedSurface surf
     elements.grid = surface.grid;
     elements.degenerate_triangle_count = surface.degenerate_count;
     elements.vertex_constrained = domain.constrained_vertices();
-    count_vertices(elements, domain.topology().referenced);
-
     enter_setup_phase(kBuildOctree);
-    build_octree(elements, surface.mesh, domain.topology(), surface.fragments,
-                 discretisation.separate_sheets);
-    elements.components = components_of(elements.levels);
+    build_octree(elements, surface.fragments);
     enter_setup_phase(kSampleSurface);
-    ElementBuilder(elements, domain, surface.mesh, surface.fragments, discretisation).build();
-    if (!densities.empty()) set_densities(elements, densities, surface.fragments);
-    elements.curve_samples = sample_constrained_edges(elements, surface.mesh, surface.fragments,
-                                                      domain.constrained_edges());
+    ElementBuilder(elements, domain, surface.mesh, surface.fragments, cubature).build();
     return elements;
-}
-
-Coefficients identity_coefficients(const TrackedElements& elements) {
-    const Level& finest = elements.finest();
-    Coefficients coefficients(finest.unknown_count(), 3);
-    for (std::int32_t element = 0; element < finest.element_count(); ++element) {
-        const Cell cell = cell_at(finest.cells[element]);
-        for (int corner = 0; corner < 8; ++corner) {
-            coefficients.row(finest.unknowns[element][corner]) =
-                corner_of(cell, corner).cast<double>().transpose();
-        }
-    }
-    return coefficients;
 }
 
 Eigen::Vector3d evaluate_vertex(const TrackedElements& elements, const Coefficients& coefficients,

@@ -16,27 +16,11 @@
 
 namespace tracked_mcf {
 
-/// A quadrature point on the part of a constrained edge in one element.
-struct CurveSample {
-    std::int32_t element;
-    Eigen::Vector3f local;     ///< local coordinates in its cell
-    Eigen::Vector3f conormal;  ///< unit vector in the triangle's plane, normal to the edge, outward
-    float weight;              ///< length of the initial edge that it stands for, grid units
-};
-
 /// The location of a vertex: a finest element and local coordinates in its cell.
 struct VertexLocation {
     static constexpr std::int32_t kNoElement = -1;  ///< of vertices that no triangle uses
     std::int32_t element = kNoElement;
     Eigen::Vector3d local = Eigen::Vector3d::Zero();
-};
-
-/// The connected components of the surface. Without separate sheets, they cannot be told apart and
-/// count as one.
-struct Components {
-    std::int32_t count = 0;
-    std::vector<std::int32_t> of_element;  ///< per finest element
-    std::vector<std::int32_t> of_unknown;  ///< per unknown of the finest level
 };
 
 /// Coefficients of a map from the surface to space, one row per unknown of the finest level.
@@ -48,41 +32,27 @@ using Coefficients = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 struct TrackedElements {
     Grid grid;
     std::vector<Level> levels;  ///< coarsest first
-    Components components;
 
     RawVector<Fragment> fragments;             ///< sorted by finest element
     Samples samples;                           ///< sorted by fragment
     std::vector<std::int64_t> fragment_begin;  ///< per finest element, and the end
     std::vector<std::int64_t> sample_begin;    ///< per finest element, and the end
 
-    std::vector<float> densities;  ///< mass, per finest element and kElementBatch more, because
-                                   ///< kernels read whole vectors;
-    ///< empty if all are 1
-
     RawVector<VertexLocation> vertices;                ///< equal for coincident vertices
     std::vector<std::uint8_t> vertex_constrained;      ///< per vertex: it keeps its bits
     std::vector<std::uint8_t> meets_constrained_edge;  ///< per finest element
-    std::vector<CurveSample> curve_samples;            ///< sorted by finest element
 
     std::int64_t split_triangle_count = 0;
     std::int64_t fragment_count = 0;  ///< without fragments of degenerate triangles
-    std::int64_t referenced_vertex_count = 0;
-    std::int64_t constrained_vertex_count = 0;  ///< referenced ones
     std::int64_t degenerate_triangle_count = 0;
 
     const Level& finest() const { return levels.back(); }
 };
 
 /// Builds the octree over the domain's clipped surface, and computes its samples and the locations
-/// of its vertices. `densities` are those of the surface's triangles; none if all are 1. Throws
-/// InvalidMesh if all triangles are degenerate.
+/// of its vertices. Throws InvalidMesh if all triangles are degenerate.
 TrackedElements build_tracked_elements(const Domain& domain, ClippedSurface surface,
-                                       const Discretisation& discretisation,
-                                       const std::vector<double>& densities = {});
-
-/// Returns the coefficients of the identity, Σ (i, j, k) B_ijk(p) = p (section 5.3): the
-/// coefficient of each unknown is its corner.
-Coefficients identity_coefficients(const TrackedElements& elements);
+                                       Cubature cubature);
 
 /// Returns the map with these coefficients at a vertex that has an element: the paper's
 /// EvaluateVertex (section 4.3).

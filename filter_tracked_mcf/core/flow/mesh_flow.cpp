@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "filter_tracked_mcf/core/flow/mean_curvature.h"
 #include "filter_tracked_mcf/core/mesh/measures.h"
 #include "filter_tracked_mcf/core/mesh/mesh_topology.h"
 #include "filter_tracked_mcf/core/parallel/parallel.h"
@@ -49,10 +50,6 @@ constexpr int kManyIterations = 40;
 
 /// The side of the octree's cells is at least this, in edges.
 constexpr double kSmallestCell = 3;
-
-/// The length of the step, in squared edges, by which mean curvatures are smoothed. They scatter by
-/// 5 % on a sphere of regular triangles otherwise.
-constexpr double kShortStep = 2;
 
 /// The octree is built anew if the first step leaves less than this part of the area. Vertices that
 /// were apart, as those of noise, have come together then, and its functions jump between them.
@@ -101,33 +98,6 @@ std::unique_ptr<VertexOctree> octree_of(const FlowSurface& surface, const Positi
     return nullptr;
 }
 
-/// Gives the vertices of a rim the mean value of their neighbours inside, or of other neighbours
-/// that have one by then. Their own is that of the surface's edge, which has no curvature.
-void continue_to_rim(const Stars& stars, std::vector<double>& values) {
-    if (stars.on_rim.empty()) return;
-    std::vector<std::uint8_t> has_value(values.size());
-    for (std::size_t i = 0; i < values.size(); ++i) has_value[i] = stars.on_rim[i] != 0 ? 0 : 1;
-    for (bool goes_on = true; goes_on;) {
-        goes_on = false;
-        const std::vector<std::uint8_t> had_value = has_value;
-        for (std::int32_t vertex = 0; vertex < stars.count(); ++vertex) {
-            if (had_value[vertex] != 0) continue;
-            double sum = 0;
-            int count = 0;
-            for (auto i = stars.neighbour_begin[vertex]; i < stars.neighbour_begin[vertex + 1];
-                 ++i) {
-                if (had_value[stars.neighbours[i]] == 0) continue;
-                sum += values[stars.neighbours[i]];
-                ++count;
-            }
-            values[vertex] = count > 0 ? sum / count : 0;
-            has_value[vertex] = count > 0 ? 1 : 0;
-            goes_on = goes_on || count > 0;
-        }
-        poll_progress();
-    }
-}
-
 }  // namespace
 
 MeshFlow::MeshFlow(MeshPlan plan)
@@ -152,15 +122,9 @@ MeshFlow::MeshFlow(MeshPlan plan)
 }
 
 void MeshFlow::fill_report(const MeshPlan& plan) {
-    const Domain& domain = plan.domain;
-    describe(domain, report_);
+    describe(plan, report_);
     report_.degenerate_triangles = surface_.degenerate_count;
-    report_.step_size = plan.step_size;
-    report_.asked_step_size = plan.asked_step_size;
-    report_.detail_size = detail_size_for(plan.step_size, plan.iterations, steps_.order);
-    report_.mean_edge = plan.mean_edge;
-    if (steps_.flow == FlowKind::Conformalized) report_.genus = genus_of(domain.topology());
-    report_.estimated_memory_bytes = static_cast<std::int64_t>(plan.expected_bytes);
+    if (steps_.flow == FlowKind::Conformalized) report_.genus = genus_of(plan.domain.topology());
     report_.unknowns = surface_.stars.count();
 }
 
@@ -179,7 +143,7 @@ void MeshFlow::use_octree() {
 }
 
 void MeshFlow::renew_octree() {
-    if (report_.steps.empty()) return;
+    if (report_.steps.empty() || octree_harms_) return;
     // A surface that has shrunk has longer waves, in its edges.
     const bool needs_one = report_.steps.back().solver_iterations > kManyIterations * steps_.order;
     // A conformalized flow keeps its stiffness, which the functions of the start suit.
@@ -206,6 +170,7 @@ void MeshFlow::solve(StepReport& report, Positions* response) {
     const bool scales = preserver_ && !preserver_->pushes() && !report_.steps.empty();
     const double tolerance = (scales ? kToleranceOfScaled : 1) * steps_.tolerance;
     const int solves = steps_.order + (response != nullptr ? 1 : 0);
+    const bool had_octree = solver_.octree() != nullptr;
     const auto solve_one = [&](int number, Positions& x) {
         const ProgressSpan span(1.0 * number / solves, (number + 1.0) / solves);
         const MeshConvergence result = solver_.solve(right_side_, tolerance, x);
@@ -228,6 +193,7 @@ void MeshFlow::solve(StepReport& report, Positions* response) {
         solve_one(steps_.order, *response);
     }
     report.reached_tolerance = report.error_estimate <= steps_.tolerance;
+    octree_harms_ = octree_harms_ || (had_octree && !solver_.octree());
 }
 
 std::vector<Eigen::Vector3d> MeshFlow::displaced() const {
@@ -314,38 +280,8 @@ void MeshFlow::move_vertices(Positions& positions) const {
     });
 }
 
-std::vector<double> MeshFlow::mean_curvatures(const SurfaceView& after,
-                                              const Selection& /*selection*/) {
-    const Stars& stars = surface_.stars;
-    const Positions& positions = surface_.positions;
-    // Vertices that stay have a curvature, too.
-    const std::vector<std::uint8_t> fixed(surface_.fixed.size(), 0);
-    MeshSolver solver(stars, fixed, surface_.components);
-    solver.take(elements_in_own_metric(stars, positions, {}), kShortStep);
-    solver.system().multiply_stiffness(positions, 1 / kShortStep, right_side_);
-    std::vector<double> values(positions.size());  // L x = 2 M H n
-    parallel_for_rows(stars.count(), [&](std::int32_t vertex) {
-        Eigen::Vector3d normal = Eigen::Vector3d::Zero();
-        for_each_corner(stars, vertex, [&](std::uint32_t triangle, std::uint32_t /*corner*/) {
-            const auto [a, b, c] = corners_of(positions, stars.triangles[triangle]);
-            normal += twice_vector_area(a, b, c);
-        });
-        const Eigen::Vector3d force = right_side_.col(vertex).head<3>().cast<double>();
-        values[vertex] =
-            force.dot(normal.normalized()) / (2 * double{solver.system().mass(vertex)});
-    });
-    continue_to_rim(stars, values);
-    parallel_for_rows(stars.count(), [&](std::int32_t vertex) {
-        const double integral = double{solver.system().mass(vertex)} * values[vertex];
-        right_side_.col(vertex) << static_cast<float>(integral), 0, 0, 0;
-    });
-    solver.solve(right_side_, steps_.tolerance, d_);
-    std::vector<double> curvatures(after.positions.size(), 0);
-    parallel_for_rows(static_cast<std::int64_t>(curvatures.size()), [&](std::int32_t i) {
-        const std::int32_t vertex = surface_.vertices[i];
-        if (vertex >= 0) curvatures[i] = d_[vertex].x() / surface_.edge;
-    });
-    return curvatures;
+std::vector<double> MeshFlow::mean_curvatures(const SurfaceView& /*after*/) {
+    return mean_curvatures_of(surface_);
 }
 
 }  // namespace tracked_mcf

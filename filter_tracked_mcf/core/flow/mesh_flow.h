@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "filter_tracked_mcf/core/flow/flow_surface.h"
-#include "filter_tracked_mcf/core/flow/mesh_preserving.h"
+#include "filter_tracked_mcf/core/flow/preserving.h"
 #include "filter_tracked_mcf/core/flow/surface_flow.h"
 #include "filter_tracked_mcf/core/flow_report.h"
 #include "filter_tracked_mcf/core/plan/plan.h"
@@ -28,10 +28,7 @@ public:
     bool step() override;
     void end_before_last_step(Stop reason) override;
     void move_vertices(std::vector<Eigen::Vector3d>& positions) const override;
-    /// Measures the surface as it is, also at vertices that stay. Curvatures are smoothed as by a
-    /// step of two squared edges, and continued to the boundary from beside it.
-    std::vector<double> mean_curvatures(const SurfaceView& after,
-                                        const Selection& selection) override;
+    std::vector<double> mean_curvatures(const SurfaceView& after) override;
     const FlowReport& report() const override { return report_; }
 
 private:
@@ -55,8 +52,9 @@ private:
     const double step_size_;  ///< δ, in squared edges
     const int depth_;         ///< of the octree; 0 chooses it
     const Positions initial_;
-    std::optional<MeshPreserver> preserver_;
+    std::optional<Preserver> preserver_;
     MeshSolver solver_;
+    bool octree_harms_ = false;  ///< whether the solver goes on without one
     Positions before_;                  ///< the positions before the last step
     double first_area_ = 0, area_ = 0;  ///< at the start and after the last step, squared edges
     double margin_ = 0;

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <optional>
 #include <vector>
 
-#include "filter_tracked_mcf/core/flow/flow_state.h"
-#include "filter_tracked_mcf/core/flow/stepper.h"
-#include "filter_tracked_mcf/core/mesh/domain.h"
-#include "filter_tracked_mcf/core/triangle_mesh.h"
+#include "filter_tracked_mcf/core/flow/flow_surface.h"
+#include "filter_tracked_mcf/core/flow_parameters.h"
+#include "filter_tracked_mcf/core/flow_report.h"
+#include "filter_tracked_mcf/core/solver/field.h"
 
 namespace tracked_mcf {
 
@@ -17,49 +19,51 @@ namespace tracked_mcf {
 /// Long shapes become longer in a conformalized flow before they become round.
 inline constexpr double kLargestGrowth = 4, kLargestConformalizedGrowth = 16;
 
-/// Restores the area or the volume of each connected component after each step of a flow.
+/// Restores the area or the volume of each connected component of a surface after each step.
 class Preserver {
 public:
-    /// Measures the domain's surface. The domain's mesh must outlive the preserver and keep its
-    /// positions. `stepper` must have been made from this domain and outlive the preserver.
-    Preserver(const Domain& domain, Preserve kind, const Stepper& stepper);
+    /// Measures the initial surface, which must outlive this.
+    Preserver(const FlowSurface& surface, Preserve kind, FlowKind flow);
 
-    /// Restores what is preserved in `to`, the state after the stepper's last step. Returns
-    /// Stop::Vanished if the step has left almost nothing, Stop::Pinched if it has left only thin
-    /// threads, and Stop::NotPreserved if it has changed the volume so much that no pressure
-    /// restores it. A component that has vanished, cannot move, or would be inflated because only
-    /// thin threads are left of it, stays as it is.
-    StepResult restore(FlowState to) const;
+    /// Returns whether components are pushed along their normals, instead of scaled.
+    bool pushes() const { return pushes_; }
+
+    /// Computes the pull of a pressure of 1 on each vertex: ∫ φ n, with the normal n.
+    void pressure(const std::vector<Eigen::Vector3d>& positions, Field& pull) const;
+
+    /// Restores what is preserved in `positions`, those after a step. `response` is how the step's
+    /// system answers a pressure of 1, if components are pushed.
+    ///
+    /// Returns Stop::Vanished if the step has left almost nothing, Stop::Pinched if it has left
+    /// only thin threads, and Stop::NotPreserved if it has changed the volume so much that no
+    /// pressure restores it. A component that has vanished, cannot move, or would be inflated
+    /// because only thin threads are left of it, stays as it is.
+    Stop restore(const std::vector<Eigen::Vector3d>& response,
+                 std::vector<Eigen::Vector3d>& positions) const;
 
 private:
-    /// Measures of a component, mesh units.
     struct Measures {
         double area = 0;
-        double volume = 0;         ///< enclosed, if the surface is closed
-        Eigen::Vector3d centroid;  ///< of the surface; undefined without area
+        double volume = 0;  ///< enclosed, if the surface is closed
+        Eigen::Vector3d centroid = Eigen::Vector3d::Zero();
         Eigen::AlignedBox3d box;
         Eigen::AlignedBox3d bounds;  ///< initial_: where the component must stay
     };
 
     std::vector<Measures> measure(const std::vector<Eigen::Vector3d>& positions) const;
-    /// Returns the vertices' positions in a state.
-    std::vector<Eigen::Vector3d> moved(const FlowState& state) const;
-    /// Adds the initial area of components that a scaling would take out of their bounds to
-    /// `blown_up`; they are not scaled. restore_volumes() does alike.
-    std::vector<Scaling> scalings(const std::vector<Measures>& present, double& blown_up) const;
-    /// Scales the embedding of each component.
-    void scale(FlowState& state, std::vector<Scaling> scalings) const;
-    /// Adds to the displacement, for each component, the multiple of the pressure response that
-    /// takes the swept volume back to zero. `positions` are those after the step. Returns false,
-    /// without a change, if there is no such multiple.
-    bool restore_volumes(FlowState& state, const Coefficients& response,
-                         std::vector<Eigen::Vector3d> positions, double& blown_up) const;
+    /// Scales components, and returns the initial area of those that would leave their bounds.
+    double scale(const std::vector<Measures>& present,
+                 std::vector<Eigen::Vector3d>& positions) const;
+    /// Adds to the positions, for each component, the multiple of the velocity that takes the swept
+    /// volume back to zero. Returns the initial area of components that would leave their bounds;
+    /// nothing if there is no such multiple.
+    std::optional<double> push(const std::vector<Eigen::Vector3d>& velocity,
+                               std::vector<Eigen::Vector3d>& positions) const;
 
-    const Stepper& stepper_;
-    const TriangleMesh& mesh_;
-    std::vector<Triangle> triangles_;         ///< those that flow
-    std::vector<std::int32_t> component_of_;  ///< per triangle
-    Preserve kind_;
+    const FlowSurface& surface_;
+    const std::vector<Eigen::Vector3d> before_;  ///< the initial positions
+    const Preserve kind_;
+    const bool pushes_;
     std::vector<Measures> initial_;
 };
 

@@ -3,7 +3,8 @@
 
 namespace tracked_mcf {
 
-void describe(const Domain& domain, FlowReport& report) {
+void describe(const Plan& plan, FlowReport& report) {
+    const Domain& domain = plan.domain;
     const std::vector<std::uint8_t> counted = one_copy_of_each_vertex(domain.topology());
     const std::vector<std::uint8_t>& constrained = domain.constrained_vertices();
     for (std::size_t i = 0; i < counted.size(); ++i) {
@@ -19,6 +20,11 @@ void describe(const Domain& domain, FlowReport& report) {
     report.boundary_edges = domain.boundary_edge_count();
     report.cracks = domain.topology().cracks;
     report.longest_side = longest_side(domain.surface());
+    report.step_size = plan.step_size;
+    report.asked_step_size = plan.asked_step_size;
+    report.detail_size = detail_size_for(plan.step_size, plan.iterations, plan.steps.order);
+    report.mean_edge = plan.mean_edge;
+    report.estimated_memory_bytes = static_cast<std::int64_t>(plan.expected_bytes);
 }
 
 }  // namespace tracked_mcf

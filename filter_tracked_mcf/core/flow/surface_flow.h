@@ -5,8 +5,7 @@
 #include <vector>
 
 #include "filter_tracked_mcf/core/flow_report.h"
-#include "filter_tracked_mcf/core/mesh/domain.h"
-#include "filter_tracked_mcf/core/mesh/measures.h"
+#include "filter_tracked_mcf/core/plan/plan.h"
 #include "filter_tracked_mcf/core/triangle_mesh.h"
 
 namespace tracked_mcf {
@@ -40,16 +39,14 @@ public:
     /// bits.
     virtual void move_vertices(std::vector<Eigen::Vector3d>& positions) const = 0;
 
-    /// Returns the mean curvature at each vertex of the mesh, see Quality::MeanCurvature; 0 at
-    /// those that no triangle uses. `after` is the mesh with the present positions, and `selection`
-    /// says which of its triangles flow.
-    virtual std::vector<double> mean_curvatures(const SurfaceView& after,
-                                                const Selection& selection) = 0;
+    /// Returns the mean curvature at each vertex of the mesh, see mean_curvatures_of(). `after` is
+    /// the mesh with the present positions.
+    virtual std::vector<double> mean_curvatures(const SurfaceView& after) = 0;
 
     virtual const FlowReport& report() const = 0;
 };
 
-/// Sets what a report says of a domain before the flow.
-void describe(const Domain& domain, FlowReport& report);
+/// Sets what a report says of a plan.
+void describe(const Plan& plan, FlowReport& report);
 
 }  // namespace tracked_mcf

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Only integrate_elements.cpp and integrate_normals.cpp include this, see lanes.h.
+// Only integrate_elements.cpp includes this, see lanes.h.
 #if defined(TRACKED_MCF_ELEMENT_BATCH_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef TRACKED_MCF_ELEMENT_BATCH_H
 #undef TRACKED_MCF_ELEMENT_BATCH_H
@@ -176,10 +176,7 @@ static HWY_INLINE void write_systems(const IntegrationInput& input, std::int64_t
     transpose_moments(batch, moments);
     const std::int64_t block = begin / kBlockElements;
     const std::int64_t lane = begin % kBlockElements;
-    const Lanes mass = input.densities == nullptr
-                           ? splat(input.mass)
-                           : splat(input.mass) * load(input.densities + begin);
-    write_matrices(input, mass, moments, output.matrices[block], lane);
+    write_matrices(input, splat(1), moments, output.matrices[block], lane);
     if (output.stiffnesses != nullptr) {
         write_matrices(input, zero(), moments, output.stiffnesses[block], lane);
     }

@@ -50,15 +50,7 @@ struct ElementVector {
 
 /// A sample has collapsed if its deformed area is at most this fraction of its initial area. The
 /// surface there has become a thread or a point, and its metric means nothing. A collapsed sample
-/// contributes nothing (section 5.1). In a conformalized flow no sample collapses: the stiffness
-/// uses the initial metric and divides by no area.
+/// contributes nothing (section 5.1).
 inline constexpr float kCollapsedAreaRatio = 1e-4F;
-
-/// The collapsed samples of one element.
-struct Collapse {
-    std::int32_t element;
-    std::int32_t samples;  ///< number of collapsed samples
-    float mass[8];         ///< ∫ B_I² over their part of the initial surface, for each function
-};
 
 }  // namespace tracked_mcf

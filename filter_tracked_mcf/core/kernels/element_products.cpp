@@ -156,23 +156,5 @@ void add_element_products(const ElementRange& range, const MatrixBlock* matrices
                  [](const CornerLanes& /*x*/, const CornerLanes& /*products*/) HWY_ATTR {});
 }
 
-double add_element_products_and_dot(const ElementRange& range, const MatrixBlock* matrices,
-                                    const float* x, float* y) {
-    double dot = 0;
-    add_products(range, matrices, 1, x, y,
-                 [&](const CornerLanes& at_corners, const CornerLanes& products) HWY_ATTR {
-                     Lanes sum = zero();
-                     for (int axis = 0; axis < 3; ++axis) {
-                         for (int i = 0; i < 8; ++i) {
-                             sum = hn::MulAdd(at_corners[axis][i], products[axis][i], sum);
-                         }
-                     }
-                     alignas(64) float lanes[kLanes];
-                     store(sum, lanes);
-                     for (const float of_lane : lanes) dot += of_lane;
-                 });
-    return dot;
-}
-
 }  // namespace tracked_mcf::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

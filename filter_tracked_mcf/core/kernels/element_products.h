@@ -29,8 +29,4 @@ struct ElementRange {
 using AddElementProducts = void(const ElementRange& range, const MatrixBlock* matrices,
                                 float factor, const float* x, float* y);
 
-/// Does the same with factor 1, and returns the range's part of x · y, Σ_e (R_e x) · M_e R_e x.
-using AddElementProductsAndDot = double(const ElementRange& range, const MatrixBlock* matrices,
-                                        const float* x, float* y);
-
 }  // namespace tracked_mcf

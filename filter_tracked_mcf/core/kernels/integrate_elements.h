@@ -47,10 +47,7 @@ struct IntegrationInput {
     const std::int32_t* unknowns;  ///< eight for each element of the level
     const double* displacement;    ///< of the embedding X_t, three for each unknown, grid units
     SampleArrays samples;
-    float mass;              ///< weight of ∫ B_I B_J
-    const float* densities;  ///< per element, a factor of mass; or null, if all are 1
     float step_size_in_cells;  ///< δ, the weight of ∫ ∇B_I · ∇B_J; squared sides of a finest cell
-    bool initial_metric;  ///< the stiffness uses the initial metric; no sample collapses
 };
 
 /// The output arrays, for all elements of the level. The kernel sets those from begin to end, and
@@ -62,10 +59,9 @@ struct IntegrationOutput {
     float* areas;  ///< of the embedded surface in each element, grid units²
 };
 
-/// Integrates elements by their samples, see assemble_elements(). Writes a Collapse for each
-/// element with collapsed samples to `collapses`, which has room for one per element; returns their
-/// number.
-using IntegrateElements = int(const IntegrationInput& input, const IntegrationOutput& output,
-                              Collapse* collapses);
+/// Integrates elements by their samples, see assemble_elements(). Returns the number of collapsed
+/// samples.
+using IntegrateElements = std::int64_t(const IntegrationInput& input,
+                                       const IntegrationOutput& output);
 
 }  // namespace tracked_mcf

@@ -16,17 +16,13 @@
 namespace tracked_mcf::HWY_NAMESPACE {
 
 IntegrateElements integrate_elements;
-IntegrateNormals integrate_normals;
 AddElementProducts add_element_products;
-AddElementProductsAndDot add_element_products_and_dot;
 CoarsenElements coarsen_elements;
 SumCouplings sum_couplings;
 InvertLocally invert_locally;
-AddTensorProducts add_tensor_products;
 
-constexpr Kernels kTable = {
-    integrate_elements, integrate_normals, add_element_products, add_element_products_and_dot,
-    coarsen_elements,   sum_couplings,     invert_locally,       add_tensor_products};
+constexpr Kernels kTable = {integrate_elements, add_element_products, coarsen_elements,
+                            sum_couplings, invert_locally};
 
 }  // namespace tracked_mcf::HWY_NAMESPACE
 

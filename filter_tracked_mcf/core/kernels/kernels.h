@@ -7,9 +7,7 @@
 #include "filter_tracked_mcf/core/kernels/coarsen_elements.h"
 #include "filter_tracked_mcf/core/kernels/element_products.h"
 #include "filter_tracked_mcf/core/kernels/integrate_elements.h"
-#include "filter_tracked_mcf/core/kernels/integrate_normals.h"
 #include "filter_tracked_mcf/core/kernels/local_systems.h"
-#include "filter_tracked_mcf/core/kernels/tensor_products.h"
 
 namespace tracked_mcf {
 
@@ -28,13 +26,10 @@ namespace tracked_mcf {
 /// processor can; compilers fuse nothing on their own. So all compilers give the same bits.
 struct Kernels {
     IntegrateElements* integrate_elements;
-    IntegrateNormals* integrate_normals;
     AddElementProducts* add_element_products;
-    AddElementProductsAndDot* add_element_products_and_dot;
     CoarsenElements* coarsen_elements;
     SumCouplings* sum_couplings;
     InvertLocally* invert_locally;
-    AddTensorProducts* add_tensor_products;
 };
 
 /// Instruction sets that the kernels are compiled for. Baseline is that of the rest of the program,

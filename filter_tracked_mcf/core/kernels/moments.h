@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Only integrate_elements.cpp and integrate_normals.cpp include this, see lanes.h.
+// Only integrate_elements.cpp includes this, see lanes.h.
 #if defined(TRACKED_MCF_MOMENTS_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef TRACKED_MCF_MOMENTS_H
 #undef TRACKED_MCF_MOMENTS_H

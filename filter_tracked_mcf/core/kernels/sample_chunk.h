@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Only integrate_elements.cpp and integrate_normals.cpp include this, see lanes.h.
+// Only integrate_elements.cpp includes this, see lanes.h.
 #if defined(TRACKED_MCF_SAMPLE_CHUNK_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef TRACKED_MCF_SAMPLE_CHUNK_H
 #undef TRACKED_MCF_SAMPLE_CHUNK_H
@@ -199,28 +199,6 @@ static HWY_INLINE void store_flux(const Differential& d, const Lanes& scale, Sam
     store_difference(d.kx, n.y, d.ky, n.x, chunk.flux[2], i);
 }
 
-/// Computes the tensor of the initial metric, I - n nᵀ.
-static HWY_INLINE void store_initial_tensor(const Vector& n, const Lanes& weight,
-                                            SampleChunk& chunk, int i) {
-    const Lanes xx = n.x * n.x;
-    const Lanes zz = n.z * n.z;
-    store(weight * hn::MulAdd(n.y, n.y, zz), chunk.tensor[0] + i);
-    store(weight * (zz + xx), chunk.tensor[1] + i);
-    store(weight * hn::MulAdd(n.y, n.y, xx), chunk.tensor[2] + i);
-    store(hn::Neg(weight) * (n.x * n.y), chunk.tensor[3] + i);
-    store(hn::Neg(weight) * (n.y * n.z), chunk.tensor[4] + i);
-    store(hn::Neg(weight) * (n.z * n.x), chunk.tensor[5] + i);
-}
-
-/// Computes the initial metric's flux (I - n nᵀ) J_a = -n × (n × J_a).
-static HWY_INLINE void store_initial_flux(const Vector& n, const Vector& k, const Lanes& weight,
-                                          Row (&rows)[3], int i) {
-    const Vector flux = cross(k, n);
-    store(weight * flux.x, rows[0] + i);
-    store(weight * flux.y, rows[1] + i);
-    store(weight * flux.z, rows[2] + i);
-}
-
 /// Computes the functions of all three axes.
 static HWY_INLINE void evaluate_functions(SampleChunk& chunk) {
     for (int i = 0; i < chunk.count; i += kLanes) {
@@ -251,29 +229,18 @@ static HWY_INLINE Differential differentials(const Embedding& x, const SampleChu
     return differential(x, at, normals(chunk, i));
 }
 
-enum class Metric { Initial, Present };
-
 /// Computes all rows of a chunk that the moments need.
-static HWY_INLINE void evaluate_samples(const Embedding& x, Metric metric, SampleChunk& chunk) {
+static HWY_INLINE void evaluate_samples(const Embedding& x, SampleChunk& chunk) {
     evaluate_functions(chunk);
     for (int i = 0; i < chunk.count; i += kLanes) {
-        const Vector n = normals(chunk, i);
         const Lanes weight = weights(chunk, i);
         const Differential d = differentials(x, chunk, i);
         const Lanes area = hn::Sqrt(dot(d.normal, d.normal));
         const auto sound = area > splat(kCollapsedAreaRatio);
-        if (metric == Metric::Initial) {
-            store(weight * area, chunk.area + i);
-            store_initial_tensor(n, weight, chunk, i);
-            store_initial_flux(n, d.kx, weight, chunk.flux[0], i);
-            store_initial_flux(n, d.ky, weight, chunk.flux[1], i);
-            store_initial_flux(n, d.kz, weight, chunk.flux[2], i);
-        } else {
-            store(hn::IfThenElseZero(sound, weight * area), chunk.area + i);
-            const Lanes scale = hn::IfThenElseZero(sound, weight / area);
-            store_tensor(d, scale, chunk, i);
-            store_flux(d, scale, chunk, i);
-        }
+        store(hn::IfThenElseZero(sound, weight * area), chunk.area + i);
+        const Lanes scale = hn::IfThenElseZero(sound, weight / area);
+        store_tensor(d, scale, chunk, i);
+        store_flux(d, scale, chunk, i);
     }
 }
 

@@ -181,12 +181,4 @@ bool Domain::has_constraints() const {
     return any_set(constrained_vertices_);
 }
 
-bool Domain::constrains_all_vertices() const {
-    const auto& triangles = surface().triangles;
-    return std::all_of(triangles.begin(), triangles.end(), [&](const Triangle& t) {
-        return std::all_of(t.begin(), t.end(),
-                           [&](std::int32_t vertex) { return constrained_vertices_[vertex] != 0; });
-    });
-}
-
 }  // namespace tracked_mcf

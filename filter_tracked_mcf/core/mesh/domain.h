@@ -58,8 +58,6 @@ public:
     /// Returns the number of sides of the surface's triangles on the boundary of the mesh.
     std::int64_t boundary_edge_count() const { return boundary_edge_count_; }
     bool has_constraints() const;
-    /// Returns whether all vertices of the surface are constrained.
-    bool constrains_all_vertices() const;
 
 private:
     // Steps of the constructor, in order.

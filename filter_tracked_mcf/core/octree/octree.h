@@ -12,10 +12,10 @@ namespace tracked_mcf {
 
 /// One level of the octree.
 ///
-/// An *element* is the surface in one occupied cell or, with separate sheets, a connected part of
-/// it. An *unknown* is the coefficient of a test function. Without separate sheets the test
-/// function is the B-spline centred at a corner of occupied cells. With separate sheets it is that
-/// B-spline on one connected part of the surface in its support, and zero on the other parts.
+/// An *element* is the surface in one occupied cell, as in the paper, or a connected part of it, a
+/// sheet. An *unknown* is the coefficient of a function: of the B-spline centred at a corner of
+/// occupied cells, or of that B-spline on one connected part of the surface in its support, which
+/// is zero on the other parts.
 struct Level {
     int depth = 0;                  ///< 2^depth cells along the side of the cube
     std::vector<MortonCode> cells;  ///< per element, never decreasing
@@ -45,7 +45,7 @@ void sort_and_remove_copies(RawVector<Link>& links, std::int32_t element_count);
 /// `depth`. Throws InvalidParameter if there are more elements than can be numbered.
 std::vector<Level> build_levels(std::vector<MortonCode> finest_cells, int depth);
 
-/// Returns the levels of an octree with separate sheets, coarsest first. `finest_cells` (never
+/// Returns the levels of an octree whose elements are sheets, coarsest first. `finest_cells` (never
 /// decreasing) are the cells of the finest elements, `links` the links between these elements.
 ///
 /// A coarser element is a set of linked elements with the same parent cell, so level 0 has one

@@ -223,15 +223,4 @@ Items parallel_collect_if(std::int64_t count, const Chosen& chosen, const Value&
         });
 }
 
-/// Calls parallel_collect for ranges of whole runs, see parallel_for_runs.
-template <class Item, class Items, class Begins, class Body>
-Items parallel_collect_runs(std::int64_t count, const Begins& begins, const Body& body) {
-    const std::vector<std::int64_t> offsets = run_offsets(count, begins);
-    return parallel_collect<Item, Items>(
-        count, [&](std::int64_t begin, std::int64_t /*end*/, std::vector<Item>& out) {
-            const std::int64_t chunk = begin / kChunkSize;
-            if (offsets[chunk] < offsets[chunk + 1]) body(offsets[chunk], offsets[chunk + 1], out);
-        });
-}
-
 }  // namespace tracked_mcf

@@ -15,7 +15,6 @@ struct SetupPhase {
 inline constexpr SetupPhase kCheckMesh = {0, "Checking the mesh"};
 inline constexpr SetupPhase kFindEdges = {0.01, "Finding the edges"};
 inline constexpr SetupPhase kMeasureSurface = {0.20, "Measuring the surface"};
-inline constexpr SetupPhase kChooseGrid = {0.20, "Choosing the grid"};
 inline constexpr SetupPhase kClipTriangles = {0.25, "Clipping triangles to cells"};
 inline constexpr SetupPhase kBuildOctree = {0.42, "Building the octree"};
 inline constexpr SetupPhase kSampleSurface = {0.60, "Sampling the surface"};

@@ -10,9 +10,8 @@
 #include "filter_tracked_mcf/core/memory/process_memory.h"
 #include "filter_tracked_mcf/core/mesh/measures.h"
 #include "filter_tracked_mcf/core/parallel/setup_phases.h"
-#include "filter_tracked_mcf/core/plan/automatic_depth.h"
 #include "filter_tracked_mcf/core/plan/densities.h"
-#include "filter_tracked_mcf/core/plan/memory_check.h"
+#include "filter_tracked_mcf/core/plan/paper_memory.h"
 
 namespace tracked_mcf {
 
@@ -76,70 +75,41 @@ void check_preservable(const Domain& domain, Preserve preserve, FlowKind flow) {
     check_encloses_volume(domain);
 }
 
-/// Beyond this δ, in squared mean edge lengths, single precision loses the mass beside the
-/// stiffness.
-constexpr double kLargestStepSizeInEdges = 5e4;
+/// Beyond this δ, single precision loses the mass beside the stiffness, and with it the location of
+/// a closed surface. In squared mean edge lengths, and in squared sides of the paper's cells.
+constexpr double kLargestStepSizeInEdges = 5e4, kLargestStepSizeInCells = 1e5;
 
 /// Bytes for each vertex and each triangle of a flow on the mesh's own elements, beside the mesh.
 constexpr double kBytesPerVertex = 370, kBytesPerTriangle = 120;
 
-/// Returns the step size that the parameters ask for.
-StepSize asked_size(const FlowParameters& parameters, const TriangleMesh& mesh, double mean_edge,
-                    const Grid& grid) {
-    if (parameters.step_size > 0) {
-        const double unit = parameters.absolute ? 1 : longest_side(mesh);
-        const double cells = unit / grid.cell_size;
-        return in_cells(parameters.step_size * cells * cells, grid);
-    }
-    const double detail_size = detail_size_of(parameters, mean_edge);
-    return in_cells(
-        step_size_for(detail_size / grid.cell_size, parameters.iterations, parameters.order), grid);
+/// The side of a cell of the paper's octree, in mean edge lengths, if its depth is automatic. Then
+/// it has about as many unknowns as the mesh has vertices: some 3 for the area of a cell's side.
+constexpr double kAutomaticCellInEdges = 1.6;
+
+/// Returns the plan of a flow, with a step size of at most `largest`.
+Plan plan_of(Domain domain, const FlowParameters& parameters, double mean_edge, double largest,
+             double bytes) {
+    const double side = parameters.absolute ? 1 : longest_side(domain.mesh());
+    const double asked = parameters.step_size > 0
+                             ? parameters.step_size * side * side
+                             : step_size_for(detail_size_of(parameters, mean_edge),
+                                             parameters.iterations, parameters.order);
+    return {std::move(domain), parameters, std::min(asked, largest), asked, parameters.iterations,
+            mean_edge,         bytes};
+}
+
+/// Returns the depth that the parameters ask for on the grid's cube.
+int depth_of(const FlowParameters& parameters, double mean_edge, const Grid& cube) {
+    if (parameters.depth > 0) return parameters.depth;
+    const double cells = cube.cell_size / (kAutomaticCellInEdges * mean_edge);
+    if (!(cells < std::exp2(kMaximumDepth))) return mean_edge > 0 ? kMaximumDepth : 1;
+    return std::max(1, static_cast<int>(std::lround(std::log2(cells))));
 }
 
 }  // namespace
 
-Plan plan_of(const TriangleMesh& mesh, const Inputs& inputs, FlowParameters parameters) {
-    enter_setup_phase(kFindEdges);
-    Domain domain(mesh, inputs, parameters.boundary);
-    enter_setup_phase(kMeasureSurface);
-    check_preservable(domain, parameters.preserve, parameters.flow);
-    if (domain.constrains_all_vertices()) {
-        // Nothing can move. The cheapest set-up is enough to say so.
-        parameters.depth = 1;
-        parameters.separate_sheets = false;
-    }
-    enter_setup_phase(kChooseGrid);
-    const Grid cube = enclosing_grid(domain.surface(), parameters.depth);
-    const SurfaceSize size = size_of(domain);
-    const MemoryCheck memory(size, cube, parameters);
-    const double mean_edge = mean_edge_length(domain.surface());
-    // Who gives a step size knows the grid.
-    const int resolving = parameters.step_size > 0
-                              ? 0
-                              : resolving_depth(std::max(detail_size_of(parameters, mean_edge),
-                                                         kFinestDetailInEdges * mean_edge),
-                                                mean_edge, cube);
-    enter_setup_phase(kClipTriangles);
-    const auto clip = [&] {
-        // Depth 0 asks for the automatic depth.
-        if (cube.depth == 0) return clip_at_automatic_depth(domain, size, cube, resolving, memory);
-        memory.before_flow(cube.depth);
-        return clip_to_grid(domain.surface(), cube);
-    };
-    ClippedSurface surface = clip();
-    Plan plan = plan_of(std::move(domain), std::move(surface), mean_edge, parameters);
-    plan.resolving_depth = resolving;
-    plan.expected_bytes = memory.flow_bytes(plan.surface.grid.depth);
-    return plan;
-}
-
 MeshPlan mesh_plan_of(const TriangleMesh& mesh, const Inputs& inputs,
                       const FlowParameters& parameters) {
-    if (parameters.boundary == BoundaryCondition::LockedCells) {
-        throw InvalidParameter("boundary",
-                               "locks cells, which the default method does not have; lock the "
-                               "boundary itself, or take the method paper.");
-    }
     const double bytes = kBytesPerVertex * static_cast<double>(mesh.positions.size()) +
                          kBytesPerTriangle * static_cast<double>(mesh.triangles.size());
     check_free_memory(bytes, "The flow", "Simplify the mesh, or take a part of it.");
@@ -148,44 +118,31 @@ MeshPlan mesh_plan_of(const TriangleMesh& mesh, const Inputs& inputs,
     enter_setup_phase(kMeasureSurface);
     check_preservable(domain, parameters.preserve, parameters.flow);
     const double mean_edge = mean_edge_length(domain.surface());
-    const double asked =
-        asked_size(parameters, mesh, mean_edge, enclosing_grid(domain.surface(), 0)).in_mesh_units;
-    const double limit = kLargestStepSizeInEdges * mean_edge * mean_edge;
     auto densities = triangle_densities(domain, parameters.local_detail_size, mean_edge);
-    return {std::move(domain),
-            std::move(densities),
-            parameters,
-            std::min(asked, limit),
-            asked,
-            parameters.preserve,
-            parameters.iterations,
-            parameters.depth,
-            mean_edge,
-            bytes};
+    const double largest = kLargestStepSizeInEdges * mean_edge * mean_edge;
+    return {plan_of(std::move(domain), parameters, mean_edge, largest, bytes), std::move(densities),
+            parameters.preserve, parameters.depth};
 }
 
-Plan plan_of(Domain domain, ClippedSurface surface, double mean_edge,
-             const FlowParameters& parameters) {
-    auto densities = triangle_densities(domain, parameters.local_detail_size, mean_edge);
-    const StepPlan steps = {
-        parameters,
-        asked_size(parameters, domain.mesh(), mean_edge, surface.grid),
-        stabilization_of(parameters),
-        parameters.solver == Solver::OneWCycle ? parameters.cycles : 0,
-        parameters.quality == Quality::MeanCurvature,
-        parameters.preserve != Preserve::None &&
-            !scales_components(parameters.preserve, parameters.flow),
-    };
-    return {std::move(domain),
-            std::move(surface),
-            std::move(densities),
-            discretisation_of(parameters),
-            steps,
-            parameters.preserve,
-            parameters.iterations,
-            mean_edge,
-            0,
-            0};
+PaperPlan paper_plan_of(const TriangleMesh& mesh, const FlowParameters& parameters) {
+    const Grid cube = enclosing_grid(mesh, 0);
+    return paper_plan_of(mesh, parameters,
+                         with_depth(cube, depth_of(parameters, mean_edge_length(mesh), cube)));
+}
+
+PaperPlan paper_plan_of(const TriangleMesh& mesh, const FlowParameters& parameters,
+                        const Grid& grid) {
+    enter_setup_phase(kFindEdges);
+    Domain domain(mesh, parameters.boundary);
+    enter_setup_phase(kMeasureSurface);
+    const double bytes = paper_flow_bytes(domain, grid, parameters.cubature, parameters.order);
+    check_free_memory(bytes, "Depth " + std::to_string(grid.depth) + " of the paper's method",
+                      "Choose a smaller depth, or the method Converged.");
+    enter_setup_phase(kClipTriangles);
+    ClippedSurface surface = clip_to_grid(domain.surface(), grid);
+    const double largest = kLargestStepSizeInCells * grid.cell_size * grid.cell_size;
+    return {plan_of(std::move(domain), parameters, mean_edge_length(mesh), largest, bytes),
+            std::move(surface), parameters.cubature, parameters.cycles};
 }
 
 }  // namespace tracked_mcf

@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "filter_tracked_mcf/core/solver/element_multigrid.h"
 
-#include <algorithm>
 #include <cmath>
-#include <utility>
 
-#include "filter_tracked_mcf/core/parallel/parallel.h"
-#include "filter_tracked_mcf/core/solver/level_products.h"
-#include "filter_tracked_mcf/core/system/constrained_cells.h"
+#include "filter_tracked_mcf/core/kernels/kernels.h"
 
 namespace tracked_mcf {
 
@@ -40,9 +36,8 @@ ElementMultigrid::LevelData::LevelData(const Level& of_level)
       partition(of_level),
       smoother(of_level, bricks, partition) {}
 
-ElementMultigrid::ElementMultigrid(const std::vector<Level>& levels,
-                                   std::vector<std::vector<std::uint8_t>> constrained)
-    : constrained_(std::move(constrained)), coarse_solver_(levels.front()) {
+ElementMultigrid::ElementMultigrid(const std::vector<Level>& levels)
+    : coarse_solver_(levels.front()) {
     for (const Level& level : levels) levels_.emplace_back(level);
     for (std::size_t l = 1; l < levels_.size(); ++l) {
         levels_[l].transfer = ElementTransfer(levels_[l].level, levels_[l - 1].level);
@@ -50,28 +45,24 @@ ElementMultigrid::ElementMultigrid(const std::vector<Level>& levels,
     }
 }
 
-void ElementMultigrid::refresh(MatrixBlocks& finest, double stiffness_to_mass, Effort effort) {
-    MatrixBlocks* matrices = &finest;
+void ElementMultigrid::refresh(const MatrixBlocks& finest, double stiffness_to_mass) {
+    const MatrixBlocks* matrices = &finest;
     for (coarsest_ = levels_.size() - 1;; --coarsest_, stiffness_to_mass /= 4) {
         LevelData& here = levels_[coarsest_];
-        eliminate_constrained(here.level, constrained_[coarsest_], *matrices);
         here.matrices = matrices;
         if (coarsest_ == 0) break;
         here.smoother.refresh(*matrices, couplings_);
         // With a coarse correction, the smoother covers the upper part of the spectrum; on the
         // coarsest level of the cycle, it covers nearly all of it.
-        if (effort == Effort::Thorough) {
-            const double largest =
-                std::max(kLargest, margin_ * here.smoother.largest_eigenvalue(*matrices));
-            here.steps = chebyshev_steps(4, largest / 16, largest);
-        } else if (stiffness_to_mass > kStiff) {
+        if (stiffness_to_mass > kStiff) {
             here.steps = chebyshev_steps(2, kLargest / 6, kLargest);
         } else {
             here.steps = chebyshev_steps(3, kLargest / 12, kLargest);
             return;
         }
-        matrices = &levels_[coarsest_ - 1].own_matrices;
-        coarsen_element_matrices(here.level, here.transfer.children(), *here.matrices, *matrices);
+        MatrixBlocks& coarser = levels_[coarsest_ - 1].own_matrices;
+        coarsen_element_matrices(here.level, here.transfer.children(), *matrices, coarser);
+        matrices = &coarser;
     }
     coarse_solver_.factorise(*matrices);
 }
@@ -104,23 +95,9 @@ void ElementMultigrid::LevelData::smooth(float step, const Field& right_side, Fi
 }
 
 void ElementMultigrid::LevelData::make_residual(const Field& right_side, const Field& x) {
-    subtract_products(partition, *matrices, right_side, x, residual);
-}
-
-double ElementMultigrid::multiply(const Field& x, Field& product) const {
-    return tracked_mcf::multiply(finest().partition, *finest().matrices, x, product);
-}
-
-void ElementMultigrid::residual(const Field& right_side, const Coefficients& x,
-                                Field& residual) const {
-    subtract_products(finest().level, *finest().matrices, right_side, x, residual);
-}
-
-void ElementMultigrid::assemble(const std::vector<ElementVector>& right_sides,
-                                Field& right_side) const {
-    sum_vectors(finest().partition, right_sides, right_side);
-    parallel_for_rows(right_side.cols(), [&](std::int32_t unknown) {
-        if (free_unknowns()[unknown] == 0) right_side.col(unknown).setZero();
+    // A = Σ_e R_eᵀ M_e R_e, with the matrix M_e of an element and its eight unknowns R_e.
+    partition.sum(&right_side, residual, [&](const ElementRange& range, float* sum) {
+        kernels().add_element_products(range, matrices->blocks(), -1, x.data(), sum);
     });
 }
 

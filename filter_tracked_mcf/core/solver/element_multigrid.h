@@ -5,22 +5,15 @@
 #include <deque>
 #include <vector>
 
-#include "filter_tracked_mcf/core/elements/tracked_elements.h"
 #include "filter_tracked_mcf/core/solver/coarse_solver.h"
 #include "filter_tracked_mcf/core/solver/element_bricks.h"
 #include "filter_tracked_mcf/core/solver/element_partition.h"
 #include "filter_tracked_mcf/core/solver/element_smoother.h"
 #include "filter_tracked_mcf/core/solver/element_transfer.h"
 #include "filter_tracked_mcf/core/solver/field.h"
-#include "filter_tracked_mcf/core/system/element_matrices.h"
+#include "filter_tracked_mcf/core/system/matrix_blocks.h"
 
 namespace tracked_mcf {
-
-/// Amount of work of a V-cycle.
-enum class Effort {
-    Usual,    ///< enough for most surfaces
-    Thorough  ///< for pinched surfaces: twice the smoothing on all levels, for the actual spectrum
-};
 
 /// The V-cycle that preconditions conjugate gradients. On each level, the ElementSmoother makes a
 /// few corrections before the coarse correction and as many after it. They are a Chebyshev
@@ -36,43 +29,18 @@ enum class Effort {
 /// are sums over the children of each element (element_transfer.h).
 class ElementMultigrid {
 public:
-    /// `constrained` are the flags of the constrained unknowns of each level, coarsest first.
     /// `levels`, coarsest first, must outlive this.
-    ElementMultigrid(const std::vector<Level>& levels,
-                     std::vector<std::vector<std::uint8_t>> constrained);
+    explicit ElementMultigrid(const std::vector<Level>& levels);
     ElementMultigrid(const ElementMultigrid&) = delete;
     ElementMultigrid& operator=(const ElementMultigrid&) = delete;
 
-    /// Takes the finest level's element matrices, sets the rows and columns of constrained unknowns
-    /// to zero in them, and computes the matrices of the coarser levels of the cycle. The matrices
-    /// must stay valid until the next refresh. `stiffness_to_mass` is their ratio on the finest
-    /// level, δ / h².
-    void refresh(MatrixBlocks& finest, double stiffness_to_mass, Effort effort = Effort::Usual);
-
-    /// Widens the spectrum of thorough V-cycles by half from the next refresh on. If the power
-    /// method has missed the largest eigenvalue, V-cycles are not positive without this.
-    void widen() { margin_ *= 1.5; }
-
-    /// Replaces the flags of the finest level's constrained unknowns, from the next refresh on.
-    void constrain(const std::vector<std::uint8_t>& finest) { constrained_.back() = finest; }
-
-    /// Returns for each unknown of the finest level whether it is free (not 0).
-    const std::vector<std::uint8_t>& free_unknowns() const {
-        return levels_.back().smoother.free_unknowns();
-    }
+    /// Takes the finest level's element matrices, and computes those of the coarser levels of the
+    /// cycle. The matrices must stay valid until the next refresh. `stiffness_to_mass` is their
+    /// ratio on the finest level, δ / h².
+    void refresh(const MatrixBlocks& finest, double stiffness_to_mass);
 
     /// Computes x by one V-cycle from zero for A x = right_side on the finest level.
     void cycle(const Field& right_side, Field& x);
-
-    /// Computes product = A x on the finest level and returns x · A x.
-    double multiply(const Field& x, Field& product) const;
-
-    /// Computes residual = right_side - A x on the finest level in double.
-    void residual(const Field& right_side, const Coefficients& x, Field& residual) const;
-
-    /// Sums the finest level's right-hand side from those of its elements. Sets it to zero for
-    /// unknowns that are not free.
-    void assemble(const std::vector<ElementVector>& right_sides, Field& right_side) const;
 
 private:
     struct LevelData {
@@ -98,11 +66,8 @@ private:
     };
 
     void cycle(std::size_t level, const Field& right_side, Field& x);
-    const LevelData& finest() const { return levels_.back(); }
 
-    std::vector<std::vector<std::uint8_t>> constrained_;
     std::size_t coarsest_ = 0;  ///< level at which the cycle ends
-    double margin_ = 1.2;       ///< factor from the power method's estimate to an upper bound
     std::deque<LevelData> levels_;
     CoarseSolver coarse_solver_;
     std::vector<Couplings> couplings_;  ///< workspace of refresh()

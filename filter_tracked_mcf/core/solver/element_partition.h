@@ -22,21 +22,18 @@ public:
     /// `level` must outlive this.
     explicit ElementPartition(const Level& level);
 
-    /// Sets the result to the base, adds the contributions of all parts by calling
-    /// contribute(range, result's data), and returns the sum of the numbers that contribute()
-    /// returns. A null base is zero; the base may be the result itself. contribute() may access the
-    /// result only to add to targets.
+    /// Sets the result to the base, and adds the contributions of all parts by calling
+    /// contribute(range, result's data). A null base is zero; the base may be the result itself.
+    /// contribute() may access the result only to add to targets.
     template <class Contribute>
-    double sum(const Field* base, Field& result, const Contribute& contribute) const {
+    void sum(const Field* base, Field& result, const Contribute& contribute) const {
         result.resize(4, level_.unknown_count());
-        std::vector<double> numbers(parts_.size());
         const auto contribute_part = [&](std::int64_t i) {
             initialize(parts_[i], base, result);
-            numbers[i] = contribute(range(parts_[i]), result.data());
+            contribute(range(parts_[i]), result.data());
         };
         parallel_for(static_cast<std::int64_t>(parts_.size()), contribute_part, kPartsWorthThreads);
         add_slots(result);
-        return std::accumulate(numbers.begin(), numbers.end(), 0.0);
     }
 
 private:

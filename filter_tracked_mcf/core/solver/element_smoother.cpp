@@ -2,11 +2,9 @@
 #include "filter_tracked_mcf/core/solver/element_smoother.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "filter_tracked_mcf/core/kernels/kernels.h"
 #include "filter_tracked_mcf/core/parallel/parallel.h"
-#include "filter_tracked_mcf/core/solver/level_products.h"
 #include "filter_tracked_mcf/core/system/constrained_cells.h"
 
 namespace tracked_mcf {
@@ -100,34 +98,10 @@ void ElementSmoother::refresh(const MatrixBlocks& matrices, std::vector<Coupling
     });
 }
 
-double ElementSmoother::largest_eigenvalue(const MatrixBlocks& matrices) const {
-    constexpr int steps = 12;
-    Field x;
-    Field product;
-    x.resize(4, level_.unknown_count());
-    parallel_for_rows(x.cols(), [&](std::int32_t unknown) {
-        // Pseudo-random numbers, so that the start has a component of every eigenvector.
-        const auto hash = static_cast<std::uint32_t>(unknown) * 2654435761U;
-        const float number = static_cast<float>(hash >> 8U) * 0x1p-23F - 1;
-        x.col(unknown) << number, number * number - 0.3F, 1 - std::abs(number), 0;
-        if (free_unknowns_[unknown] == 0) x.col(unknown).setZero();
-    });
-    double eigenvalue = 0;
-    for (int step = 0; step < steps; ++step) {
-        const double before = norm(x);
-        if (!(before > 0) || !std::isfinite(before)) return 0;
-        multiply(partition_, matrices, x, product);
-        correct(nullptr, static_cast<float>(1 / before), product, x);
-        eigenvalue = norm(x);
-    }
-    return eigenvalue;
-}
-
 void ElementSmoother::correct(const Field* base, float factor, const Field& residual,
                               Field& x) const {
     partition_.sum(base, x, [&](const ElementRange& range, float* sum) {
         kernels().add_element_products(range, inverses_.blocks(), factor, residual.data(), sum);
-        return 0.0;
     });
 }
 

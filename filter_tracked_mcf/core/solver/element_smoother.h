@@ -28,17 +28,12 @@ public:
     ElementSmoother(const Level& level, const ElementBricks& bricks,
                     const ElementPartition& partition);
 
-    /// Takes the level's element matrices, with zero rows and columns for constrained unknowns.
-    /// `workspace` is only used during the call.
+    /// Takes the level's element matrices. `workspace` is only used during the call.
     void refresh(const MatrixBlocks& matrices, std::vector<Couplings>& workspace);
 
     /// Computes x = base + factor * S residual. A null base is zero; the base may be x itself. Only
     /// free unknowns differ from the base.
     void correct(const Field* base, float factor, const Field& residual, Field& x) const;
-
-    /// Returns a lower estimate of the largest eigenvalue of S A, where A is the matrix of these
-    /// element matrices. Takes some steps of the power method from a fixed start.
-    double largest_eigenvalue(const MatrixBlocks& matrices) const;
 
     /// Returns for each unknown whether it is free (not 0).
     const std::vector<std::uint8_t>& free_unknowns() const { return free_unknowns_; }

@@ -106,7 +106,6 @@ void ElementTransfer::restrict(const Field& residual, const ElementPartition& co
                 }
             }
         }
-        return 0.0;
     });
 }
 

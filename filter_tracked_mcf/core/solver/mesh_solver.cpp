@@ -12,23 +12,18 @@ namespace tracked_mcf {
 
 namespace {
 
-constexpr int kMostMeshIterations = 1000;
+constexpr int kMostIterations = 1000;
+
+/// An octree whose V-cycle needs more iterations than this does harm: it may not be positive where
+/// components are smaller than a cell.
+constexpr int kMostWithOctree = 200;
 
 /// Below this fraction of its initial norm, a residual from recurrences in single precision differs
 /// from the true residual.
-constexpr double kSinglePrecisionOfMesh = 1e-5;
+constexpr double kSinglePrecision = 1e-5;
 
 /// A round of refinement makes progress if it reduces the error by this factor.
-constexpr double kWorthAnotherRound = 0.5;
-
-std::vector<std::vector<std::uint8_t>> nothing_constrained(const std::vector<Level>& levels) {
-    std::vector<std::vector<std::uint8_t>> flags;
-    flags.reserve(levels.size());
-    for (const Level& level : levels) {
-        flags.emplace_back(static_cast<std::size_t>(level.unknown_count()), std::uint8_t{0});
-    }
-    return flags;
-}
+constexpr double kWorthRefining = 0.5;
 
 /// Returns the power of two by which a right-hand side of this norm is divided: conjugate gradients
 /// square numbers, and single precision loses the squares of very small and large ones.
@@ -52,7 +47,7 @@ MeshSolver::MeshSolver(const Stars& stars, const std::vector<std::uint8_t>& fixe
 
 void MeshSolver::use(std::unique_ptr<VertexOctree> octree) {
     octree_ = std::move(octree);
-    multigrid_.emplace(octree_->levels(), nothing_constrained(octree_->levels()));
+    multigrid_.emplace(octree_->levels());
 }
 
 void MeshSolver::take(const TriangleElements& elements, double step_size, bool takes_stiffness) {
@@ -102,13 +97,13 @@ double MeshSolver::precondition(float step) {
     return square + dot(coarse_b_, coarse_x_).sum();
 }
 
-double MeshSolver::descend(double square, double limit, int& iterations) {
+double MeshSolver::descend(double square, double limit, int most, int& iterations) {
     set_zero(x_, r_.cols());
     set_zero(p_, r_.cols());
     set_zero(q_, r_.cols());
     const double start = square;
     float keep = 0;
-    while (square > limit && iterations < kMostMeshIterations) {
+    while (square > limit && iterations < most) {
         const double energy = system_.advance(z_, keep, p_, q_);
         if (!(energy > 0)) break;
         ++iterations;
@@ -130,21 +125,30 @@ MeshConvergence MeshSolver::solve(const Field& b, double tolerance,
     r_ = scaled;
     z_.resize(4, r_.cols());
     x.assign(static_cast<std::size_t>(r_.cols()), Eigen::Vector3d::Zero());
-    const double first = precondition(0);
-    const double goal = tolerance * tolerance * first;
-    const bool refines = tolerance < kSinglePrecisionOfMesh;
+    double first = precondition(0);
+    const bool refines = tolerance < kSinglePrecision;
     double square = first;
-    while (square > goal) {
+    const auto goal = [&] { return tolerance * tolerance * first; };
+    while (square > goal()) {
         const double before = square;
-        constexpr double reach = kSinglePrecisionOfMesh * kSinglePrecisionOfMesh;
-        square =
-            descend(square, refines ? std::max(goal, reach * square) : goal, result.iterations);
+        constexpr double reach = kSinglePrecision * kSinglePrecision;
+        const int most = octree_ ? kMostWithOctree : kMostIterations;
+        square = descend(square, refines ? std::max(goal(), reach * square) : goal(), most,
+                         result.iterations);
         parallel_for_rows(
             r_.cols(), [&](std::int32_t row) { x[row] += x_.col(row).head<3>().cast<double>(); });
-        if (!refines || result.iterations == kMostMeshIterations) break;
+        if (octree_ && !(square <= goal()) && result.iterations >= most) {
+            octree_.reset();
+            r_ = scaled;
+            first = precondition(0);
+            system_.residual(scaled, x, r_);
+            square = precondition(0);
+            continue;
+        }
+        if (!refines || result.iterations >= kMostIterations) break;
         system_.residual(scaled, x, r_);
         square = precondition(0);
-        if (!(square < kWorthAnotherRound * kWorthAnotherRound * before)) break;
+        if (!(square < kWorthRefining * kWorthRefining * before)) break;
     }
     remove_drift(x);
     parallel_for_rows(r_.cols(), [&](std::int32_t row) { x[row] *= unit; });

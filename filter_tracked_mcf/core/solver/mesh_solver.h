@@ -45,7 +45,8 @@ public:
     /// Takes the system of the next step, see MeshSystem::take().
     void take(const TriangleElements& elements, double step_size, bool takes_stiffness = true);
 
-    /// Solves A x = b. Vertices that stay must have a zero in b.
+    /// Solves A x = b. Vertices that stay must have a zero in b. If the octree does not help, goes
+    /// on without it, also in later solves.
     MeshConvergence solve(const Field& b, double tolerance, std::vector<Eigen::Vector3d>& x);
 
     const MeshSystem& system() const { return system_; }
@@ -53,8 +54,9 @@ public:
     const VertexOctree* octree() const { return octree_.get(); }
 
 private:
-    /// Iterates from x_ = 0 until r·Br, given that of r_, is at most `limit`. Returns what it is.
-    double descend(double square, double limit, int& iterations);
+    /// Iterates from x_ = 0 until r·Br, given that of r_, is at most `limit`, or there are `most`
+    /// iterations in all. Returns what it is.
+    double descend(double square, double limit, int most, int& iterations);
     /// Moves x_ by step * p_, and r_ likewise; sets z_ = B r_. Returns r·z.
     double precondition(float step);
     /// Adds to each component that nothing holds the translation that its residual asks for.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "filter_tracked_mcf/core/system/constrained_cells.h"
 
+#include "filter_tracked_mcf/core/cells/bspline.h"
 #include "filter_tracked_mcf/core/parallel/parallel.h"
 
 namespace tracked_mcf {
@@ -28,18 +29,47 @@ std::vector<std::uint8_t> mark_unknowns(const Level& level,
     return unknowns;
 }
 
+/// The mean square of a negligible function.
+constexpr double kNegligible = 1e-8;
+
 }  // namespace
 
-std::vector<std::vector<std::uint8_t>> constrained_unknowns(const TrackedElements& elements,
-                                                            BoundaryCondition boundary) {
+std::vector<std::vector<std::uint8_t>> constrained_unknowns(const TrackedElements& elements) {
     std::vector<std::vector<std::uint8_t>> constrained(elements.levels.size());
     std::vector<std::uint8_t> marked = elements.meets_constrained_edge;
-    if (boundary != BoundaryCondition::LockedCells) marked.assign(marked.size(), 0);
     for (std::size_t l = elements.levels.size(); l-- > 0;) {
         constrained[l] = mark_unknowns(elements.levels[l], marked);
         if (l > 0) marked = mark_parents(elements.levels[l], elements.levels[l - 1], marked);
     }
     return constrained;
+}
+
+void constrain_negligible(const TrackedElements& elements, std::vector<std::uint8_t>& constrained) {
+    const Level& finest = elements.finest();
+    struct Integrals {
+        CornerValues squares = CornerValues::Zero();
+        double area = 0;
+    };
+    std::vector<Integrals> of_elements(finest.cells.size());
+    parallel_for_rows(finest.element_count(), [&](std::int32_t element) {
+        Integrals& sum = of_elements[element];
+        for (auto i = elements.sample_begin[element]; i < elements.sample_begin[element + 1]; ++i) {
+            const double weight = elements.samples.weight(i);
+            sum.squares += weight * bspline_values(elements.samples.local(i)).cwiseAbs2();
+            sum.area += weight;
+        }
+    });
+    std::vector<double> squares(constrained.size()), areas(constrained.size());
+    for (std::int32_t element = 0; element < finest.element_count(); ++element) {
+        for (int corner = 0; corner < 8; ++corner) {
+            const std::int32_t unknown = finest.unknowns[element][corner];
+            squares[unknown] += of_elements[element].squares[corner];
+            areas[unknown] += of_elements[element].area;
+        }
+    }
+    for (std::size_t i = 0; i < constrained.size(); ++i) {
+        if (squares[i] <= kNegligible * areas[i]) constrained[i] = 1;
+    }
 }
 
 void eliminate_constrained(const Level& level, const std::vector<std::uint8_t>& constrained,

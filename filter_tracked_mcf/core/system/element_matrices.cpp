@@ -2,7 +2,6 @@
 #include "filter_tracked_mcf/core/system/element_matrices.h"
 
 #include <algorithm>
-#include <array>
 #include <numeric>
 
 #include "filter_tracked_mcf/core/kernels/kernels.h"
@@ -13,7 +12,7 @@ namespace tracked_mcf {
 namespace {
 
 IntegrationInput integration_input(const TrackedElements& elements,
-                                   const Coefficients& displacement, const SystemWeights& weights) {
+                                   const Coefficients& displacement, double step_size) {
     IntegrationInput input = {};
     input.unknowns = elements.finest().unknowns.data()->data();
     input.displacement = displacement.data();
@@ -23,10 +22,7 @@ IntegrationInput integration_input(const TrackedElements& elements,
     input.samples.fragments = elements.fragments.data();
     input.samples.sample_begin = elements.sample_begin.data();
     input.samples.fragment_begin = elements.fragment_begin.data();
-    input.mass = weights.mass;
-    input.densities = elements.densities.empty() ? nullptr : elements.densities.data();
-    input.step_size_in_cells = weights.step_size_in_cells;
-    input.initial_metric = weights.flow == FlowKind::Conformalized;
+    input.step_size_in_cells = static_cast<float>(step_size);
     return input;
 }
 
@@ -63,31 +59,26 @@ CornerRows product(const TrackedElements& elements, const MatrixBlocks& matrices
 }  // namespace
 
 void assemble_elements(const TrackedElements& elements, const Coefficients& displacement,
-                       const SystemWeights& weights, ElementSystems& systems) {
+                       double step_size, bool keep_stiffness, ElementSystems& systems) {
     IntegrateElements& integrate_elements = *kernels().integrate_elements;
     const std::int64_t count = elements.finest().element_count();
     systems.matrices.resize(count);
     systems.right_sides.resize(static_cast<std::size_t>(count));
     systems.areas.resize(static_cast<std::size_t>(count));
-    if (weights.keep_stiffness) systems.stiffnesses.resize(count);
-    const IntegrationInput all = integration_input(elements, displacement, weights);
-    const IntegrationOutput output = {
-        systems.matrices.blocks(), weights.keep_stiffness ? systems.stiffnesses.blocks() : nullptr,
-        systems.right_sides.data(), systems.areas.data()};
-    systems.collapses = parallel_collect<Collapse>(
-        count, [&](std::int64_t begin, std::int64_t end, std::vector<Collapse>& collapses) {
+    if (keep_stiffness) systems.stiffnesses.resize(count);
+    const IntegrationInput all = integration_input(elements, displacement, step_size);
+    const IntegrationOutput output = {systems.matrices.blocks(),
+                                      keep_stiffness ? systems.stiffnesses.blocks() : nullptr,
+                                      systems.right_sides.data(), systems.areas.data()};
+    systems.collapsed_samples =
+        parallel_sum(count, std::int64_t{0}, [&](std::int64_t begin, std::int64_t end) {
+            std::int64_t collapsed = 0;
             for_each_batch(elements, all, begin, end, [&](const IntegrationInput& batch) {
-                std::array<Collapse, kElementBatch> collapsed;
-                const int collapsed_count = integrate_elements(batch, output, collapsed.data());
-                collapses.insert(collapses.end(), collapsed.begin(),
-                                 collapsed.begin() + collapsed_count);
+                collapsed += integrate_elements(batch, output);
             });
+            return collapsed;
         });
     systems.area = std::accumulate(systems.areas.begin(), systems.areas.end(), 0.0);
-    systems.collapsed_samples = 0;
-    for (const Collapse& collapse : systems.collapses) {
-        systems.collapsed_samples += collapse.samples;
-    }
 }
 
 void multiply(const TrackedElements& elements, const MatrixBlocks& matrices,
@@ -100,19 +91,6 @@ void multiply(const TrackedElements& elements, const MatrixBlocks& matrices,
                 products[element].entry[axis][row] = static_cast<float>(rows(row, axis));
             }
         }
-    });
-}
-
-void assemble_normals(const TrackedElements& elements, const Coefficients& displacement,
-                      std::vector<ElementVector>& normals) {
-    IntegrateNormals& integrate = *kernels().integrate_normals;
-    const std::int64_t count = elements.finest().element_count();
-    normals.resize(static_cast<std::size_t>(count));
-    const IntegrationInput all =
-        integration_input(elements, displacement, {1, 0, FlowKind::MeanCurvature, false});
-    parallel_for_chunks(count, [&](std::int64_t begin, std::int64_t end) {
-        for_each_batch(elements, all, begin, end,
-                       [&](const IntegrationInput& batch) { integrate(batch, normals.data()); });
     });
 }
 

@@ -7,21 +7,23 @@ stay rich enough (Figure 5). The distance to the cotangent flow, by MeshLab's fi
 "Hausdorff Distance", is drawn over the steps: RMS solid, maximum dashed (Figure 6, left). The unit sphere
 flows a hundred steps of 1e-3, and the errors are those of its radius against the exact semi-implicit one
 (Figure 6, right). The paper's claim, of section 5.2: tracked elements are closer than rebuilt ones, and
-splitting the triangles before rebuilding helps. Both with the paper's solver and with the converged one.
+splitting the triangles before rebuilding helps. Both with one W-cycle a step, as in the paper, and with 10. After
+ten steps of the scan, 50 cycles instead of 10 change the distance of the tracked flow by 1.5 %.
 
 On the sphere, the claim does not hold with a single W-cycle. A table shows why: with more cycles, the error of
 the rebuilt flow rises, since the solver goes all the way to what is wrong with a flattened surface. That of the
 tracked flow does not.
 """
 
-from reproduction import CONVERGED, METHODS, PAPER, Reproduction, main_scan
+from reproduction import METHODS, PAPER, Reproduction, main_scan
 
 STEP_SIZE, SPHERE_STEP_SIZE = 1e-5, 1e-3
 CYCLES = [1, 2, 3, 5, 10, 20]
 STEPS = [1, 2, 5, 10, 20, 50, 100, 200, 400]
 OCTREES = METHODS[:3]
 COLOURS = dict(zip(METHODS, ["tab:orange", "black", "tab:blue", "tab:red"]))
-SOLVERS = {PAPER: "one W-cycle", CONVERGED: "converged"}
+MANY = f"{PAPER},cycles=10"
+SOLVERS = {PAPER: "one W-cycle", MANY: "10 W-cycles"}
 
 
 def measure_scan(figure, scan, depth, steps):
@@ -43,7 +45,7 @@ def measure_sphere(figure, frequency, depth, steps):
     words = ["--frequency", frequency, "--steps", *steps, "--step-size", SPHERE_STEP_SIZE]
     rows = {}
     for method in METHODS:
-        for solver in SOLVERS if method in OCTREES else [CONVERGED]:
+        for solver in SOLVERS if method in OCTREES else [MANY]:
             measured = figure.run("sphere", *words, "--depth", depth, "--configurations", solver,
                                   "--method", method, mesh="sphere", figure="6 right")
             rows[solver, method] = [{**row, "max": row["worst_vertex"]} for row in measured]
@@ -108,8 +110,8 @@ def ratios(rows, solver):
 def check(figure, scan, scan_rows, sphere_rows):
     """Returns whether tracked elements are closer in all cases, and whether splitting helps."""
     closer, helps = [], []
-    for what, rows, solver in ((scan, scan_rows, PAPER), (scan, scan_rows, CONVERGED),
-                               ("sphere", sphere_rows, CONVERGED)):
+    for what, rows, solver in ((scan, scan_rows, PAPER), (scan, scan_rows, MANY),
+                               ("sphere", sphere_rows, MANY)):
         tracked, split = ratios(rows, solver)
         closer.append(figure.check(f"{what}, {SOLVERS[solver]}: RMS, tracked over rebuilt", tracked,
                                    at_most=0.8))
@@ -122,12 +124,12 @@ def check(figure, scan, scan_rows, sphere_rows):
 def claim(figure, scan, scan_rows, sphere_rows):
     closer, helps = check(figure, scan, scan_rows, sphere_rows)
     figure.claim("tracked elements are closer to the cotangent flow of a scan than rebuilt ones, and "
-                 "closer to the exact sphere with a converged solver", closer)
+                 f"closer to the exact sphere with {SOLVERS[MANY]}", closer)
     figure.claim("splitting the triangles before rebuilding makes rebuilt elements closer", helps)
     tracked, _ = ratios(sphere_rows, PAPER)
     figure.claim("tracked elements are closer to the exact sphere with one W-cycle: the error is "
                  f"{tracked:.2f} times that of rebuilt ones", tracked < 1)
-    last = scan_rows[CONVERGED, "tracked"][-1]["steps"]
+    last = scan_rows[MANY, "tracked"][-1]["steps"]
     if last >= 100:
         check_richness(figure, scan_rows)
 
@@ -135,9 +137,9 @@ def claim(figure, scan, scan_rows, sphere_rows):
 def check_richness(figure, rows):
     """Compares tracked with rebuilt elements at late steps, when the initial functions are stretched
     the most."""
-    by_step = {method: {row["steps"]: row["rms"] for row in rows[CONVERGED, method]}
+    by_step = {method: {row["steps"]: row["rms"] for row in rows[MANY, method]}
                for method in OCTREES[:2]}
-    rich = [figure.check(f"{steps} steps, converged: RMS, tracked over rebuilt",
+    rich = [figure.check(f"{steps} steps, {SOLVERS[MANY]}: RMS, tracked over rebuilt",
                          by_step["tracked"][steps] / by_step["rebuilt"][steps], at_most=1)
             for steps in (100, 200, 400)]
     figure.claim("the initial functions stay rich enough over 400 steps of a scan", all(rich))

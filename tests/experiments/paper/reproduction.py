@@ -12,8 +12,7 @@ import tempfile
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
 
-from experiment import (CLAIM, CONVERGED, PAPER, Experiment, geometric_mean, kappa,  # noqa: E402
-                        label, skip)
+from experiment import CLAIM, CONVERGED, PAPER, Experiment, skip  # noqa: E402
 
 METHODS = ["tracked", "rebuilt", "rebuilt-split", "cotangent"]
 

@@ -56,7 +56,7 @@ for choice in order={0,5} {flow=2,boundary=3,preserve=3,method=3} \
 done
 refuses "No face is selected; select" good selected=true
 refuses "No face is selected; select" good --select "x0 > 5"
-refuses "surface is open" good flow=1 boundary=2 preserve=2
+refuses "surface is open" good flow=1 boundary=1 preserve=2
 refuses "Preserving the area would move vertices that must stay" good preserve=1
 refuses "not oriented consistently" twisted preserve=2
 exit "$((failures > 0))"

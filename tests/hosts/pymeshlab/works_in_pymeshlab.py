@@ -224,10 +224,9 @@ def check_package(mesh):
     quiet = apply(load(mesh), detail_size=pymeshlab.PercentageValue(10), iterations=20)["warnings"]
     warned = []
     tracked_mcf._warnings.showwarning = lambda message, *_, **__: warned.append(message)
-    [coarse] = apply(load(mesh), depth=2, method="Shared cells",
-                     detail_size=pymeshlab.PercentageValue(2))["warnings"]
-    if quiet or not coarse.startswith("The cells of depth 2 ") or [str(text) for text in warned] != [coarse]:
-        sys.exit(f"wrong warnings: {quiet}, {coarse} and {warned}")
+    [fine] = apply(load(mesh), detail_size=pymeshlab.PercentageValue(0.01))["warnings"]
+    if quiet or not fine.startswith("The detail size is ") or [str(text) for text in warned] != [fine]:
+        sys.exit(f"wrong warnings: {quiet}, {fine} and {warned}")
     meshes = load(mesh)
     before = vertices(meshes).tobytes()
     signal.signal(signal.SIGALRM, signal.default_int_handler)

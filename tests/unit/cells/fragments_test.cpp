@@ -25,16 +25,6 @@ TEST(Fragments, AreSortedByCellThenByTriangle) {
     EXPECT_TRUE(std::is_sorted(surface.fragments.begin(), surface.fragments.end(), before));
 }
 
-TEST(Fragments, IndicesByTriangleSortThemByTriangle) {
-    const ClippedSurface surface = clipped(shapes::bumpy_sphere(8), 4);
-    std::vector<std::int32_t> triangles(surface.fragments.size(), -1);
-    for (const FragmentEntry& fragment : surface.fragments) {
-        triangles.at(static_cast<std::size_t>(fragment.index_by_triangle)) = fragment.triangle;
-    }
-    EXPECT_TRUE(std::is_sorted(triangles.begin(), triangles.end()));
-    EXPECT_EQ(triangles.front(), 0);
-}
-
 TEST(Fragments, EveryCornerAndEveryEdgeOfATriangleLiesInOneOfItsFragments) {
     const TriangleMesh mesh = shapes::merged(shapes::bumpy_sphere(8), shapes::square(3));
     std::vector<unsigned> corners(mesh.triangles.size(), 0), edges(mesh.triangles.size(), 0);

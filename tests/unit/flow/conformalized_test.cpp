@@ -5,11 +5,10 @@
 
 #include <cmath>
 
-#include "filter_tracked_mcf/core/flow/flow.h"
 #include "filter_tracked_mcf/core/mesh/measures.h"
-#include "tests/support/elements.h"
 #include "tests/support/shapes.h"
 #include "tests/unit/flows.h"
+#include "tests/unit/mesh_system.h"
 
 namespace tracked_mcf {
 namespace {
@@ -34,34 +33,32 @@ double roundness(const TriangleMesh& mesh) {
     return std::sqrt(std::max(0.0, variance)) / mean;
 }
 
-TEST(Conformalized, StiffnessIsOfTheInitialMetricAndMassOfTheCurrentMetric) {
-    const TriangleMesh mesh = shapes::bumpy_sphere(12);
-    const TrackedElements elements =
-        build_tracked_elements(mesh, enclosing_grid(mesh, 4), Cubature::ThreePoints);
-    const Coefficients rest = Coefficients::Zero(elements.finest().unknown_count(), 3);
-    const Coefficients squeezed = -0.4 * identity_coefficients(elements);
-    const auto assembled = [&](const Coefficients& at, float mass, float stiffness, FlowKind flow) {
-        ElementSystems systems;
-        assemble_elements(elements, at, {mass, stiffness, flow}, systems);
-        return systems.matrices;
-    };
-    const auto expect_equal = [](const MatrixBlocks& a, const MatrixBlocks& b) {
-        ASSERT_EQ(a.size(), b.size());
-        for (std::int64_t element = 0; element < a.size(); ++element) {
-            for (int row = 0; row < 8; ++row) {
-                for (int column = 0; column < 8; ++column) {
-                    EXPECT_NEAR(a.at(element, row, column), b.at(element, row, column), 1e-5);
-                }
-            }
+TEST(Conformalized, TheStiffnessIsOfTheInitialMetricAndTheMassOfThePresentOne) {
+    const TriangleMesh mesh = shapes::bumpy_sphere(8);
+    FlowParameters p = conformalized(0, 0.02, 2);
+    p.absolute = true;
+    p.tolerance = 1e-8;
+    const TriangleMesh after = evolved(mesh, p);
+    p.iterations = 1;
+    const FlowSurface initial = flow_surface(mesh);
+    // In the units and the order of the initial surface.
+    const auto positions_of = [&](const TriangleMesh& moved) {
+        std::vector<Eigen::Vector3d> positions(initial.positions.size());
+        for (std::size_t i = 0; i < moved.positions.size(); ++i) {
+            positions[static_cast<std::size_t>(initial.vertices[i])] =
+                moved.positions[i] / initial.edge;
         }
+        return positions;
     };
-    // Scaling does not change the stiffness, so the map must also shear.
-    Coefficients sheared = squeezed;
-    sheared.col(0) += 0.3 * squeezed.col(1);
-    expect_equal(assembled(sheared, 0, 1, FlowKind::Conformalized),
-                 assembled(rest, 0, 1, FlowKind::MeanCurvature));
-    expect_equal(assembled(sheared, 1, 0, FlowKind::Conformalized),
-                 assembled(sheared, 1, 0, FlowKind::MeanCurvature));
+    const std::vector<Eigen::Vector3d> x = positions_of(evolved(mesh, p));
+    const double delta = p.step_size / (initial.edge * initial.edge);
+    const Eigen::MatrixXd stiffness = delta * dense_stiffness(initial.stars, elements_of(initial));
+    const Eigen::MatrixXd mass =
+        dense_mass(initial.stars, elements_in_own_metric(initial.stars, x, {}));
+    const Eigen::MatrixXd expected =
+        rows_of(x) - (mass + stiffness).ldlt().solve(stiffness * rows_of(x));
+    const Eigen::MatrixXd found = rows_of(positions_of(after));
+    EXPECT_LT((found - expected).norm(), 1e-4 * (found - rows_of(x)).norm());
 }
 
 TEST(Conformalized, SphereShrinksToTheSemiImplicitRadius) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "filter_tracked_mcf/core/flow/flow.h"
+#include "filter_tracked_mcf/core/flow/paper_flow.h"
 
 #include <gtest/gtest.h>
 
@@ -8,10 +8,10 @@
 
 #include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/evolve.h"
+#include "filter_tracked_mcf/core/flow/mesh_flow.h"
 #include "filter_tracked_mcf/core/mesh/measures.h"
 #include "filter_tracked_mcf/core/mesh/mesh_topology.h"
 #include "tests/support/not_finite.h"
-#include "tests/support/plans.h"
 #include "tests/support/shapes.h"
 #include "tests/unit/flows.h"
 
@@ -19,7 +19,8 @@ namespace tracked_mcf {
 namespace {
 
 // A flow has references to its own members.
-static_assert(!std::is_copy_constructible_v<Flow> && !std::is_move_constructible_v<Flow>);
+static_assert(!std::is_copy_constructible_v<MeshFlow> && !std::is_move_constructible_v<MeshFlow>);
+static_assert(!std::is_copy_constructible_v<PaperFlow> && !std::is_move_constructible_v<PaperFlow>);
 
 TEST(Flow, OneStepShrinksTheSphereToTheSemiImplicitRadius) {
     // r(t+δ) = r³ / (r² + 2δ), section 5.2; the unit sphere's longest side is 2.
@@ -76,18 +77,8 @@ double largest_effect_of_noise(const FlowParameters& p) {
 
 TEST(Flow, NoiseHardlyChangesTheFlowOfAPlateauInAGridPlane) {
     FlowParameters p = parameters(5, 1e-4, 10);
-    p.solver = Solver::OneWCycle;
+    p.method = Method::Paper;
     EXPECT_LT(largest_effect_of_noise(p), 2e-5);
-}
-
-TEST(Flow, NoiseHardlyChangesTheFlowOfAPlateauInAGridPlaneWhenStabilized) {
-    // Noise adds cells on the other side of the plateau. At its border the stabilisation then
-    // couples other functions. The effect is a small part of the discretisation error.
-    FlowParameters p = parameters(5, 1e-4, 10), deeper = parameters(7, 1e-4, 10);
-    p.solver = deeper.solver = Solver::Grid;
-    const TriangleMesh mesh = sphere_with_plateau();
-    const double of_depth = distance(evolved(mesh, p), evolved(mesh, deeper));
-    EXPECT_LT(largest_effect_of_noise(p), 0.2 * of_depth);
 }
 
 TEST(Flow, LockedBoundaryVerticesKeepTheirBits) {
@@ -130,11 +121,10 @@ TEST(Flow, ResultHasTheSameBitsForAnyNumberOfThreads) {
     // Large enough for many chunks and several slabs of cells.
     const TriangleMesh mesh = shapes::bumpy_sphere(60);
     FlowParameters p = parameters(7, 1e-4, 2);
-    for (const Solver solver : {Solver::Converged, Solver::Grid, Solver::OneWCycle}) {
-        p.solver = solver;
+    for (const Method method : {Method::Paper, Method::Converged}) {
+        p.method = method;
         expect_same_bits_at_any_number_of_threads(mesh, p);
     }
-    p.solver = Solver::Converged;
     expect_same_bits_at_any_number_of_threads(bumpy_cap(60), p);
     p.flow = FlowKind::Conformalized;
     p.preserve = Preserve::Volume;
@@ -142,16 +132,16 @@ TEST(Flow, ResultHasTheSameBitsForAnyNumberOfThreads) {
 }
 
 TEST(Flow, StopsWhenItsNumbersAreNotFinite) {
-    for (const Solver solver : {Solver::Grid, Solver::OneWCycle}) {
-        FlowParameters p = parameters(4, 1e-4, 1);
-        p.solver = solver;
-        p.stabilization = std::numeric_limits<double>::quiet_NaN();  // validate() rejects it
-        Flow flow(plan_of(shapes::bumpy_sphere(10), p));
-        EXPECT_FALSE(flow.step());
-        EXPECT_EQ(flow.report().stop, Stop::StepFailed);
-        EXPECT_TRUE(flow.report().steps.empty());
-        EXPECT_TRUE(flow.state().displacement.isZero(0));
-    }
+    const TriangleMesh mesh = shapes::bumpy_sphere(10);
+    FlowParameters p = parameters(4, 1e-4, 1);
+    p.step_size = std::numeric_limits<double>::quiet_NaN();  // validate() rejects it
+    PaperPlan plan = paper_plan_of(mesh, p);
+    plan.step_size = p.step_size;
+    PaperFlow flow(std::move(plan));
+    EXPECT_FALSE(flow.step());
+    EXPECT_EQ(flow.report().stop, Stop::StepFailed);
+    EXPECT_TRUE(flow.report().steps.empty());
+    EXPECT_TRUE(flow.displacement().isZero(0));
 }
 
 TEST(Flow, SoupFlowsLikeItsMesh) {
@@ -187,17 +177,9 @@ TEST(Flow, PinchedPartsStayWhereTheyAre) {
     }
     Eigen::AlignedBox3d box;
     for (const auto& position : mesh.positions) box.extend(position);
-    for (const Solver solver : {Solver::Converged, Solver::Grid}) {
-        TriangleMesh after = mesh;
-        FlowParameters p = parameters(6, 2e-4, 60);
-        p.solver = solver;
-        const FlowReport report = evolve(after, p);
-        EXPECT_EQ(report.stop, Stop::Vanished);
-        if (solver == Solver::Grid) {
-            EXPECT_GT(report.steps.back().collapsed_samples, 100);
-        }
-        for (const auto& position : after.positions) EXPECT_TRUE(box.contains(position));
-    }
+    TriangleMesh after = mesh;
+    EXPECT_EQ(evolve(after, parameters(6, 2e-4, 60)).stop, Stop::Vanished);
+    for (const auto& position : after.positions) EXPECT_TRUE(box.contains(position));
 }
 
 TEST(Flow, UnreferencedVerticesKeepTheirBits) {

@@ -7,10 +7,9 @@
 #include <cmath>
 #include <string>
 
-#include "filter_tracked_mcf/core/flow/flow.h"
 #include "filter_tracked_mcf/core/mesh/measures.h"
 #include "filter_tracked_mcf/core/plan/densities.h"
-#include "tests/support/plans.h"
+#include "filter_tracked_mcf/core/plan/plan.h"
 #include "tests/support/shapes.h"
 #include "tests/unit/flows.h"
 
@@ -65,41 +64,16 @@ TEST(LocalDetailSize, IsTheDetailSizeWhereAllEdgesAreAlike) {
     EXPECT_LT(distance(evolved(fine_tube(), p), following), 1e-6);
 }
 
-TEST(LocalDetailSize, GivesTheMeanCurvatureOfThatSize) {
-    TriangleMesh mesh = shapes::merged(coarse_tube(), fine_tube());
-    const double mean = mean_edge_length(mesh);
-    FlowParameters p = following_edges();
-    p.quality = Quality::MeanCurvature;
-    p.solver = Solver::Grid;  // the mesh measures it at one size, whatever the detail size
-    p.tolerance = 1e-6;
-    const std::vector<double> following = evolve(mesh, p).quality;
-    p.local_detail_size = false;
-    const auto expect_equal = [&](const TriangleMesh& tube, std::size_t first, std::size_t last) {
-        p.step_size = kDelta * std::pow(mean_edge_length(tube) / mean, 2);
-        TriangleMesh both = shapes::merged(coarse_tube(), fine_tube());
-        const std::vector<double> expected = evolve(both, p).quality;
-        for (std::size_t i = first; i < last; ++i) ASSERT_NEAR(following[i], expected[i], 1e-4);
-    };
-    const std::size_t first_fine = coarse_tube().positions.size();
-    expect_equal(coarse_tube(), 0, first_fine);
-    expect_equal(fine_tube(), first_fine, following.size());
-}
-
 TEST(LocalDetailSize, IsATenthToTenTimesTheDetailSize) {
     const TriangleMesh coarse = shapes::square(1), fine = shapes::square(60);
     const TriangleMesh mesh = shapes::merged(
         coarse, shapes::transformed(fine, Eigen::Affine3d(Eigen::Translation3d(0, 0, 1))));
     ASSERT_GT(mean_edge_length(coarse), 2 * kLargestDetailRatio * mean_edge_length(mesh));
     FlowParameters p = following_edges();
-    p.depth = 4;
-    const Flow flow(plan_of(mesh, p));
-    const std::vector<float>& densities = flow.stepper().elements().densities;
-    const auto [least, most] = std::minmax_element(densities.begin(), densities.end());
+    const MeshPlan plan = mesh_plan_of(mesh, {}, p);
+    const auto [least, most] = std::minmax_element(plan.densities.begin(), plan.densities.end());
     EXPECT_NEAR(*least, 1 / (kLargestDetailRatio * kLargestDetailRatio), 1e-8);
     EXPECT_GT(*most, 1);
-    // The limit holds where the step is largest.
-    p.step_size = 1e9;
-    EXPECT_NEAR(Flow(plan_of(mesh, p)).stepper().size().in_cells, 1e5 * double{*least}, 1);
 }
 
 }  // namespace

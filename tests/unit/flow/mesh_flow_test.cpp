@@ -165,20 +165,6 @@ TEST(MeshFlow, UndoesAStepThatMakesTheSurfaceLargerAndEnds) {
     }
 }
 
-TEST(MeshFlow, RefusesLockedCells) {
-    FlowParameters p = on_mesh(1e-3, 1);
-    p.boundary = BoundaryCondition::LockedCells;
-    const TriangleMesh cap = bumpy_cap(6);
-    TriangleMesh mesh = cap;
-    try {
-        evolve(mesh, p);
-        FAIL() << "must throw";
-    } catch (const InvalidParameter& error) {
-        EXPECT_EQ(error.name, "boundary");
-    }
-    EXPECT_TRUE(same_bits(mesh, cap));
-}
-
 TEST(MeshFlow, CloseSheetsFlowAsAlone) {
     // A hundredth of an edge apart, with different noise, and in the same cells.
     const TriangleMesh sheet = noisy(shapes::square(20), 0.01);

@@ -8,8 +8,6 @@
 #include <limits>
 
 #include "filter_tracked_mcf/core/errors.h"
-#include "filter_tracked_mcf/core/flow/flow.h"
-#include "tests/support/plans.h"
 #include "tests/support/shapes.h"
 #include "tests/unit/flows.h"
 
@@ -21,6 +19,7 @@ constexpr double kStepSize = 0.02;  ///< small beside the squared radius
 
 FlowParameters measuring(Quality quality) {
     FlowParameters p;
+    p.order = 1;
     p.depth = 5;
     p.absolute = true;
     p.step_size = kStepSize;
@@ -48,15 +47,6 @@ void expect_all_near(const std::vector<double>& numbers, double expected, double
 
 TEST(Quality, IsEmptyUnlessAskedFor) {
     EXPECT_TRUE(quality_of(sphere(), measuring(Quality::None)).empty());
-}
-
-TEST(Quality, VelocitiesAreZeroUnlessTheMeanCurvatureIsAskedFor) {
-    const TriangleMesh mesh = sphere();
-    Flow flow(plan_of(mesh, measuring(Quality::Displacement)));
-    ASSERT_TRUE(flow.step());
-    for (const Eigen::Vector3d& velocity : flow.velocities(mesh.positions.size())) {
-        EXPECT_TRUE(velocity.isZero(0));
-    }
 }
 
 TEST(Quality, DoesNotChangeTheFlow) {
@@ -89,16 +79,13 @@ TEST(Quality, MeanCurvatureOfASphereIsOneOverItsRadius) {
 TEST(Quality, MeanCurvatureIsThatOfTheSurfaceIfItsFirstStepIsTakenBack) {
     FlowParameters p = measuring(Quality::MeanCurvature);
     p.step_size = 1000;
-    for (const Solver solver : {Solver::Converged, Solver::Grid}) {
-        p.solver = solver;
-        for (const Preserve preserve : {Preserve::None, Preserve::Area}) {
-            p.preserve = preserve;
-            TriangleMesh mesh = sphere();
-            const FlowReport report = evolve(mesh, p);
-            EXPECT_EQ(report.stop, Stop::Vanished);
-            EXPECT_TRUE(report.steps.empty());
-            expect_all_near(report.quality, 1 / kRadius, 0.05 / kRadius);
-        }
+    for (const Preserve preserve : {Preserve::None, Preserve::Area}) {
+        p.preserve = preserve;
+        TriangleMesh mesh = sphere();
+        const FlowReport report = evolve(mesh, p);
+        EXPECT_EQ(report.stop, Stop::Vanished);
+        EXPECT_TRUE(report.steps.empty());
+        expect_all_near(report.quality, 1 / kRadius, 0.05 / kRadius);
     }
 }
 
@@ -178,12 +165,16 @@ TEST(Quality, IsZeroWhereNothingFlows) {
     }
 }
 
-TEST(Quality, AConformalizedFlowDoesNotKnowTheMeanCurvature) {
+TEST(Quality, MeanCurvatureIsMeasuredAfterAnyFlow) {
     FlowParameters p = measuring(Quality::MeanCurvature);
-    p.flow = FlowKind::Conformalized;
-    EXPECT_THROW(validate(p), InvalidParameter);
-    p.quality = Quality::Displacement;
-    EXPECT_NO_THROW(validate(p));
+    p.step_size = 1e-9;
+    for (const FlowKind flow : {FlowKind::MeanCurvature, FlowKind::Conformalized}) {
+        p.flow = flow;
+        expect_all_near(quality_of(sphere(), p), 1 / kRadius, 0.02 / kRadius);
+    }
+    p.flow = FlowKind::MeanCurvature;
+    p.method = Method::Paper;
+    expect_all_near(quality_of(sphere(), p), 1 / kRadius, 0.02 / kRadius);
 }
 
 }  // namespace

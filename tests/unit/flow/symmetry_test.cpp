@@ -32,12 +32,13 @@ std::vector<Case> cases() {
             result.push_back(of);
         }
     }
-    for (const auto boundary :
-         {BoundaryCondition::Locked, BoundaryCondition::LockedCells, BoundaryCondition::Free}) {
-        Case of{"open", open, parameters(5, 1e-4, 5)};
-        of.parameters.boundary = boundary;
-        if (boundary == BoundaryCondition::LockedCells) of.parameters.solver = Solver::Grid;
-        result.push_back(of);
+    for (const Method method : {Method::Converged, Method::Paper}) {
+        for (const auto boundary : {BoundaryCondition::Locked, BoundaryCondition::Free}) {
+            Case of{"open", open, parameters(5, 1e-4, 5)};
+            of.parameters.boundary = boundary;
+            of.parameters.method = method;
+            result.push_back(of);
+        }
     }
     // Rounding may change the number of iterations, and so the result by the tolerance.
     for (Case& of : result) of.parameters.tolerance = 1e-6;
@@ -108,7 +109,7 @@ TEST(Symmetry, CommutesWithQuarterTurnsInTheLimitOfManyCycles) {
     for (int axis = 0; axis < 3; ++axis) {
         const auto difference = [&](int cycles) {
             FlowParameters p = parameters(4, 1e-3, 1);
-            p.solver = Solver::OneWCycle;
+            p.method = Method::Paper;
             p.cycles = cycles;
             return effect_of_a_quarter_turn(axis, p);
         };

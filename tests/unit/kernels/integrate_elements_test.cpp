@@ -22,7 +22,6 @@ namespace {
 using Matrix8 = Eigen::Matrix<double, 8, 8>;
 using Vector8 = Eigen::Matrix<double, 8, 1>;
 
-constexpr double kMassWeight = 1.5;
 constexpr double kStiffnessWeight = 0.75;
 
 struct Results {
@@ -30,42 +29,28 @@ struct Results {
     MatrixBlocks stiffnesses;  ///< if they were asked for
     std::vector<ElementVector> right_sides;
     std::vector<float> areas;
-    std::vector<Collapse> collapses;
+    std::int64_t collapsed = 0;  ///< samples
 };
 
-struct Wanted {
-    float mass = kMassWeight;
-    bool stiffnesses = false;
-};
-
-Results integrate(const Surface& surface, bool initial_metric, InstructionSet instructions,
-                  Wanted wanted = {}) {
+Results integrate(const Surface& surface, InstructionSet instructions,
+                  bool keep_stiffness = false) {
     const std::vector<double> displacement = displacement_array(surface);
     const auto count = static_cast<std::size_t>(surface.element_count());
     Results results = {MatrixBlocks(surface.element_count()),
-                       MatrixBlocks(wanted.stiffnesses ? surface.element_count() : 0),
-                       std::vector<ElementVector>(count),
-                       std::vector<float>(count),
-                       {}};
+                       MatrixBlocks(keep_stiffness ? surface.element_count() : 0),
+                       std::vector<ElementVector>(count), std::vector<float>(count), 0};
     IntegrationInput input = {};
     input.unknowns = surface.unknowns.data();
     input.displacement = displacement.data();
     input.samples = surface.arrays();
-    input.mass = wanted.mass;
     input.step_size_in_cells = kStiffnessWeight;
-    input.initial_metric = initial_metric;
     for (; input.begin < surface.element_count(); input.begin = input.end) {
         input.end = std::min(input.begin + kElementBatch, surface.element_count());
-        std::array<Collapse, kElementBatch> collapses;
-        const int collapsed =
+        results.collapsed +=
             kernels_for(instructions)
-                .integrate_elements(input,
-                                    {results.matrices.blocks(),
-                                     wanted.stiffnesses ? results.stiffnesses.blocks() : nullptr,
-                                     results.right_sides.data(), results.areas.data()},
-                                    collapses.data());
-        results.collapses.insert(results.collapses.end(), collapses.begin(),
-                                 collapses.begin() + collapsed);
+                .integrate_elements(input, {results.matrices.blocks(),
+                                            keep_stiffness ? results.stiffnesses.blocks() : nullptr,
+                                            results.right_sides.data(), results.areas.data()});
     }
     return results;
 }
@@ -77,11 +62,10 @@ struct Reference {
     Matrix83 right_side = Matrix83::Zero();
     double area = 0;
     int collapsed = 0;
-    Vector8 collapsed_mass = Vector8::Zero();
 };
 
 void add_sample(const Eigen::Vector3d& normal, const Eigen::Vector3d& local, double weight,
-                const Matrix83& x, bool initial_metric, Reference& reference) {
+                const Matrix83& x, Reference& reference) {
     Eigen::Matrix<double, 3, 2> tangents;
     tangents.col(0) = normal.unitOrthogonal();
     tangents.col(1) = normal.cross(tangents.col(0));
@@ -90,28 +74,23 @@ void add_sample(const Eigen::Vector3d& normal, const Eigen::Vector3d& local, dou
     const Eigen::Matrix<double, 3, 2> dx = x.transpose() * slopes;
     const Eigen::Matrix2d g = dx.transpose() * dx;
     const double area = dx.col(0).cross(dx.col(1)).norm();
-    if (!initial_metric && area <= 1e-4) {
+    if (area <= 1e-4) {
         ++reference.collapsed;
-        reference.collapsed_mass += weight * values.cwiseAbs2();
         return;
     }
-    const Eigen::Matrix2d metric =
-        initial_metric ? Eigen::Matrix2d::Identity() : Eigen::Matrix2d(area * g.inverse());
-    const Matrix8 stiffness = weight * slopes * metric * slopes.transpose();
+    const Matrix8 stiffness = weight * area * slopes * g.inverse() * slopes.transpose();
     reference.mass += area * weight * values * values.transpose();
     reference.stiffness += stiffness;
     reference.right_side -= kStiffnessWeight * stiffness * x;
     reference.area += area * weight;
 }
 
-Reference reference_for(const Surface& surface, std::size_t element, bool initial_metric) {
+Reference reference_for(const Surface& surface, std::size_t element) {
     const Matrix83 x = embedding_of(surface, element);
     Reference reference;
-    for_each_sample(
-        surface, element,
-        [&](const Eigen::Vector3d& normal, const Eigen::Vector3d& local, double weight) {
-            add_sample(normal, local, weight, x, initial_metric, reference);
-        });
+    for_each_sample(surface, element,
+                    [&](const Eigen::Vector3d& normal, const Eigen::Vector3d& local,
+                        double weight) { add_sample(normal, local, weight, x, reference); });
     return reference;
 }
 
@@ -120,12 +99,12 @@ Matrix83 right_side_of(const Results& results, std::size_t element) {
         .cast<double>();
 }
 
-void expect_reference(const Surface& surface, const Results& results, bool initial_metric) {
-    std::size_t next_collapse = 0;
+void expect_reference(const Surface& surface, const Results& results) {
+    std::int64_t collapsed = 0;
     for (std::size_t element = 0; element < results.right_sides.size(); ++element) {
         SCOPED_TRACE("element " + std::to_string(element));
-        const Reference expected = reference_for(surface, element, initial_metric);
-        const Matrix8 matrix = kMassWeight * expected.mass + kStiffnessWeight * expected.stiffness;
+        const Reference expected = reference_for(surface, element);
+        const Matrix8 matrix = expected.mass + kStiffnessWeight * expected.stiffness;
         const ElementMatrix whole = results.matrices.of(static_cast<std::int64_t>(element));
         const Matrix8 actual =
             Eigen::Map<const Eigen::Matrix<float, 8, 8>>(whole.entry[0]).cast<double>();
@@ -134,23 +113,15 @@ void expect_reference(const Surface& surface, const Results& results, bool initi
         EXPECT_LE((right_side - expected.right_side).norm(), 2e-6 * matrix.norm());
         // With edges, the area is the difference of two sums.
         EXPECT_NEAR(results.areas[element], expected.area, 1e-6 * expected.mass.sum());
-        if (expected.collapsed == 0) continue;
-        ASSERT_LT(next_collapse, results.collapses.size());
-        const Collapse& collapse = results.collapses[next_collapse++];
-        EXPECT_EQ(collapse.element, static_cast<std::int32_t>(element));
-        EXPECT_EQ(collapse.samples, expected.collapsed);
-        const Vector8 mass =
-            Eigen::Map<const Eigen::Matrix<float, 8, 1>>(collapse.mass).cast<double>();
-        EXPECT_LE((mass - expected.collapsed_mass).norm(), 1e-6 * expected.collapsed_mass.norm());
+        collapsed += expected.collapsed;
     }
-    EXPECT_EQ(next_collapse, results.collapses.size());
+    EXPECT_EQ(results.collapsed, collapsed);
 }
 
-class IntegrateElements : public testing::TestWithParam<std::tuple<InstructionSet, bool>> {
+class IntegrateElements : public testing::TestWithParam<InstructionSet> {
 protected:
     void check(const Surface& surface) {
-        const auto [instructions, initial_metric] = GetParam();
-        expect_reference(surface, integrate(surface, initial_metric, instructions), initial_metric);
+        expect_reference(surface, integrate(surface, GetParam()));
     }
 };
 
@@ -195,33 +166,30 @@ TEST_P(IntegrateElements, KeepTheRightHandSideAccurateWhereTheSurfaceIsCompresse
     for (Fragment& fragment : surface.fragments) {
         fragment = {{0, 0.6F, 0.8F}, fragment.sample_count};
     }
-    const auto [instructions, initial_metric] = GetParam();
-    const Results results = integrate(surface, initial_metric, instructions);
+    const Results results = integrate(surface, GetParam());
     for (std::size_t element = 0; element < results.right_sides.size(); ++element) {
-        const Matrix83 expected = reference_for(surface, element, initial_metric).right_side;
+        const Matrix83 expected = reference_for(surface, element).right_side;
         EXPECT_LE((right_side_of(results, element) - expected).norm(), 2e-6 * expected.norm());
     }
 }
 
-TEST_P(IntegrateElements, WriteTheStiffnessesAloneWithTheBitsOfNoMass) {
-    // 0 times the mass adds nothing, so both sums have the same single rounding.
+TEST_P(IntegrateElements, WriteTheStiffnessesAlone) {
     const Surface surface = SurfaceMaker().make();
-    const auto [instructions, initial_metric] = GetParam();
-    const Results plain = integrate(surface, initial_metric, instructions);
-    const Results with = integrate(surface, initial_metric, instructions, {kMassWeight, true});
-    const Results massless = integrate(surface, initial_metric, instructions, {0, false});
-    for (std::int64_t element = 0; element < surface.element_count(); ++element) {
-        for (int row = 0; row < 8; ++row) {
-            for (int column = 0; column < 8; ++column) {
-                EXPECT_EQ(with.stiffnesses.at(element, row, column),
-                          massless.matrices.at(element, row, column));
-                EXPECT_EQ(with.matrices.at(element, row, column),
-                          plain.matrices.at(element, row, column));
-            }
+    const Results plain = integrate(surface, GetParam());
+    const Results with = integrate(surface, GetParam(), true);
+    for (std::size_t element = 0; element < with.areas.size(); ++element) {
+        const ElementMatrix whole = with.stiffnesses.of(static_cast<std::int64_t>(element));
+        const Matrix8 stiffness =
+            Eigen::Map<const Eigen::Matrix<float, 8, 8>>(whole.entry[0]).cast<double>();
+        const Matrix8 expected = kStiffnessWeight * reference_for(surface, element).stiffness;
+        EXPECT_LE((stiffness - expected).norm(), 2e-6 * expected.norm());
+        for (int entry = 0; entry < 64; ++entry) {
+            const auto index = static_cast<std::int64_t>(element);
+            EXPECT_EQ(with.matrices.at(index, entry / 8, entry % 8),
+                      plain.matrices.at(index, entry / 8, entry % 8));
         }
-        const auto index = static_cast<std::size_t>(element);
-        EXPECT_EQ(right_side_of(with, index), right_side_of(plain, index));
-        EXPECT_EQ(with.areas[index], plain.areas[index]);
+        EXPECT_EQ(right_side_of(with, element), right_side_of(plain, element));
+        EXPECT_EQ(with.areas[element], plain.areas[element]);
     }
 }
 
@@ -231,30 +199,22 @@ TEST(InstructionSetsOfFourLanes, GiveTheSameBits) {
         GTEST_SKIP() << "This machine has one alone.";
     }
     const Surface surface = SurfaceMaker().make();
-    for (const bool initial_metric : {false, true}) {
-        const Results a = integrate(surface, initial_metric, InstructionSet::Baseline);
-        const Results b = integrate(surface, initial_metric, InstructionSet::Ssse3);
-        EXPECT_EQ(a.areas, b.areas);
-        for (std::size_t element = 0; element < a.areas.size(); ++element) {
-            EXPECT_EQ(right_side_of(a, element), right_side_of(b, element));
-            for (int entry = 0; entry < 64; ++entry) {
-                const auto index = static_cast<std::int64_t>(element);
-                EXPECT_EQ(a.matrices.at(index, entry / 8, entry % 8),
-                          b.matrices.at(index, entry / 8, entry % 8));
-            }
+    const Results a = integrate(surface, InstructionSet::Baseline);
+    const Results b = integrate(surface, InstructionSet::Ssse3);
+    EXPECT_EQ(a.areas, b.areas);
+    for (std::size_t element = 0; element < a.areas.size(); ++element) {
+        EXPECT_EQ(right_side_of(a, element), right_side_of(b, element));
+        for (int entry = 0; entry < 64; ++entry) {
+            const auto index = static_cast<std::int64_t>(element);
+            EXPECT_EQ(a.matrices.at(index, entry / 8, entry % 8),
+                      b.matrices.at(index, entry / 8, entry % 8));
         }
     }
 }
 
-std::string name_of_case(const testing::TestParamInfo<std::tuple<InstructionSet, bool>>& info) {
-    return std::string(name_of(std::get<0>(info.param))) +
-           (std::get<1>(info.param) ? "_InitialMetric" : "_PresentMetric");
-}
-
 INSTANTIATE_TEST_SUITE_P(InstructionSets, IntegrateElements,
-                         testing::Combine(testing::ValuesIn(available_instruction_sets()),
-                                          testing::Bool()),
-                         name_of_case);
+                         testing::ValuesIn(available_instruction_sets()),
+                         [](const auto& instance) { return std::string(name_of(instance.param)); });
 
 }  // namespace
 }  // namespace tracked_mcf

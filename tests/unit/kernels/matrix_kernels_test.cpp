@@ -118,58 +118,16 @@ TEST_P(MatrixKernels, ProductsOfALastBlockWithoutSlots) {
     expect_added(Field::Zero(4, x.cols()), y, elements_.assembled() * rows(x));
 }
 
-TEST_P(MatrixKernels, ReturnTheScalarProductOfAProduct) {
-    const Field x = elements_.field();
-    Field y = Field::Zero(4, RandomElements::kUnknowns);
-    const double dot = chosen().add_element_products_and_dot(
-        elements_.range(slots_), elements_.matrices.blocks(), x.data(), y.data());
-    const Dense expected = elements_.assembled() * rows(x);
-    expect_added(Field::Zero(4, x.cols()), y, expected);
-    EXPECT_NEAR(dot, rows(x).cwiseProduct(expected).sum(), 1e-5 * rows(x).norm() * expected.norm());
-}
-
 TEST_P(MatrixKernels, ProductsOfRangesSumToThatOfTheWhole) {
     const Field x = elements_.field();
     Field y = Field::Zero(4, RandomElements::kUnknowns);
-    double dot = 0;
     for (std::int32_t begin = 0; begin < RandomElements::kCount; begin += kBlockElements) {
         ElementRange range = elements_.range(slots_);
         range.begin = begin;
         range.end = std::min(begin + kBlockElements, RandomElements::kCount);
-        dot += chosen().add_element_products_and_dot(range, elements_.matrices.blocks(), x.data(),
-                                                     y.data());
+        chosen().add_element_products(range, elements_.matrices.blocks(), 1, x.data(), y.data());
     }
-    const Dense expected = elements_.assembled() * rows(x);
-    expect_added(Field::Zero(4, x.cols()), y, expected);
-    EXPECT_NEAR(dot, rows(x).cwiseProduct(expected).sum(), 1e-5 * rows(x).norm() * expected.norm());
-}
-
-TEST_P(MatrixKernels, TensorProductsAddToMatrices) {
-    std::vector<TensorBlock> tensors(static_cast<std::size_t>(elements_.matrices.block_count()));
-    TensorProducts products;
-    for (auto& of_entry : products.of) {
-        for (float& product : of_entry) product = elements_.number(elements_.random);
-    }
-    for (TensorBlock& block : tensors) {
-        for (auto& entry : block.entry) {
-            for (float& of_element : entry) of_element = elements_.number(elements_.random);
-        }
-    }
-    MatrixBlocks sums = elements_.matrices;
-    chosen().add_tensor_products(tensors.data(), products, 1, 2, sums.blocks());
-    for (std::int64_t element = 0; element < sums.size(); ++element) {
-        const std::int64_t block = element / kBlockElements;
-        for (int i = 0; i < 8; ++i) {
-            for (int j = i; j < 8; ++j) {
-                double expected = elements_.matrices.at(element, i, j);
-                for (int t = 0; t < kTensorEntries && block == 1; ++t) {
-                    expected += tensors[block].entry[t][element % kBlockElements] *
-                                products.of[t][kEntryIndices.of[i][j]];
-                }
-                EXPECT_NEAR(sums.at(element, i, j), expected, 1e-6);
-            }
-        }
-    }
+    expect_added(Field::Zero(4, x.cols()), y, elements_.assembled() * rows(x));
 }
 
 Matrix8 whole(const MatrixBlocks& matrices, std::int64_t element) {

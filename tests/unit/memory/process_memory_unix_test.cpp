@@ -19,7 +19,7 @@ TEST(NotEnoughMemory, LeavesTheMeshAsItWas) {
     TriangleMesh after = mesh;
     const AddressSpaceLimit limit(500'000'000);
     FlowParameters p = parameters(12, 1e-3, 1);
-    p.solver = Solver::Grid;
+    p.method = Method::Paper;
     EXPECT_THROW(evolve(after, p), NotEnoughMemory);
     EXPECT_TRUE(same_bits(after, mesh));
 }

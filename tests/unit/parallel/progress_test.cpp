@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "filter_tracked_mcf/core/evolve.h"
-#include "filter_tracked_mcf/core/flow/flow.h"
 #include "filter_tracked_mcf/core/parallel/progress_meter.h"
 #include "tests/support/shapes.h"
 #include "tests/unit/flows.h"
@@ -67,15 +66,10 @@ std::vector<Case> cases() {
     Case third_order{"order 3", sphere, {}, parameters(2, 1e-2, 1)};
     third_order.parameters.order = 3;
     Case paper{"as in the paper", cap, {}, parameters(3, 1e-3, 1)};
-    paper.parameters.solver = Solver::OneWCycle;
-    paper.parameters.separate_sheets = false;
-    paper.parameters.boundary = BoundaryCondition::LockedCells;
+    paper.parameters.method = Method::Paper;
     // The surface vanishes in the last step, which evolve() itself takes back.
     Case vanishing{"vanishing", sphere, {}, parameters(3, 0.1, 3), Stop::Vanished};
-    Case grid = constrained;
-    grid.name = "on the grid";
-    grid.parameters.solver = Solver::Grid;
-    return {constrained, selected, area, volume, third_order, grid, paper, vanishing};
+    return {constrained, selected, area, volume, third_order, paper, vanishing};
 }
 
 TEST(Progress, CancellingAnywhereLeavesTheMeshAsItWas) {
@@ -148,15 +142,22 @@ TEST(Progress, NamesThePhases) {
         "Building the octree", "Preparing the solver", "Step 1 of 2",
         "Step 2 of 2",         "Moving the vertices",  "Done"};
     EXPECT_EQ(calls.phases, expected);
-    p.solver = Solver::Grid;
-    Calls on_grid;
-    evolve(mesh, p, on_grid.progress());
-    const std::vector<std::string> expected_on_grid = {
-        "Checking the mesh",    "Finding the edges",           "Measuring the surface",
-        "Choosing the grid",    "Clipping triangles to cells", "Building the octree",
-        "Sampling the surface", "Preparing the solver",        "Step 1 of 2",
-        "Step 2 of 2",          "Moving the vertices",         "Done"};
-    EXPECT_EQ(on_grid.phases, expected_on_grid);
+    p = parameters(0, 1e-3, 2);
+    p.method = Method::Paper;
+    Calls of_paper;
+    evolve(mesh, p, of_paper.progress());
+    const std::vector<std::string> expected_of_paper = {"Checking the mesh",
+                                                        "Finding the edges",
+                                                        "Measuring the surface",
+                                                        "Clipping triangles to cells",
+                                                        "Building the octree",
+                                                        "Sampling the surface",
+                                                        "Preparing the solver",
+                                                        "Step 1 of 2",
+                                                        "Step 2 of 2",
+                                                        "Moving the vertices",
+                                                        "Done"};
+    EXPECT_EQ(of_paper.phases, expected_of_paper);
 }
 
 TEST(Progress, PassesOnWhatTheCallbackThrows) {

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Fits the coefficients of memory_estimate.cpp to the measured peaks of many flows, and prints the
-// peaks, the present estimates and the fits. Usage: tracked_mcf_calibrate_memory [MESH.off]...
+// Prints the measured peaks of the memory of many flows by the paper's method, and how the
+// estimates of paper_memory.cpp compare. Usage: tracked_mcf_calibrate_memory [MESH.off]...
 //
 // A child process makes each flow, so that no flow reuses another one's memory. Linux only.
 #include <malloc.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <Eigen/Dense>
 #include <cmath>
 #include <cstdio>
 #include <exception>
@@ -18,24 +17,17 @@
 
 #include "filter_tracked_mcf/core/evolve.h"
 #include "filter_tracked_mcf/core/memory/process_memory.h"
-#include "filter_tracked_mcf/core/plan/memory_estimate.h"
 #include "tests/support/off_file.h"
 #include "tests/support/shapes.h"
 
 namespace tracked_mcf {
 namespace {
 
-/// The quantities of a BytesPer in memory_estimate.cpp.
-constexpr int kQuantities = 6;
-constexpr const char* kNames = "flow, vertex, fragment, sample, unknown, element";
-using Quantities = Eigen::Matrix<double, kQuantities, 1>;
-
 struct Measurement {
     int depth = 0;
     double unknowns = 0;
-    Quantities quantities;
-    double peak = 0, clipping_peak = 0;
-    double estimate = 0, clipping_estimate = 0;
+    double peak = 0;
+    double estimate = 0;
 };
 
 struct Flow {
@@ -55,27 +47,12 @@ double resident_bytes() {
 
 Measurement measure(const Flow& flow) {
     TriangleMesh mesh = flow.make();
-    const TriangleMesh initial = mesh;
     const double before = resident_bytes();
     std::ofstream("/proc/self/clear_refs") << 5;  // the peak becomes what is resident now
-    Measurement result;
-    const auto peak = [&] { return static_cast<double>(peak_memory_bytes()) - before; };
-    const FlowReport report = evolve(mesh, flow.parameters, [&](double, std::string_view phase) {
-        if (phase == "Building the octree" && result.clipping_peak == 0)
-            result.clipping_peak = peak();
-        return true;
-    });
-    result.peak = peak();
-    result.depth = report.depth;
-    result.unknowns = static_cast<double>(report.unknowns);
-    const SurfaceSize size = size_of(Domain(initial, flow.parameters.boundary));
-    const Grid grid = enclosing_grid(initial, report.depth);
-    const ExpectedCounts counts = expected_counts(size, grid, discretisation_of(flow.parameters));
-    result.quantities << 1, size.vertices, counts.fragments, counts.samples, counts.all_unknowns,
-        counts.all_elements;
-    result.estimate = static_cast<double>(report.estimated_memory_bytes) - before;
-    result.clipping_estimate = estimate_clip_bytes(size, grid, flow.parameters);
-    return result;
+    const FlowReport report = evolve(mesh, flow.parameters);
+    return {report.depth, static_cast<double>(report.unknowns),
+            static_cast<double>(peak_memory_bytes()) - before,
+            static_cast<double>(report.estimated_memory_bytes) - before};
 }
 
 /// Measures in a child process. Returns nothing if the flow fails.
@@ -100,119 +77,37 @@ std::vector<Measurement> measure_apart(const Flow& flow) {
     return complete ? std::vector<Measurement>{result} : std::vector<Measurement>{};
 }
 
-/// Prints the coefficients, none negative, that fit `bytes` with least squares of relative errors.
-void print_fit(const char* name, const std::vector<Quantities>& rows,
-               const std::vector<double>& bytes) {
-    if (rows.empty()) return;
-    std::vector<int> used = {0, 1, 2, 3, 4, 5};
-    Quantities fit;
-    for (;;) {
-        Eigen::MatrixXd matrix(rows.size(), used.size());
-        for (std::size_t row = 0; row < rows.size(); ++row) {
-            for (std::size_t i = 0; i < used.size(); ++i) {
-                const auto entry = rows[row][used[i]] / bytes[row];
-                matrix(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(i)) = entry;
-            }
-        }
-        const Eigen::VectorXd ones = Eigen::VectorXd::Ones(matrix.rows());
-        const Eigen::VectorXd solution = matrix.completeOrthogonalDecomposition().solve(ones);
-        fit.setZero();
-        for (std::size_t i = 0; i < used.size(); ++i)
-            fit[used[i]] = solution[static_cast<Eigen::Index>(i)];
-        Eigen::Index lowest = 0;
-        if (solution.minCoeff(&lowest) >= 0) break;
-        used.erase(used.begin() + lowest);
-    }
-    double least = 1, most = 1;
-    for (std::size_t row = 0; row < rows.size(); ++row) {
-        least = std::min(least, fit.dot(rows[row]) / bytes[row]);
-        most = std::max(most, fit.dot(rows[row]) / bytes[row]);
-    }
-    std::printf(
-        "%-10s {%.3g, %.3g, %.3g, %.3g, %.3g, %.3g}  fit/measured %.2f to %.2f, %zu flows\n", name,
-        fit[0], fit[1], fit[2], fit[3], fit[4], fit[5], least, most, rows.size());
-}
-
-/// What print_fit takes.
-struct Fit {
-    std::vector<Quantities> rows;
-    std::vector<double> bytes;
-    void add(const Quantities& row, double measured) {
-        rows.push_back(row);
-        bytes.push_back(measured);
-    }
-};
-
 FlowParameters with_option(const std::string& option, int depth) {
     FlowParameters p;
-    p.solver = Solver::Grid;
+    p.method = Method::Paper;
+    p.order = option == "order 2" ? 2 : 1;
     p.depth = depth;
-    p.iterations = 3;
     p.threads = 2;
     p.step_size = 1e-4;  // long enough for the solver to use all levels
     p.boundary = option == "locked" ? BoundaryCondition::Locked : BoundaryCondition::Free;
-    if (option.find("w-cycle") == 0) p.solver = Solver::OneWCycle;
-    if (option == "area") p.preserve = Preserve::Area;
-    if (option == "volume") p.preserve = Preserve::Volume;
-    if (option == "curvature") p.quality = Quality::MeanCurvature;
-    if (option == "order 2") p.order = 2;
-    if (option == "1 sample") p.cubature = Cubature::OnePoint;
-    if (option.find("12") != std::string::npos) p.cubature = Cubature::Degree6;
-    if (option == "joined") p.separate_sheets = false;
-    if (option == "conformal") p.flow = FlowKind::Conformalized;
+    if (option == "12 samples") p.cubature = Cubature::Degree6;
     return p;
 }
 
-void calibrate(const std::vector<std::pair<std::string, std::function<TriangleMesh()>>>& meshes) {
-    Fit clipping, converged, w_cycle, area, volume, curvature, order;
-    std::printf("%-24s %-10s depth  peak MB  estimate/peak  clipping MB  estimate/peak\n", "mesh",
-                "option");
+void compare(const std::vector<std::pair<std::string, std::function<TriangleMesh()>>>& meshes) {
+    std::printf("%-24s %-10s depth  peak MB  estimate/peak\n", "mesh", "option");
     for (const auto& [name, make] : meshes) {
         const auto automatic = measure_apart({name, make, "free", with_option("free", 0)});
         if (automatic.empty()) continue;
-        const int depth = automatic[0].depth;
         for (const int offset : {0, -2, 1, 2, 3, 4}) {
             // Depths finer than the mesh, but not the largest flows.
             if (offset > 1 && std::ldexp(automatic[0].unknowns, 2 * offset) > 4e5) break;
-            double plain_peak = 0;
-            for (const char* option :
-                 {"free", "area", "volume", "curvature", "order 2", "w-cycle", "w-cycle 12",
-                  "locked", "1 sample", "12 samples", "joined", "conformal"}) {
-                const Flow flow = {name, make, option,
-                                   with_option(option, std::max(1, depth + offset))};
-                for (const Measurement& m : measure_apart(flow)) {
-                    std::printf("%-24s %-10s %5d %8.1f %14.2f %12.1f %14.2f\n", name.c_str(),
-                                option, m.depth, 1e-6 * m.peak, m.estimate / m.peak,
-                                1e-6 * m.clipping_peak, m.clipping_estimate / m.clipping_peak);
+            for (const char* option : {"free", "order 2", "locked", "12 samples"}) {
+                const int depth = std::max(1, automatic[0].depth + offset);
+                for (const Measurement& m :
+                     measure_apart({name, make, option, with_option(option, depth)})) {
+                    std::printf("%-24s %-10s %5d %8.1f %14.2f\n", name.c_str(), option, m.depth,
+                                1e-6 * m.peak, m.estimate / m.peak);
                     std::fflush(stdout);
-                    if (flow.option == "free") plain_peak = m.peak;
-                    clipping.add(m.quantities, m.clipping_peak);
-                    // A flow that hardly moves leaves its coarse levels untouched.
-                    if (m.peak < 0.7 * plain_peak) continue;
-                    const bool is_w_cycle = flow.parameters.solver == Solver::OneWCycle;
-                    if (flow.option == "area") {
-                        area.add(m.quantities, m.peak - plain_peak);
-                    } else if (flow.option == "volume") {
-                        volume.add(m.quantities, m.peak - plain_peak);
-                    } else if (flow.option == "curvature") {
-                        curvature.add(m.quantities, m.peak - plain_peak);
-                    } else if (flow.option == "order 2") {
-                        order.add(m.quantities, m.peak - plain_peak);
-                    } else {
-                        (is_w_cycle ? w_cycle : converged).add(m.quantities, m.peak);
-                    }
                 }
             }
         }
     }
-    std::printf("Bytes per %s:\n", kNames);
-    print_fit("clipping", clipping.rows, clipping.bytes);
-    print_fit("converged", converged.rows, converged.bytes);
-    print_fit("w-cycle", w_cycle.rows, w_cycle.bytes);
-    print_fit("area", area.rows, area.bytes);
-    print_fit("volume", volume.rows, volume.bytes);
-    print_fit("curvature", curvature.rows, curvature.bytes);
-    print_fit("order 2", order.rows, order.bytes);
 }
 
 }  // namespace
@@ -239,5 +134,5 @@ int main(int count, char** arguments) {
         const std::string path = arguments[i];
         meshes.emplace_back(path.substr(path.rfind('/') + 1), [path] { return read_off(path); });
     }
-    calibrate(meshes);
+    compare(meshes);
 }

@@ -10,10 +10,10 @@ namespace tracked_mcf {
 namespace {
 
 TEST(ElementTransfer, EqualsTheProlongationMatrixAndItsTranspose) {
-    const ElementSystem system(two_shells(), 4, 0.5F);
-    for (std::size_t l = 1; l < system.elements.levels.size(); ++l) {
-        const Level& fine = system.elements.levels[l];
-        const Level& coarse = system.elements.levels[l - 1];
+    const LevelSystem system = vertex_system(two_shells(), 4, 0.5);
+    for (std::size_t l = 1; l < system.levels.size(); ++l) {
+        const Level& fine = system.levels[l];
+        const Level& coarse = system.levels[l - 1];
         const Dense p = dense(prolongation(fine, coarse));
         const ElementTransfer transfer(fine, coarse);
 

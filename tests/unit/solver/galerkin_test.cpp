@@ -15,33 +15,33 @@ namespace tracked_mcf {
 namespace {
 
 /// Returns the element matrices of the level below the finest one.
-MatrixBlocks coarsened(const FirstStep& step) {
-    const Level& fine = step.elements.finest();
-    const std::int32_t parents = step.elements.levels[fine.depth - 1].element_count();
+MatrixBlocks coarsened(const LevelSystem& system) {
+    const Level& fine = system.finest();
+    const std::int32_t parents = system.levels[fine.depth - 1].element_count();
     MatrixBlocks coarse(parents);
-    coarsen_element_matrices(fine, Groups(fine.parents, parents), step.systems.matrices, coarse);
+    coarsen_element_matrices(fine, Groups(fine.parents, parents), system.matrices, coarse);
     return coarse;
 }
 
 TEST(Galerkin, CoarsenedMatricesAddUpToTheGalerkinProduct) {
-    const FirstStep step(two_shells(), 4, 0.5F, {});
-    const Level& coarse = step.elements.levels[3];
-    const Dense p = dense(prolongation(step.elements.finest(), coarse));
-    const Dense product = p.transpose() * assembled(step) * p;
-    EXPECT_LT((assembled(coarse, coarsened(step)) - product).norm(), 1e-6 * product.norm());
+    const LevelSystem system = vertex_system(two_shells(), 4, 0.5);
+    const Level& coarse = system.levels[3];
+    const Dense p = dense(prolongation(system.finest(), coarse));
+    const Dense product = p.transpose() * assembled(system) * p;
+    EXPECT_LT((assembled(coarse, coarsened(system)) - product).norm(), 1e-6 * product.norm());
 }
 
 TEST(Galerkin, EliminationSetsExactlyTheConstrainedRowsAndColumnsToZero) {
-    FirstStep step(two_shells(), 3, 0.5F, {});
-    Dense expected = assembled(step);
+    LevelSystem system = vertex_system(two_shells(), 3, 0.5);
+    Dense expected = assembled(system);
     std::vector<std::uint8_t> constrained(static_cast<std::size_t>(expected.rows()), 0);
     for (Eigen::Index unknown = 0; unknown < expected.rows(); unknown += 3) {
         constrained[unknown] = 1;
         expected.row(unknown).setZero();
         expected.col(unknown).setZero();
     }
-    eliminate_constrained(step.elements.finest(), constrained, step.systems.matrices);
-    EXPECT_EQ(assembled(step), expected);
+    eliminate_constrained(system.finest(), constrained, system.matrices);
+    EXPECT_EQ(assembled(system), expected);
 }
 
 TEST(Galerkin, AnUnknownIsFreeUnlessItsDiagonalEntryIsNegligible) {

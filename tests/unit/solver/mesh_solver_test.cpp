@@ -4,10 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
 #include <memory>
+#include <random>
 
 #include "filter_tracked_mcf/core/parallel/thread_team.h"
 #include "tests/support/shapes.h"
@@ -148,6 +150,25 @@ TEST(MeshSolver, AnOctreeTakesFewIterationsForLongWaves) {
 }
 
 // 1ᵀ A x = 1ᵀ M x, because constants have no stiffness.
+TEST(MeshSolver, GoesOnWithoutAnOctreeThatDoesNotHelp) {
+    // The functions of an octree of other places jump from vertex to vertex.
+    SolverOfMesh with(shapes::bumpy_sphere(30), 3, 1e4), without(shapes::bumpy_sphere(30), 0, 1e4);
+    Vertices shuffled = with.surface.positions;
+    std::shuffle(shuffled.begin(), shuffled.end(), std::mt19937(1));
+    Eigen::AlignedBox3d box;
+    for (const Eigen::Vector3d& position : shuffled) box.extend(position);
+    with.solver.use(std::make_unique<VertexOctree>(with.surface.stars, shuffled,
+                                                   with_depth(cube_around(box), 3)));
+    with.solver.take(with.elements, with.step);
+    Vertices x, expected;
+    const MeshConvergence result = with.solver.solve(with.flow(), 1e-4, x);
+    EXPECT_EQ(with.solver.octree(), nullptr);
+    EXPECT_GT(result.iterations, 200);
+    EXPECT_LE(result.error_estimate, 1e-4);
+    without.solver.solve(without.flow(), 1e-4, expected);
+    EXPECT_LT((rows_of(x) - rows_of(expected)).norm(), 1e-3 * rows_of(expected).norm());
+}
+
 TEST(MeshSolver, ComponentsThatNothingHoldsKeepTheirCentroidsToRounding) {
     const TriangleMesh sphere = shapes::bumpy_sphere(10);
     const Eigen::Affine3d beside(Eigen::Translation3d(3, 0, 0) * Eigen::Scaling(0.5));

@@ -13,8 +13,8 @@ namespace {
 
 TrackedElements elements_of_a_cap() {
     const TriangleMesh cap = bumpy_cap(20);
-    return build_tracked_elements(Domain(cap, BoundaryCondition::LockedCells),
-                                  enclosing_grid(cap, 5), Cubature::ThreePoints);
+    return build_tracked_elements(Domain(cap, BoundaryCondition::Locked), enclosing_grid(cap, 5),
+                                  Cubature::ThreePoints);
 }
 
 TEST(ConstrainedCells, FunctionsThatAreZeroAtTheBoundaryStayFree) {
@@ -27,13 +27,13 @@ TEST(ConstrainedCells, FunctionsThatAreZeroAtTheBoundaryStayFree) {
     }
     EXPECT_GT(std::count(expected.begin(), expected.end(), 0), 0);
     EXPECT_GT(std::count(expected.begin(), expected.end(), 1), 0);
-    EXPECT_EQ(constrained_unknowns(elements, BoundaryCondition::LockedCells).back(), expected);
+    EXPECT_EQ(constrained_unknowns(elements).back(), expected);
 }
 
 TEST(ConstrainedCells, CoarseCorrectionsAreZeroAtConstrainedFineUnknowns) {
     // A child's value at a corner is a combination of its parent's eight values.
     const TrackedElements elements = elements_of_a_cap();
-    const auto constrained = constrained_unknowns(elements, BoundaryCondition::LockedCells);
+    const auto constrained = constrained_unknowns(elements);
     for (std::size_t level = 1; level < elements.levels.size(); ++level) {
         const Level& fine = elements.levels[level];
         std::vector<std::uint8_t> corrected = constrained[level];

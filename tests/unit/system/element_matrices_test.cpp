@@ -27,15 +27,13 @@ TrackedElements bumpy_elements() {
     return build_tracked_elements(mesh, enclosing_grid(mesh, 4), Cubature::ThreePoints);
 }
 
+/// Returns the systems of a step of this size.
 ElementSystems assemble(const TrackedElements& elements, const Coefficients& displacement,
-                        SystemWeights weights) {
+                        double step_size) {
     ElementSystems systems;
-    assemble_elements(elements, displacement, weights, systems);
+    assemble_elements(elements, displacement, step_size, true, systems);
     return systems;
 }
-
-constexpr SystemWeights kMass = {1, 0};
-constexpr SystemWeights kStiffness = {0, 1};
 
 /// A smooth displacement. X_t is invertible and far from an isometry.
 Coefficients wobble(const TrackedElements& elements) {
@@ -89,8 +87,8 @@ Reference integrate(const TrackedElements& elements, const Coefficients& embeddi
 }
 
 void expect_paper(const TrackedElements& elements, const Coefficients& displacement) {
-    const ElementSystems mass = assemble(elements, displacement, kMass);
-    const ElementSystems stiffness = assemble(elements, displacement, kStiffness);
+    const ElementSystems mass = assemble(elements, displacement, 0);
+    const ElementSystems both = assemble(elements, displacement, 1);
     const Coefficients embedding = identity_coefficients(elements) + displacement;
     double area = 0;
     for (std::int32_t element = 0; element < elements.finest().element_count(); ++element) {
@@ -98,11 +96,13 @@ void expect_paper(const TrackedElements& elements, const Coefficients& displacem
         area += expected.area;
         EXPECT_LT((to_matrix(mass.matrices, element) - expected.mass).norm(),
                   1e-5 * expected.mass.norm());
-        EXPECT_LT((to_matrix(stiffness.matrices, element) - expected.stiffness).norm(),
+        EXPECT_LT((to_matrix(both.stiffnesses, element) - expected.stiffness).norm(),
                   1e-5 * expected.stiffness.norm());
+        const Matrix8 sum = expected.mass + expected.stiffness;
+        EXPECT_LT((to_matrix(both.matrices, element) - sum).norm(), 1e-5 * sum.norm());
         for (int axis = 0; axis < 3; ++axis) {
             for (int corner = 0; corner < 8; ++corner) {
-                EXPECT_NEAR(-stiffness.right_sides[element].entry[axis][corner],
+                EXPECT_NEAR(-both.right_sides[element].entry[axis][corner],
                             expected.stiffness_times_x(corner, axis),
                             1e-5 * expected.stiffness_times_x.norm());
             }
@@ -122,11 +122,19 @@ TEST(ElementMatrices, AreEquation4OfADeformedSurface) {
     expect_paper(elements, wobble(elements));
 }
 
-void expect_same(const ElementSystems& a, const ElementSystems& b, double scale) {
-    for (std::int64_t element = 0; element < a.matrices.size(); ++element) {
-        const Matrix8 expected = scale * to_matrix(a.matrices, element);
-        EXPECT_LT((to_matrix(b.matrices, element) - expected).norm(), 2e-5 * expected.norm());
+/// Expects that b is `scale` times a.
+void expect_same(const MatrixBlocks& a, const MatrixBlocks& b, double scale) {
+    for (std::int64_t element = 0; element < a.size(); ++element) {
+        const Matrix8 expected = scale * to_matrix(a, element);
+        EXPECT_LT((to_matrix(b, element) - expected).norm(), 2e-5 * expected.norm());
     }
+}
+
+/// Expects that the masses of two embeddings have this ratio, and that their stiffnesses are equal.
+void expect_scaled(const TrackedElements& elements, const Coefficients& a, const Coefficients& b,
+                   double ratio) {
+    expect_same(assemble(elements, a, 0).matrices, assemble(elements, b, 0).matrices, ratio);
+    expect_same(assemble(elements, a, 1).stiffnesses, assemble(elements, b, 1).stiffnesses, 1);
 }
 
 TEST(ElementMatrices, AreInvariantUnderRigidMotionsOfTheEmbedding) {
@@ -137,10 +145,7 @@ TEST(ElementMatrices, AreInvariantUnderRigidMotionsOfTheEmbedding) {
         Eigen::AngleAxisd(1.1, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
     Coefficients moved = (identity + displacement) * rotation.transpose() - identity;
     moved.rowwise() += Eigen::RowVector3d(3, -5, 2);
-    for (const SystemWeights weights : {kMass, kStiffness}) {
-        expect_same(assemble(elements, displacement, weights), assemble(elements, moved, weights),
-                    1);
-    }
+    expect_scaled(elements, displacement, moved, 1);
 }
 
 TEST(ElementMatrices, ScalingTheEmbeddingScalesTheMassByTheSquareAndKeepsTheStiffness) {
@@ -148,9 +153,7 @@ TEST(ElementMatrices, ScalingTheEmbeddingScalesTheMassByTheSquareAndKeepsTheStif
     const Coefficients identity = identity_coefficients(elements);
     const Coefficients displacement = wobble(elements);
     const Coefficients scaled = 3 * (identity + displacement) - identity;
-    expect_same(assemble(elements, displacement, kMass), assemble(elements, scaled, kMass), 9);
-    expect_same(assemble(elements, displacement, kStiffness),
-                assemble(elements, scaled, kStiffness), 1);
+    expect_scaled(elements, displacement, scaled, 9);
 }
 
 TEST(ElementMatrices, CollapsedSamplesContributeNothing) {
@@ -159,7 +162,7 @@ TEST(ElementMatrices, CollapsedSamplesContributeNothing) {
     Coefficients to_a_line = to_a_point;
     to_a_line.col(0).setZero();
     for (const Coefficients& collapse : {to_a_point, to_a_line}) {
-        const ElementSystems systems = assemble(elements, collapse, {1, 1});
+        const ElementSystems systems = assemble(elements, collapse, 1);
         EXPECT_EQ(systems.collapsed_samples, elements.samples.size());
         EXPECT_EQ(systems.area, 0);
         for (std::int64_t element = 0; element < systems.matrices.size(); ++element) {

@@ -28,9 +28,6 @@ public:
     /// to zero in them, and computes every level's matrix.
     void refresh(MatrixBlocks& finest);
 
-    /// Replaces the flags of the finest level's constrained unknowns, from the next refresh on.
-    void constrain(const std::vector<std::uint8_t>& finest) { constrained_.back() = finest; }
-
     /// Improves x, an approximate solution of A x = right_side on the finest level, by one W-cycle.
     void cycle(const Field& right_side, Field& x);
 

@@ -33,7 +33,7 @@ TEST(GaussSeidel, ASweepIsAForwardSubstitution) {
     const std::vector<std::int32_t> order = lexicographic_order(system.elements);
     const Dense unordered = dense(system.multigrid.finest().matrix());
     const Dense a = unordered(order, order);
-    Field x = random_field(system);
+    Field x = random_field(system.elements.finest());
     const Dense b = as_dense(system.right_side)(order, Eigen::all);
     const Dense upper = a.triangularView<Eigen::StrictlyUpper>();
     const Dense start = as_dense(x)(order, Eigen::all);
@@ -49,7 +49,7 @@ TEST(GaussSeidel, ASweepHasTheSameBitsWithAnyNumberOfThreads) {
     const System system(shapes::bumpy_sphere(40), 6, 0.5F);
     ASSERT_GT(system.elements.finest().unknown_count(), 2 * 8192);  // several slabs
     const GaussSeidel gauss_seidel(system.elements.finest());
-    const Field start = random_field(system);
+    const Field start = random_field(system.elements.finest());
     std::vector<Field> results;
     for (const int count : {1, 2, 3, 8}) {
         const ThreadTeam threads(count);

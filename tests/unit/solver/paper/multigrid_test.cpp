@@ -28,19 +28,19 @@ TEST(Multigrid, CoarseMatricesAreTheGalerkinProducts) {
 
 TEST(Multigrid, CoarseMatricesLeaveOutConstrainedUnknowns) {
     // Every third unknown, wherever it is.
-    System system(shapes::bumpy_sphere(8), 4, 0.5F);
-    std::vector<std::uint8_t> constrained = system.constrained.back();
+    FirstStep step(shapes::bumpy_sphere(8), 4, 0.5);
+    std::vector<std::uint8_t>& constrained = step.constrained.back();
     for (std::size_t i = 0; i < constrained.size(); i += 3) constrained[i] = 1;
-    system.multigrid.constrain(constrained);
-    system.multigrid.refresh(system.systems.matrices);
-    Dense fine = dense(system.multigrid.matrix(4).matrix());
+    Multigrid multigrid(step.elements, step.constrained);
+    multigrid.refresh(step.systems.matrices);
+    Dense fine = dense(multigrid.matrix(4).matrix());
     for (std::size_t i = 0; i < constrained.size(); i += 3) {
         const auto index = static_cast<Eigen::Index>(i);
         fine.row(index).setZero();
         fine.col(index).setZero();
     }
-    const Dense p = prolongation(system, 4);
-    const Dense coarse = dense(system.multigrid.matrix(3).matrix());
+    const Dense p = prolongation(step, 4);
+    const Dense coarse = dense(multigrid.matrix(3).matrix());
     EXPECT_LT((coarse - p.transpose() * fine * p).norm(), 1e-6 * coarse.norm());
 }
 
@@ -76,7 +76,7 @@ TEST(Multigrid, CyclesApproachTheSolutionInTheEnergyNorm) {
 TEST(Multigrid, KeepsConstrainedUnknownsAtExactlyZero) {
     TriangleMesh cap = shapes::bumpy_sphere(20);
     cap.triangles.resize(cap.triangles.size() / 2);
-    System system(cap, 5, 0.5F, {true});
+    System system(cap, 5, 0.5F, true);
     Field x = system.zero();
     for (int i = 0; i < 3; ++i) system.multigrid.cycle(system.right_side, x);
     int constrained = 0;

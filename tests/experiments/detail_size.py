@@ -1,0 +1,84 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Measures which detail size of the flow helps noisy scans most.
+
+Each entry is the geometric mean over the scans of two ratios to the noisy mesh: of the RMS distance from the clean
+vertices along the clean normals, and of the mean angle between normals of faces and those of the clean mesh. Noise is
+normally distributed along the normals; its standard deviation is in mean edge lengths. Detail sizes are in mean edge
+lengths of the noisy mesh; "local" ones are proportional to the local edge length. MeshLab's Taubin smoother has the best
+of many settings for each scan, for the distance and for the angle each, which only somebody can choose who has the clean
+mesh.
+
+Needs PyMeshLab: external/pymeshlab.sh build/pymeshlab, then build/pymeshlab/bin/python detail_size.py.
+"""
+
+import itertools
+import pathlib
+import tempfile
+
+import numpy
+from experiment import Experiment, geometric_mean
+from measures import angles, distance
+from ply import read_mesh, write_ply
+from removing_noise import SCANS
+from scan import Scan
+from smoothers import best, taubin_families
+from surface import Surface
+
+NOISES = [0.1, 0.2, 0.3]
+SIZES = [2.5, 3, 4, 5, 6, 8]
+ORDERS = [1, 2]
+LOCAL = {"": [], "local": ["--local-detail-size"]}
+TAUBIN = "Taubin, best"
+
+
+def figures(scan, vertices):
+    return distance(scan, vertices), float(angles(scan, vertices).mean())
+
+
+def results(experiment, folder, scan, noise):
+    """Returns, by setting, the ratios of distance and angle to those of the noisy scan."""
+    noisy = scan.noisy(noise)
+    edge = Surface("noisy", noisy, scan.faces).edge
+    source, target = folder / "in.ply", folder / "out.ply"
+    write_ply(source, noisy, scan.faces)
+    found = {}
+    for order, (local, words), size in itertools.product(ORDERS, LOCAL.items(), SIZES):
+        experiment.smooth(source, target, "--order", order, "--detail-size", size * edge, *words)
+        found[order, local, size] = figures(scan, read_mesh(target)[0])
+    taubin, angle = best(scan, noisy, taubin_families(scan, noisy))
+    found[TAUBIN] = taubin["RMS"], angle
+    before = figures(scan, noisy)
+    return {setting: tuple(numpy.divide(one, before)) for setting, one in found.items()}
+
+
+def main():
+    experiment = Experiment("detail_size", __doc__)
+    options = experiment.options
+    folders = [options.build / "cgal-meshes", *([options.meshes] if options.meshes else [])]
+    paths = [folder / name for name in SCANS for folder in folders if (folder / name).exists()]
+    scans = [Scan(path) for path in (paths[:1] if options.quick else paths)]
+    ratios = {}
+    with tempfile.TemporaryDirectory() as folder:
+        for scan, noise in itertools.product(scans, NOISES):
+            print(f"... {scan.name}, {noise}", flush=True)
+            for setting, pair in results(experiment, pathlib.Path(folder), scan, noise).items():
+                ratios.setdefault((noise, setting), []).append(pair)
+                experiment.record([{"scan": scan.name, "noise": noise, "setting": setting, "distance": pair[0],
+                                    "angle": pair[1]}])
+
+    def cell(noise, setting):
+        distances, of_normals = zip(*ratios[noise, setting])
+        return f"{geometric_mean(distances):.3f}, {geometric_mean(of_normals):.3f}"
+
+    for noise in NOISES:
+        experiment.say(f"\n## Noise of {noise} edges\n")
+        experiment.table(["order", "", *(f"{size:g} edges" for size in SIZES)],
+                         [[order, local, *(cell(noise, (order, local, size)) for size in SIZES)]
+                          for order, local in itertools.product(ORDERS, LOCAL)])
+        experiment.say(f"{TAUBIN}: {cell(noise, TAUBIN)}\n")
+    experiment.finish()
+
+
+if __name__ == "__main__":
+    main()
