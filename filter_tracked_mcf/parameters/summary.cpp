@@ -170,12 +170,13 @@ std::string solver_details(const FlowParameters& parameters, const FlowReport& r
         report.steps.begin(), report.steps.end(), [](const StepReport& a, const StepReport& b) {
             return a.solver_iterations < b.solver_iterations;
         });
-    text << "Step size " << report.step_size << ", in squared units of the mesh, solved by "
-         << least->solver_iterations;
+    text << "Step size " << report.step_size << ", in squared units of the mesh, solved by ";
     if (most->solver_iterations > least->solver_iterations)
-        text << " to " << most->solver_iterations;
-    text << (parameters.method == Method::Paper ? " W-cycles of multigrid"
-                                                : " iterations of conjugate gradients")
+        text << least->solver_iterations << " to ";
+    text << (parameters.method == Method::Paper
+                 ? counted(most->solver_iterations, "W-cycle of multigrid", "W-cycles of multigrid")
+                 : counted(most->solver_iterations, "iteration of conjugate gradients",
+                           "iterations of conjugate gradients"))
          << " in each step.\n";
     return text.str();
 }

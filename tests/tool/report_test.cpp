@@ -151,7 +151,9 @@ TEST(Details, TellTheGridAndTheSolversIterations) {
                   "of conjugate gradients in each step.\n");
     parameters.method = Method::Paper;
     report.steps.resize(1);
-    EXPECT_THAT(solver_details(parameters, report), HasSubstr("solved by 5 W-cycles"));
+    EXPECT_THAT(solver_details(parameters, report), HasSubstr("solved by 5 W-cycles of"));
+    report.steps[0].solver_iterations = 1;
+    EXPECT_THAT(solver_details(parameters, report), HasSubstr("solved by 1 W-cycle of"));
 }
 
 TEST(Report, NamesEveryWayToStop) {
