@@ -15,7 +15,7 @@ namespace {
 /// Bytes of the flow (threads, program code) and of each of its items.
 /// tests/unit/plan/calibrate.cpp measures the peaks of many flows beside the estimate. Run it again
 /// after a change of the data that the flow keeps.
-constexpr double kBytesOfFlow = 1.8e6, kBytesPerVertex = 75, kBytesPerFragment = 36,
+constexpr double kBytesOfFlow = 1.8e6, kBytesPerPosition = 75, kBytesPerFragment = 36,
                  kBytesPerSample = 10.5, kBytesPerUnknown = 150, kBytesPerElement = 770;
 /// The same for orders above 1: the stiffness of an element, and an unknown of each solution.
 constexpr double kBytesPerStiffness = 108, kBytesPerSolution = 30;
@@ -81,7 +81,7 @@ double paper_flow_bytes(const Domain& domain, const Grid& grid, Cubature cubatur
     }
     const auto vertices = static_cast<double>(domain.mesh().positions.size());
     const double samples = split_triangles * static_cast<double>(cubature_rule(cubature).size());
-    double bytes = kBytesOfFlow + kBytesPerVertex * vertices + kBytesPerFragment * fragments +
+    double bytes = kBytesOfFlow + kBytesPerPosition * vertices + kBytesPerFragment * fragments +
                    kBytesPerSample * samples + kBytesPerUnknown * unknowns +
                    kBytesPerElement * elements;
     if (order > 1) bytes += kBytesPerStiffness * elements;

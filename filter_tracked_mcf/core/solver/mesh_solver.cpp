@@ -12,7 +12,7 @@ namespace tracked_mcf {
 
 namespace {
 
-constexpr int kMostIterations = 1000;
+constexpr int kMostMeshIterations = 1000;
 
 /// An octree whose V-cycle needs more iterations than this does harm: it may not be positive where
 /// components are smaller than a cell.
@@ -132,7 +132,7 @@ MeshConvergence MeshSolver::solve(const Field& b, double tolerance,
     while (square > goal()) {
         const double before = square;
         constexpr double reach = kSinglePrecision * kSinglePrecision;
-        const int most = octree_ ? kMostWithOctree : kMostIterations;
+        const int most = octree_ ? kMostWithOctree : kMostMeshIterations;
         square = descend(square, refines ? std::max(goal(), reach * square) : goal(), most,
                          result.iterations);
         parallel_for_rows(
@@ -145,7 +145,7 @@ MeshConvergence MeshSolver::solve(const Field& b, double tolerance,
             square = precondition(0);
             continue;
         }
-        if (!refines || result.iterations >= kMostIterations) break;
+        if (!refines || result.iterations >= kMostMeshIterations) break;
         system_.residual(scaled, x, r_);
         square = precondition(0);
         if (!(square < kWorthRefining * kWorthRefining * before)) break;
