@@ -303,10 +303,9 @@ TEST(Evolve, SaysWhichNumbersAParameterMayBe) {
               "size.");
     p.step_size = 0;
     p.detail_size = -1;
-    EXPECT_EQ(
-        complaint(p),
-        "detail_size is -1; give 0 or more, in units of the mesh, where 0 takes 3 mean edge "
-        "lengths.");
+    EXPECT_EQ(complaint(p),
+              "detail_size is -1; give 0 or more, in units of the mesh, where 0 takes 3 mean edge "
+              "lengths.");
     p.detail_size = 0;
     p.order = 5;
     EXPECT_EQ(complaint(p), "order is 5; give 1 to 4.");

@@ -54,7 +54,7 @@ private:
     const Positions initial_;
     std::optional<Preserver> preserver_;
     MeshSolver solver_;
-    bool octree_harms_ = false;  ///< whether the solver goes on without one
+    bool octree_harms_ = false;         ///< whether the solver goes on without one
     Positions before_;                  ///< the positions before the last step
     double first_area_ = 0, area_ = 0;  ///< at the start and after the last step, squared edges
     double margin_ = 0;
