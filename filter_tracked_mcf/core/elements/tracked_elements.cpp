@@ -168,10 +168,12 @@ TrackedElements build_tracked_elements(const Domain& domain, ClippedSurface surf
     elements.grid = surface.grid;
     elements.degenerate_triangle_count = surface.degenerate_count;
     elements.vertex_constrained = domain.constrained_vertices();
+    // There are many fragments: they are gone when the elements are built.
+    const RawVector<FragmentEntry> fragments = std::move(surface.fragments);
     enter_setup_phase(kBuildOctree);
-    build_octree(elements, surface.fragments);
+    build_octree(elements, fragments);
     enter_setup_phase(kSampleSurface);
-    ElementBuilder(elements, domain, surface.mesh, surface.fragments, cubature).build();
+    ElementBuilder(elements, domain, surface.mesh, fragments, cubature).build();
     return elements;
 }
 
