@@ -19,7 +19,7 @@ TEST(Prolongation, KeepsConstants) {
 }
 
 TEST(Prolongation, FreeCoarseFunctionsContainNoConstrainedFineOnes) {
-    const System system(shapes::square(20), 4, 0.5F, {true});
+    const System system(shapes::square(20), 4, 0.5F, true);
     for (std::size_t level = 1; level <= 4; ++level) {
         const SparseMatrix p =
             prolongation(system.elements.levels[level], system.elements.levels[level - 1]);
