@@ -221,7 +221,7 @@ def check_package(mesh):
     """The package has warnings, and an interrupt ends a flow. A plugin has neither in PyMeshLab."""
     import tracked_mcf
 
-    quiet = apply(load(mesh), detail_size=pymeshlab.PercentageValue(10), iterations=20)["warnings"]
+    quiet = apply(load(mesh), detail_size=pymeshlab.PercentageValue(5), iterations=20)["warnings"]
     warned = []
     tracked_mcf._warnings.showwarning = lambda message, *_, **__: warned.append(message)
     [fine] = apply(load(mesh), detail_size=pymeshlab.PercentageValue(0.01))["warnings"]
