@@ -267,6 +267,18 @@ TEST(Evolve, RejectsParametersOutOfRangeAndNamesThem) {
     p.tolerance = 1e-3;
 }
 
+TEST(Evolve, ThePapersAutomaticDepthIsThatOfAnyMesh) {
+    // Two triangles that are much smaller than their distance.
+    TriangleMesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1e5, 0, 0}, {1e5, 1, 0}, {1e5, 0, 1}},
+                      {{0, 1, 2}, {3, 4, 5}}};
+    FlowParameters p;
+    p.method = Method::Paper;
+    p.boundary = BoundaryCondition::Free;
+    EXPECT_EQ(evolve(mesh, p).depth, kMaximumDepth);
+    for (Eigen::Vector3d& position : mesh.positions) position = {1, 2, 3};
+    expect_rejected<InvalidMesh>(mesh, p, "degenerate");
+}
+
 TEST(Evolve, RefusesWhatThePapersMethodDoesNotHave) {
     const TriangleMesh mesh = shapes::bumpy_sphere(6);
     FlowParameters paper;
