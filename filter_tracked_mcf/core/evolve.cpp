@@ -6,7 +6,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <utility>
 
 #include "filter_tracked_mcf/core/flow/mesh_flow.h"
 #include "filter_tracked_mcf/core/flow/paper_flow.h"
@@ -38,23 +37,12 @@ void check_no_inputs(const Inputs& inputs) {
                            "strength of vertices; take the method Converged.");
 }
 
-/// Sets the flow up. Sets the triangles that flow, and flags of one copy of each vertex.
 std::unique_ptr<SurfaceFlow> set_up(const TriangleMesh& mesh, const Inputs& inputs,
-                                    const FlowParameters& parameters, Selection& moving,
-                                    std::vector<std::uint8_t>& counted) {
+                                    const FlowParameters& parameters) {
     const ProgressSpan span(0, progress_before(0, parameters.iterations));
-    const auto keep = [&](const Plan& plan) {
-        moving = plan.domain.selection();
-        counted = one_copy_of_each_vertex(plan.domain.topology());
-    };
-    if (parameters.method == Method::Paper) {
-        PaperPlan plan = paper_plan_of(mesh, parameters);
-        keep(plan);
-        return std::make_unique<PaperFlow>(std::move(plan));
-    }
-    MeshPlan plan = mesh_plan_of(mesh, inputs, parameters);
-    keep(plan);
-    return std::make_unique<MeshFlow>(std::move(plan));
+    if (parameters.method == Method::Paper)
+        return std::make_unique<PaperFlow>(paper_plan_of(mesh, parameters));
+    return std::make_unique<MeshFlow>(mesh_plan_of(mesh, inputs, parameters));
 }
 
 /// Positions to which a flow has moved the mesh, and the area of the triangles that flow.
@@ -63,10 +51,10 @@ struct Moved {
     double area;
 };
 
-Moved moved_by(const SurfaceFlow& flow, const TriangleMesh& mesh, const Selection& selection) {
+Moved moved_by(const SurfaceFlow& flow, const TriangleMesh& mesh) {
     Moved moved{mesh.positions, 0};
     flow.move_vertices(moved.positions);
-    moved.area = surface_area({moved.positions, mesh.triangles}, selection);
+    moved.area = surface_area({moved.positions, mesh.triangles}, flow.selection());
     return moved;
 }
 
@@ -142,20 +130,18 @@ FlowReport evolve(TriangleMesh& mesh, const Inputs& inputs, const FlowParameters
     const Stopwatch setup;
     enter_setup_phase(kCheckMesh);
     validate(mesh, inputs);
-    Selection moving;
-    std::vector<std::uint8_t> counted;
-    const std::unique_ptr<SurfaceFlow> flow_owner =
-        set_up(mesh, inputs, parameters, moving, counted);
+    const std::unique_ptr<SurfaceFlow> flow_owner = set_up(mesh, inputs, parameters);
     SurfaceFlow& flow = *flow_owner;
+    const Selection& moving = flow.selection();
     const double setup_seconds = setup.seconds();
 
     const double area_before = surface_area(mesh, moving);
     make_steps(flow, mesh, parameters.iterations, on_step);
-    Moved after = moved_by(flow, mesh, moving);
+    Moved after = moved_by(flow, mesh);
     if (flow.report().stop == Stop::None && after.area <= kVanishedArea * area_before) {
         // The flow itself would notice only in the next step.
         flow.end_before_last_step(Stop::Vanished);
-        after = moved_by(flow, mesh, moving);
+        after = moved_by(flow, mesh);
     }
 
     enter_phase(progress_before(parameters.iterations, parameters.iterations),
@@ -164,7 +150,7 @@ FlowReport evolve(TriangleMesh& mesh, const Inputs& inputs, const FlowParameters
     report.setup_seconds = setup_seconds;
     report.area_before = area_before;
     report.area_after = after.area;
-    compare(mesh, after.positions, counted, moving, report);
+    compare(mesh, after.positions, flow.one_copies(), moving, report);
     report.quality = measure_quality(parameters.quality, flow, mesh, after.positions, moving);
     report.estimated_memory_bytes += memory_before;
     report.peak_memory_bytes = peak_memory_bytes();

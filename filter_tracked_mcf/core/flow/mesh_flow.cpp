@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <string>
 #include <utility>
 
 #include "filter_tracked_mcf/core/flow/mean_curvature.h"
@@ -101,7 +100,8 @@ std::unique_ptr<VertexOctree> octree_of(const FlowSurface& surface, const Positi
 }  // namespace
 
 MeshFlow::MeshFlow(MeshPlan plan)
-    : surface_(flow_surface_of(plan.domain, plan.densities)),
+    : SurfaceFlow(plan),
+      surface_(flow_surface_of(plan.domain, plan.densities)),
       steps_(plan.steps),
       step_size_(plan.step_size / (surface_.edge * surface_.edge)),
       depth_(plan.depth),
@@ -118,11 +118,6 @@ MeshFlow::MeshFlow(MeshPlan plan)
     margin_ = kOvershootInDetail * std::min(halved, diagonal) + kOvershootInDiagonals * diagonal;
     if (plan.preserve != Preserve::None)
         preserver_.emplace(surface_, plan.preserve, plan.steps.flow);
-    fill_report(plan);
-}
-
-void MeshFlow::fill_report(const MeshPlan& plan) {
-    describe(plan, report_);
     report_.degenerate_triangles = surface_.degenerate_count;
     if (steps_.flow == FlowKind::Conformalized) report_.genus = genus_of(plan.domain.topology());
     report_.unknowns = surface_.stars.count();
@@ -265,10 +260,8 @@ bool MeshFlow::step() {
     return true;
 }
 
-void MeshFlow::end_before_last_step(Stop reason) {
+void MeshFlow::take_last_step_back() {
     surface_.positions = std::move(before_);
-    report_.steps.pop_back();
-    report_.stop = reason;
 }
 
 void MeshFlow::move_vertices(Positions& positions) const {

@@ -26,15 +26,13 @@ public:
     explicit MeshFlow(MeshPlan plan);
 
     bool step() override;
-    void end_before_last_step(Stop reason) override;
     void move_vertices(std::vector<Eigen::Vector3d>& positions) const override;
     std::vector<double> mean_curvatures(const SurfaceView& after) override;
-    const FlowReport& report() const override { return report_; }
 
 private:
     using Positions = std::vector<Eigen::Vector3d>;
 
-    void fill_report(const MeshPlan& plan);
+    void take_last_step_back() override;
     /// Makes the solver use an octree of the surface as it is now.
     void use_octree();
     /// Does so before a step if the last one showed that it helps.
@@ -60,7 +58,6 @@ private:
     double margin_ = 0;
     Field right_side_;
     Positions d_;  ///< the displacement of the last step
-    FlowReport report_;
 };
 
 }  // namespace tracked_mcf

@@ -8,7 +8,6 @@
 
 #include "filter_tracked_mcf/core/flow/flow_surface.h"
 #include "filter_tracked_mcf/core/flow/mean_curvature.h"
-#include "filter_tracked_mcf/core/parallel/parallel.h"
 #include "filter_tracked_mcf/core/parallel/progress_meter.h"
 #include "filter_tracked_mcf/core/parallel/setup_phases.h"
 #include "filter_tracked_mcf/core/parallel/stopwatch.h"
@@ -35,17 +34,13 @@ std::vector<std::vector<std::uint8_t>> fixed_unknowns(const TrackedElements& ele
 }  // namespace
 
 PaperFlow::PaperFlow(PaperPlan plan)
-    : order_(plan.steps.order),
+    : SurfaceFlow(plan),
+      order_(plan.steps.order),
       cycles_(plan.cycles),
       step_size_(plan.step_size / (plan.surface.grid.cell_size * plan.surface.grid.cell_size)),
       elements_(build_tracked_elements(plan.domain, std::move(plan.surface), plan.cubature)),
       multigrid_(elements_, fixed_unknowns(elements_)),
       displacement_(Coefficients::Zero(elements_.finest().unknown_count(), 3)) {
-    fill_report(plan);
-}
-
-void PaperFlow::fill_report(const PaperPlan& plan) {
-    describe(plan, report_);
     report_.degenerate_triangles = elements_.degenerate_triangle_count;
     report_.depth = elements_.grid.depth;
     report_.cell_size = elements_.grid.cell_size;
@@ -136,10 +131,8 @@ bool PaperFlow::is_confined(const Coefficients& displacement) const {
                        });
 }
 
-void PaperFlow::end_before_last_step(Stop reason) {
+void PaperFlow::take_last_step_back() {
     displacement_ = std::move(before_);
-    report_.steps.pop_back();
-    report_.stop = reason;
 }
 
 void PaperFlow::move_vertices(std::vector<Eigen::Vector3d>& positions) const {

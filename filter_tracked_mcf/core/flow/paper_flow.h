@@ -26,17 +26,15 @@ public:
     /// The step fails if it takes a vertex out of the initial bounding box by more than a tenth of
     /// the box's diagonal: the flow obeys a maximum principle, but for the error of the grid.
     bool step() override;
-    void end_before_last_step(Stop reason) override;
     void move_vertices(std::vector<Eigen::Vector3d>& positions) const override;
     std::vector<double> mean_curvatures(const SurfaceView& after) override;
-    const FlowReport& report() const override { return report_; }
 
     const TrackedElements& elements() const { return elements_; }
     /// Returns the coefficients of X_t minus the identity, in grid units.
     const Coefficients& displacement() const { return displacement_; }
 
 private:
-    void fill_report(const PaperPlan& plan);
+    void take_last_step_back() override;
     /// Solves the system with these right-hand sides for d_.
     void solve(const std::vector<ElementVector>& right_sides, StepReport& report);
     /// Returns whether the vertices are where a step can lead.
@@ -51,7 +49,6 @@ private:
     ElementSystems systems_;
     Coefficients d_;                   ///< the displacement of the last step
     Field right_side_, x_, residual_;  ///< workspaces
-    FlowReport report_;
 };
 
 }  // namespace tracked_mcf

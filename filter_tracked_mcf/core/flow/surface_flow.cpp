@@ -3,28 +3,35 @@
 
 namespace tracked_mcf {
 
-void describe(const Plan& plan, FlowReport& report) {
+SurfaceFlow::SurfaceFlow(const Plan& plan)
+    : selection_(plan.domain.selection()),
+      one_copies_(one_copy_of_each_vertex(plan.domain.topology())) {
     const Domain& domain = plan.domain;
-    const std::vector<std::uint8_t> counted = one_copy_of_each_vertex(domain.topology());
     const std::vector<std::uint8_t>& constrained = domain.constrained_vertices();
-    for (std::size_t i = 0; i < counted.size(); ++i) {
-        report.vertices += counted[i];
-        if (counted[i] != 0 && constrained[i] != 0) ++report.constrained_vertices;
+    for (std::size_t i = 0; i < one_copies_.size(); ++i) {
+        report_.vertices += one_copies_[i];
+        if (one_copies_[i] != 0 && constrained[i] != 0) ++report_.constrained_vertices;
     }
-    report.triangles = static_cast<std::int64_t>(domain.surface().triangles.size());
-    report.has_strengths = domain.has_strengths();
-    report.zero_strength_triangles = domain.zero_strength_count();
-    report.unselected_triangles = static_cast<std::int64_t>(domain.mesh().triangles.size()) -
-                                  report.triangles - report.zero_strength_triangles;
-    report.oriented_consistently = domain.topology().is_oriented_consistently();
-    report.boundary_edges = domain.boundary_edge_count();
-    report.cracks = domain.topology().cracks;
-    report.longest_side = longest_side(domain.surface());
-    report.step_size = plan.step_size;
-    report.asked_step_size = plan.asked_step_size;
-    report.detail_size = detail_size_for(plan.step_size, plan.iterations, plan.steps.order);
-    report.mean_edge = plan.mean_edge;
-    report.estimated_memory_bytes = static_cast<std::int64_t>(plan.expected_bytes);
+    report_.triangles = static_cast<std::int64_t>(domain.surface().triangles.size());
+    report_.has_strengths = domain.has_strengths();
+    report_.zero_strength_triangles = domain.zero_strength_count();
+    report_.unselected_triangles = static_cast<std::int64_t>(domain.mesh().triangles.size()) -
+                                   report_.triangles - report_.zero_strength_triangles;
+    report_.oriented_consistently = domain.topology().is_oriented_consistently();
+    report_.boundary_edges = domain.boundary_edge_count();
+    report_.cracks = domain.topology().cracks;
+    report_.longest_side = longest_side(domain.surface());
+    report_.step_size = plan.step_size;
+    report_.asked_step_size = plan.asked_step_size;
+    report_.detail_size = detail_size_for(plan.step_size, plan.iterations, plan.steps.order);
+    report_.mean_edge = plan.mean_edge;
+    report_.estimated_memory_bytes = static_cast<std::int64_t>(plan.expected_bytes);
+}
+
+void SurfaceFlow::end_before_last_step(Stop reason) {
+    take_last_step_back();
+    report_.steps.pop_back();
+    report_.stop = reason;
 }
 
 }  // namespace tracked_mcf

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <vector>
 
 #include "filter_tracked_mcf/core/flow_report.h"
@@ -17,7 +18,6 @@ inline constexpr double kVanishedArea = 1e-3;
 /// validates the input, reports progress and writes the result back.
 class SurfaceFlow {
 public:
-    SurfaceFlow() = default;
     SurfaceFlow(const SurfaceFlow&) = delete;
     SurfaceFlow& operator=(const SurfaceFlow&) = delete;
     virtual ~SurfaceFlow() = default;
@@ -32,7 +32,7 @@ public:
 
     /// Takes the flow back to before the last step and ends it, with `reason` as report().stop.
     /// Call it at most once after a step.
-    virtual void end_before_last_step(Stop reason) = 0;
+    void end_before_last_step(Stop reason);
 
     /// Moves vertices from their initial positions to where the flow has brought them. `positions`
     /// are those of the mesh that the flow was made from. Vertices that do not move keep their
@@ -43,10 +43,23 @@ public:
     /// the mesh with the present positions.
     virtual std::vector<double> mean_curvatures(const SurfaceView& after) = 0;
 
-    virtual const FlowReport& report() const = 0;
-};
+    const FlowReport& report() const { return report_; }
+    /// Returns which triangles of the mesh flow.
+    const Selection& selection() const { return selection_; }
+    /// Returns flags of one copy of each vertex of the surface.
+    const std::vector<std::uint8_t>& one_copies() const { return one_copies_; }
 
-/// Sets what a report says of a plan.
-void describe(const Plan& plan, FlowReport& report);
+protected:
+    /// Sets what the report says of a plan.
+    explicit SurfaceFlow(const Plan& plan);
+
+    FlowReport report_;
+
+private:
+    virtual void take_last_step_back() = 0;
+
+    Selection selection_;
+    std::vector<std::uint8_t> one_copies_;
+};
 
 }  // namespace tracked_mcf
