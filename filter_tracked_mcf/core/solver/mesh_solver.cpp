@@ -50,6 +50,11 @@ void MeshSolver::use(std::unique_ptr<VertexOctree> octree) {
     multigrid_.emplace(octree_->levels());
 }
 
+void MeshSolver::leave_octree() {
+    multigrid_.reset();
+    octree_.reset();
+}
+
 void MeshSolver::take(const TriangleElements& elements, double step_size, bool takes_stiffness) {
     system_.take(elements, step_size, takes_stiffness);
     if (!octree_) return;
@@ -97,7 +102,8 @@ double MeshSolver::precondition(float step) {
     return square + dot(coarse_b_, coarse_x_).sum();
 }
 
-double MeshSolver::descend(double square, double limit, int most, int& iterations) {
+double MeshSolver::descend(double square, double limit, int& iterations) {
+    const int most = octree_ ? iterations + kMostWithOctree : kMostMeshIterations;
     set_zero(x_, r_.cols());
     set_zero(p_, r_.cols());
     set_zero(q_, r_.cols());
@@ -131,23 +137,24 @@ MeshConvergence MeshSolver::solve(const Field& b, double tolerance,
     const auto goal = [&] { return tolerance * tolerance * first; };
     while (square > goal()) {
         const double before = square;
+        const int iterations_before = result.iterations;
         constexpr double reach = kSinglePrecision * kSinglePrecision;
-        const int most = octree_ ? kMostWithOctree : kMostMeshIterations;
-        square = descend(square, refines ? std::max(goal(), reach * square) : goal(), most,
-                         result.iterations);
+        square =
+            descend(square, refines ? std::max(goal(), reach * square) : goal(), result.iterations);
         parallel_for_rows(
             r_.cols(), [&](std::int32_t row) { x[row] += x_.col(row).head<3>().cast<double>(); });
-        if (octree_ && !(square <= goal()) && result.iterations >= most) {
-            octree_.reset();
+        const bool octree_fails =
+            octree_ && result.iterations - iterations_before == kMostWithOctree;
+        if (octree_fails) {
+            leave_octree();
             r_ = scaled;
             first = precondition(0);
-            system_.residual(scaled, x, r_);
-            square = precondition(0);
-            continue;
+        } else if (!refines || result.iterations >= kMostMeshIterations) {
+            break;
         }
-        if (!refines || result.iterations >= kMostMeshIterations) break;
         system_.residual(scaled, x, r_);
         square = precondition(0);
+        if (octree_fails) continue;
         if (!(square < kWorthRefining * kWorthRefining * before)) break;
     }
     remove_drift(x);

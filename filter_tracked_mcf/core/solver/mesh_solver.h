@@ -54,9 +54,11 @@ public:
     const VertexOctree* octree() const { return octree_.get(); }
 
 private:
-    /// Iterates from x_ = 0 until r·Br, given that of r_, is at most `limit`, or there are `most`
-    /// iterations in all. Returns what it is.
-    double descend(double square, double limit, int most, int& iterations);
+    /// Iterates from x_ = 0 until r·Br, given that of r_, is at most `limit`, or there are as many
+    /// iterations as are worth it. Returns what it is.
+    double descend(double square, double limit, int& iterations);
+    /// Goes on without an octree, whose V-cycle does not help.
+    void leave_octree();
     /// Moves x_ by step * p_, and r_ likewise; sets z_ = B r_. Returns r·z.
     double precondition(float step);
     /// Adds to each component that nothing holds the translation that its residual asks for.
