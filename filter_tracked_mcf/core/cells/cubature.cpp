@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "filter_tracked_mcf/core/cells/cubature.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace tracked_mcf {
@@ -45,27 +44,6 @@ Nodes degree_6() {
 
 /// Squared distances that differ by less count as equal, so that rounding does not choose the fan.
 constexpr double kTie = 1e-9;
-
-/// Largest extent of a small polygon, in cells. Larger polygons need the nodes of their fan: the
-/// functions and their gradients change too much over half a cell for a rule of degree 2.
-constexpr double kSmall = 0.5;
-
-/// The integrals over a polygon of 1, q and q qᵀ, where q are coordinates in its plane.
-struct PlaneMoments {
-    double area = 0;
-    Eigen::Vector2d first = Eigen::Vector2d::Zero();
-    Eigen::Matrix2d second = Eigen::Matrix2d::Zero();
-
-    /// Adds the triangle of the origin, a and b, anticlockwise.
-    void add(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-        // Rounding makes triangles without area negative.
-        const double triangle = std::max(a[0] * b[1] - a[1] * b[0], 0.0) / 2;
-        const Eigen::Vector2d sum = a + b;
-        area += triangle;
-        first += triangle / 3 * sum;
-        second += triangle / 12 * (a * a.transpose() + b * b.transpose() + sum * sum.transpose());
-    }
-};
 
 bool nearer(const Eigen::Vector3d& p, const Eigen::Vector3d& q,
             const std::array<Eigen::Vector3d, 3>& triangle) {

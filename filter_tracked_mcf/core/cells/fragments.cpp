@@ -3,10 +3,8 @@
 
 #include <algorithm>
 #include <atomic>
-#include <limits>
 
 #include "filter_tracked_mcf/core/cells/clip.h"
-#include "filter_tracked_mcf/core/cells/cubature.h"
 #include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/mesh/measures.h"
 #include "filter_tracked_mcf/core/parallel/parallel.h"

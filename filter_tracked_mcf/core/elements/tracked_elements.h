@@ -12,7 +12,6 @@
 #include "filter_tracked_mcf/core/mesh/domain.h"
 #include "filter_tracked_mcf/core/octree/octree.h"
 #include "filter_tracked_mcf/core/parallel/raw_vector.h"
-#include "filter_tracked_mcf/core/triangle_mesh.h"
 
 namespace tracked_mcf {
 

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "filter_tracked_mcf/core/cells/cubature.h"
 #include "filter_tracked_mcf/core/mesh/measures.h"
 #include "filter_tracked_mcf/core/mesh/mesh_topology.h"
-#include "filter_tracked_mcf/core/parallel/parallel.h"
 
 namespace tracked_mcf {
 

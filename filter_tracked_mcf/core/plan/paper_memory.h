@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "filter_tracked_mcf/core/cells/cubature.h"
 #include "filter_tracked_mcf/core/cells/grid.h"
+#include "filter_tracked_mcf/core/flow_parameters.h"
 #include "filter_tracked_mcf/core/mesh/domain.h"
 
 namespace tracked_mcf {

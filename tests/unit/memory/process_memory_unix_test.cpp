@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+
 #include "filter_tracked_mcf/core/errors.h"
 #include "tests/unit/flows.h"
 #include "tests/unit/memory/address_space_limit.h"
@@ -22,6 +24,21 @@ TEST(NotEnoughMemory, LeavesTheMeshAsItWas) {
     p.method = Method::Paper;
     EXPECT_THROW(evolve(after, p), NotEnoughMemory);
     EXPECT_TRUE(same_bits(after, mesh));
+}
+
+TEST(NotEnoughMemory, IsSaidWithBothNumbersAndTheAdvice) {
+    EXPECT_EQ(bytes_in_words(3.72e9), "3.7 GB");
+    EXPECT_EQ(bytes_in_words(3.72e8), "372 MB");
+    EXPECT_NO_THROW(check_free_memory(1, "The work", "Do less."));
+    if (available_memory_bytes() == 0) GTEST_SKIP() << "this system does not tell";
+    try {
+        check_free_memory(1e18, "The work", "Do less.");
+        FAIL() << "must throw";
+    } catch (const NotEnoughMemory& error) {
+        const std::string message = error.what();
+        EXPECT_EQ(message.find("The work would need about 1000000000 GB of memory, but only "), 0U);
+        EXPECT_NE(message.find(" are free. Do less."), std::string::npos) << message;
+    }
 }
 
 class AvailableMemoryByFiles : public SystemFiles {
