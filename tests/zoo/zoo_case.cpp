@@ -105,6 +105,7 @@ FlowParameters random_parameters(double side, Random& random) {
     set_step_size(parameters, side, random);
     parameters.iterations = random.chance(0.3) ? random.integer(4, 50) : random.integer(1, 3);
     if (random.chance(0.3)) parameters.order = random.integer(2, kMaximumOrder);
+    parameters.local_detail_size = random.chance(0.1);
     parameters.flow = random.pick({FlowKind::MeanCurvature, FlowKind::Conformalized});
     parameters.boundary = random.pick({BoundaryCondition::Locked, BoundaryCondition::Free});
     if (random.chance(0.4)) parameters.preserve = random.pick({Preserve::Area, Preserve::Volume});

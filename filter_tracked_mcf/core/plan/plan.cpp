@@ -82,8 +82,9 @@ constexpr double kLargestStepSizeInEdges = 5e4, kLargestStepSizeInCells = 1e5;
 /// Bytes for each vertex and each triangle of a flow on the mesh's own elements, beside the mesh.
 constexpr double kBytesPerVertex = 370, kBytesPerTriangle = 120;
 
-/// The side of a cell of the paper's octree, in mean edge lengths, if its depth is automatic. Then
-/// it has about as many unknowns as the mesh has vertices: some 3 for the area of a cell's side.
+/// The side of a cell of the paper's octree, in mean edge lengths, if its depth is automatic. A
+/// surface has about 3 unknowns for each squared side of a cell, and 1.15 vertices for each squared
+/// edge. So there are about as many unknowns as vertices.
 constexpr double kAutomaticCellInEdges = 1.6;
 
 /// Returns the plan of a flow, with a step size of at most `largest`.

@@ -14,8 +14,8 @@ namespace {
 
 constexpr int kMostMeshIterations = 1000;
 
-/// An octree whose V-cycle needs more iterations than this does harm: it may not be positive where
-/// components are smaller than a cell.
+/// An octree is left if conjugate gradients with its V-cycle take as many iterations. The V-cycle
+/// may not be positive where components are smaller than a cell.
 constexpr int kMostWithOctree = 200;
 
 /// Below this fraction of its initial norm, a residual from recurrences in single precision differs
