@@ -17,11 +17,11 @@ BASELINE_INSTRUCTIONS = "ours, baseline instructions"
 OTHER_BINARY = "ours, other binary"
 TRIAD = "triad"
 # Of ours, then of PyMeshLab.
-WHOLE_JOBS = ("flow, default parameters", "flow, one thread", "flow, ten steps of 1e-5",
+WHOLE_JOBS = ("flow, default parameters", "flow, one thread", "flow, detail of 10 edges", "flow, detail of 40 edges",
               "remove noise, default parameters", "remove noise, one thread",
               "MeshLab's Taubin", "MeshLab's Laplacian")
 # Those that are compared by size.
-NOISE_JOBS = (WHOLE_JOBS[3], WHOLE_JOBS[5])
+JOBS_BY_SIZE = (WHOLE_JOBS[0], WHOLE_JOBS[4], WHOLE_JOBS[6])
 RELIEF = "relief"
 
 

@@ -3,7 +3,7 @@
 
 import machine
 from measurements import (BASELINE_INSTRUCTIONS, CGAL, IC, MIC, OTHER_BINARY, OURS, REBUILT, TRACKED, TRIAD,
-                          NOISE_JOBS, RELIEF, WHOLE_JOBS)
+                          JOBS_BY_SIZE, RELIEF, WHOLE_JOBS)
 
 PROTOTYPE_NANOSECONDS = 41  # for the assembly of a sample
 
@@ -354,7 +354,7 @@ class Page:
         self._title("Times")
         loads = self._of.loads(peer=WHOLE_JOBS[0])
         rows = []
-        for mesh in self._of.meshes(peer=WHOLE_JOBS[0]):
+        for mesh in self._of.meshes(peer=WHOLE_JOBS[1]):
             for job in WHOLE_JOBS:
                 if mesh not in self._of.meshes(peer=job):
                     continue
@@ -365,9 +365,9 @@ class Page:
                     rows)
 
     def _sizes(self):
-        self._title("Noise removal by size", "Squares with waves, and with noise of 0.2 edges, alone on the machine.")
+        self._title("By size", "Squares with waves, and with noise of 0.2 edges, alone on the machine.")
         rows = []
-        for job in NOISE_JOBS:
+        for job in JOBS_BY_SIZE:
             for mesh in [mesh for mesh in self._of.meshes(peer=job) if mesh.startswith(RELIEF)]:
                 case = {"peer": job, "mesh": mesh}
                 vertices = 1000 * int(mesh.split()[1])

@@ -8,16 +8,18 @@ from this file alone. A whole run takes about 20 minutes, a quick run two.
 
 import argparse
 import dataclasses
+import json
 import lzma
 import os
 import pathlib
 import shutil
+import subprocess
 import sys
 
 import numpy
 
 from measurements import (BASELINE_INSTRUCTIONS, CGAL, IC, MIC, OTHER_BINARY, OURS, REBUILT, TRACKED, TRIAD,
-                          NOISE_JOBS, RELIEF, WHOLE_JOBS, Case, Measurements)
+                          JOBS_BY_SIZE, RELIEF, WHOLE_JOBS, Case, Measurements)
 from results_page import Page
 
 TOP = pathlib.Path(__file__).resolve().parents[2]
@@ -188,18 +190,19 @@ class Benchmark:
                 for case in self._jobs(mesh, name, WHOLE_JOBS, busy)]
 
     def _sizes(self):
-        """Returns jobs that remove noise, on meshes of different sizes."""
+        """Returns jobs of single programs on meshes of different sizes."""
         return [case for side in RELIEF_SIDES[:2 if self._arguments.quick else None]
                 for case in self._jobs(relief(side, self._output), f"{RELIEF}, {side * side // 1000} k",
-                                       NOISE_JOBS, 0)]
+                                       JOBS_BY_SIZE, 0)]
 
     def _jobs(self, mesh, name, jobs, busy):
         """Returns the jobs of these names, but those of PyMeshLab only if it is there."""
         script = pathlib.Path(__file__).parent / "whole_job.py"
         tool = self._arguments.build / "filter_tracked_mcf" / "tool" / "tracked_mcf"
         python = self._arguments.build / "pymeshlab" / "bin" / "python"
+        edge = mean_edge(tool, mesh, self._output)
         commands = [(sys.executable, (tool, *words))
-                    for words in ((), ("--threads", 1), ("--step-size", 1e-5, "--iterations", 10),
+                    for words in ((), ("--threads", 1), ("--detail-size", 10 * edge), ("--detail-size", 40 * edge),
                                   ("remove-noise",), ("remove-noise", "--threads", 1))]
         if python.exists():
             commands += [(python, ("pymeshlab", name)) for name in PYMESHLAB_FILTERS]
@@ -249,6 +252,14 @@ def relief(side, folder):
         file.write(numpy.stack([x, y, z], axis=1).astype("<f4").tobytes())
         file.write(faces.tobytes())
     return path
+
+
+def mean_edge(tool, mesh, folder):
+    """Returns the mesh's mean edge length, a third of the default detail size."""
+    report = folder / "mean_edge.json"
+    subprocess.run([tool, "--quiet", "--iterations", "1", "--report", report, mesh, folder / f"mean_edge{mesh.suffix}"],
+                   check=True)
+    return json.loads(report.read_text(encoding="utf-8"))["detail_size"] / 3
 
 
 def unpacked(packed, folder):
