@@ -9,8 +9,8 @@ namespace tracked_mcf {
 
 namespace {
 
-/// Upper bound of the spectrum of S A, unless something has pinched.
-constexpr double kLargest = 1.8;
+/// Upper bound of the spectrum of S A on most surfaces, and where sheets share functions.
+constexpr double kUsuallyLargest = 1.8, kLargestOfSheets = 4 * kUsuallyLargest;
 
 /// Returns the optimal factors of `count` steps x += factor * S r for a spectrum from `smallest` to
 /// `largest`: the reciprocals of the roots of the Chebyshev polynomial on that interval.
@@ -37,7 +37,7 @@ ElementMultigrid::LevelData::LevelData(const Level& of_level)
       smoother(of_level, bricks, partition) {}
 
 ElementMultigrid::ElementMultigrid(const std::vector<Level>& levels)
-    : coarse_solver_(levels.front()) {
+    : largest_(kUsuallyLargest), coarse_solver_(levels.front()) {
     for (const Level& level : levels) levels_.emplace_back(level);
     for (std::size_t l = 1; l < levels_.size(); ++l) {
         levels_[l].transfer = ElementTransfer(levels_[l].level, levels_[l - 1].level);
@@ -55,9 +55,9 @@ void ElementMultigrid::refresh(const MatrixBlocks& finest, double stiffness_to_m
         // With a coarse correction, the smoother covers the upper part of the spectrum; on the
         // coarsest level of the cycle, it covers nearly all of it.
         if (stiffness_to_mass > kStiff) {
-            here.steps = chebyshev_steps(2, kLargest / 6, kLargest);
+            here.steps = chebyshev_steps(2, largest_ / 6, largest_);
         } else {
-            here.steps = chebyshev_steps(3, kLargest / 12, kLargest);
+            here.steps = chebyshev_steps(3, largest_ / 12, largest_);
             return;
         }
         MatrixBlocks& coarser = levels_[coarsest_ - 1].own_matrices;
@@ -65,6 +65,15 @@ void ElementMultigrid::refresh(const MatrixBlocks& finest, double stiffness_to_m
         matrices = &coarser;
     }
     coarse_solver_.factorise(*matrices);
+}
+
+bool ElementMultigrid::widen_spectrum() {
+    if (largest_ >= kLargestOfSheets) return false;
+    largest_ *= 2;
+    for (LevelData& level : levels_) {
+        for (float& step : level.steps) step /= 2;
+    }
+    return true;
 }
 
 void ElementMultigrid::cycle(const Field& right_side, Field& x) {

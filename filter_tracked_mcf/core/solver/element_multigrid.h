@@ -38,6 +38,10 @@ public:
     /// ratio on the finest level, δ / h².
     void refresh(const MatrixBlocks& finest, double stiffness_to_mass);
 
+    /// Doubles the spectrum of S A that the smoothers expect, after a V-cycle was not positive.
+    /// Returns false, and changes nothing, if it is as wide as it may be.
+    bool widen_spectrum();
+
     /// Computes x by one V-cycle from zero for A x = right_side on the finest level.
     void cycle(const Field& right_side, Field& x);
 
@@ -66,6 +70,7 @@ private:
 
     void cycle(std::size_t level, const Field& right_side, Field& x);
 
+    double largest_;            ///< upper bound of the spectrum of S A
     std::size_t coarsest_ = 0;  ///< level at which the cycle ends
     std::deque<LevelData> levels_;
     CoarseSolver coarse_solver_;

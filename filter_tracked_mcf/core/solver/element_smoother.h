@@ -21,7 +21,8 @@ namespace tracked_mcf {
 /// The functions around an element are nearly dependent on the surface in it. Gauss-Seidel, which
 /// changes one unknown at a time, needs tens of sweeps to do what one solve of all eight does. A
 /// damping factor per element, unlike one per unknown, keeps nearly dependent corrections nearly
-/// dependent: the largest eigenvalue of S A is below 2, unless parts of the surface have pinched.
+/// dependent: the largest eigenvalue of S A is below 2, unless sheets of the surface share
+/// functions.
 class ElementSmoother {
 public:
     /// All arguments must outlive this.

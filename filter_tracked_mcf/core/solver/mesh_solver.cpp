@@ -14,8 +14,7 @@ namespace {
 
 constexpr int kMostMeshIterations = 1000;
 
-/// An octree is left if conjugate gradients with its V-cycle take as many iterations. The V-cycle
-/// may not be positive where components are smaller than a cell.
+/// An octree is left if conjugate gradients with its V-cycle take as many iterations.
 constexpr int kMostWithOctree = 200;
 
 /// Below this fraction of its initial norm, a residual from recurrences in single precision differs
@@ -50,9 +49,19 @@ void MeshSolver::use(std::unique_ptr<VertexOctree> octree) {
     multigrid_.emplace(octree_->levels());
 }
 
-void MeshSolver::leave_octree() {
+void MeshSolver::mend_octree(double square) {
+    if (square < 0 && multigrid_->widen_spectrum()) return;
     multigrid_.reset();
     octree_.reset();
+}
+
+double MeshSolver::begin(const Field& b) {
+    for (;;) {
+        r_ = b;
+        const double square = precondition(0);
+        if (!octree_ || square >= 0) return square;
+        mend_octree(square);
+    }
 }
 
 void MeshSolver::take(const TriangleElements& elements, double step_size, bool takes_stiffness) {
@@ -99,7 +108,8 @@ double MeshSolver::precondition(float step) {
     octree_->restrict(r_, coarse_b_);
     multigrid_->cycle(coarse_b_, coarse_x_);
     octree_->add_prolongated(system_, coarse_x_, z_);
-    return square + dot(coarse_b_, coarse_x_).sum();
+    const double coarse_square = dot(coarse_b_, coarse_x_).sum();
+    return coarse_square < 0 ? coarse_square : square + coarse_square;
 }
 
 double MeshSolver::descend(double square, double limit, int& iterations) {
@@ -128,27 +138,23 @@ MeshConvergence MeshSolver::solve(const Field& b, double tolerance,
     result.residual_before = norm(b);
     const double unit = power_of_two_of(result.residual_before);
     Field scaled = static_cast<float>(1 / unit) * b;
-    r_ = scaled;
-    z_.resize(4, r_.cols());
-    x.assign(static_cast<std::size_t>(r_.cols()), Eigen::Vector3d::Zero());
-    double first = precondition(0);
+    z_.resize(4, scaled.cols());
+    x.assign(static_cast<std::size_t>(scaled.cols()), Eigen::Vector3d::Zero());
+    double first = begin(scaled);
     const bool refines = tolerance < kSinglePrecision;
     double square = first;
     const auto goal = [&] { return tolerance * tolerance * first; };
     while (square > goal()) {
         const double before = square;
-        const int iterations_before = result.iterations;
         constexpr double reach = kSinglePrecision * kSinglePrecision;
-        square =
-            descend(square, refines ? std::max(goal(), reach * square) : goal(), result.iterations);
+        const double limit = refines ? std::max(goal(), reach * square) : goal();
+        square = descend(square, limit, result.iterations);
         parallel_for_rows(
             r_.cols(), [&](std::int32_t row) { x[row] += x_.col(row).head<3>().cast<double>(); });
-        const bool octree_fails =
-            octree_ && result.iterations - iterations_before == kMostWithOctree;
+        const bool octree_fails = octree_ && !(square >= 0 && square <= limit);
         if (octree_fails) {
-            leave_octree();
-            r_ = scaled;
-            first = precondition(0);
+            mend_octree(square);
+            first = begin(scaled);
         } else if (!refines || result.iterations >= kMostMeshIterations) {
             break;
         }

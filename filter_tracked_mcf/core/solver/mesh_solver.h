@@ -57,9 +57,13 @@ private:
     /// Iterates from x_ = 0 until r·Br, given that of r_, is at most `limit`, or there are as many
     /// iterations as are worth it. Returns what it is.
     double descend(double square, double limit, int& iterations);
-    /// Goes on without an octree, whose V-cycle does not help.
-    void leave_octree();
-    /// Moves x_ by step * p_, and r_ likewise; sets z_ = B r_. Returns r·z.
+    /// Widens the spectrum of the octree's V-cycle if r·Br, `square`, is negative. Goes on without
+    /// an octree if that is not possible, or if its V-cycle does not help.
+    void mend_octree(double square);
+    /// Sets r_ = b and z_ = B r_. Returns r·z, with a B for which it is not negative.
+    double begin(const Field& b);
+    /// Moves x_ by step * p_, and r_ likewise; sets z_ = B r_. Returns r·z, or less than 0 if that
+    /// part of it is negative which is the octree's.
     double precondition(float step);
     /// Adds to each component that nothing holds the translation that its residual asks for.
     void remove_drift(std::vector<Eigen::Vector3d>& x) const;

@@ -149,7 +149,19 @@ TEST(MeshSolver, AnOctreeTakesFewIterationsForLongWaves) {
     }
 }
 
-// 1ᵀ A x = 1ᵀ M x, because constants have no stiffness.
+TEST(MeshSolver, WidensTheSpectrumWhereSheetsShareFunctions) {
+    // Cells in which flat pieces meet at many angles.
+    TriangleMesh rough = shapes::square(39);
+    std::mt19937 random(2);
+    std::normal_distribution<double> normal;
+    for (Eigen::Vector3d& position : rough.positions) position.z() += 4.0 / 39 * normal(random);
+    SolverOfMesh of(shapes::split_in_four(rough), 3, 1e4, BoundaryCondition::Locked);
+    Vertices x;
+    const MeshConvergence result = of.solver.solve(of.flow(), 1e-3, x);
+    EXPECT_LE(result.error_estimate, 1e-3);
+    EXPECT_NE(of.solver.octree(), nullptr);
+}
+
 TEST(MeshSolver, GoesOnWithoutAnOctreeThatDoesNotHelp) {
     // The functions of an octree of other places jump from vertex to vertex.
     SolverOfMesh with(shapes::bumpy_sphere(30), 3, 1e4), without(shapes::bumpy_sphere(30), 0, 1e4);
@@ -169,6 +181,7 @@ TEST(MeshSolver, GoesOnWithoutAnOctreeThatDoesNotHelp) {
     EXPECT_LT((rows_of(x) - rows_of(expected)).norm(), 1e-3 * rows_of(expected).norm());
 }
 
+// 1ᵀ A x = 1ᵀ M x, because constants have no stiffness.
 TEST(MeshSolver, ComponentsThatNothingHoldsKeepTheirCentroidsToRounding) {
     const TriangleMesh sphere = shapes::bumpy_sphere(10);
     const Eigen::Affine3d beside(Eigen::Translation3d(3, 0, 0) * Eigen::Scaling(0.5));
