@@ -9,7 +9,9 @@
 
 #include "filter_tracked_mcf/core/flow/mesh_flow.h"
 #include "filter_tracked_mcf/core/flow/paper_flow.h"
+#include "filter_tracked_mcf/core/kernels/kernels.h"
 #include "filter_tracked_mcf/core/memory/process_memory.h"
+#include "filter_tracked_mcf/core/mesh/change.h"
 #include "filter_tracked_mcf/core/mesh/measures.h"
 #include "filter_tracked_mcf/core/parallel/parallel.h"
 #include "filter_tracked_mcf/core/parallel/progress_meter.h"
@@ -45,17 +47,11 @@ std::unique_ptr<SurfaceFlow> set_up(const TriangleMesh& mesh, const Inputs& inpu
     return std::make_unique<MeshFlow>(mesh_plan_of(mesh, inputs, parameters));
 }
 
-/// Positions to which a flow has moved the mesh, and the area of the triangles that flow.
-struct Moved {
-    std::vector<Eigen::Vector3d> positions;
-    double area;
-};
-
-Moved moved_by(const SurfaceFlow& flow, const TriangleMesh& mesh) {
-    Moved moved{mesh.positions, 0};
-    flow.move_vertices(moved.positions);
-    moved.area = surface_area({moved.positions, mesh.triangles}, flow.selection());
-    return moved;
+/// Returns the positions to which a flow has moved the mesh.
+std::vector<Eigen::Vector3d> moved_by(const SurfaceFlow& flow, const TriangleMesh& mesh) {
+    std::vector<Eigen::Vector3d> positions = mesh.positions;
+    flow.move_vertices(positions);
+    return positions;
 }
 
 /// Makes all steps, or fewer if nothing is left to do.
@@ -67,40 +63,11 @@ void make_steps(SurfaceFlow& flow, const TriangleMesh& mesh, int iterations,
         enter_phase(0, "Step " + std::to_string(step + 1) + " of " + std::to_string(iterations));
         if (!flow.step()) return;
         if (!on_step) continue;
-        std::vector<Eigen::Vector3d> positions = mesh.positions;
-        flow.move_vertices(positions);
-        on_step(step + 1, positions);
+        // What the observer calls does not report to this flow's callback.
+        const Progress nobody;
+        const ProgressMeter silent(nobody);
+        on_step(step + 1, moved_by(flow, mesh));
     }
-}
-
-/// Sets the report's measures of the change from `before` to `after`. Coincident vertices count
-/// once.
-void compare(const TriangleMesh& before, const std::vector<Eigen::Vector3d>& after,
-             const std::vector<std::uint8_t>& counted, const Selection& selection,
-             FlowReport& report) {
-    double largest = 0, squares = 0;
-    for (std::size_t i = 0; i < after.size(); ++i) {
-        if (counted[i] == 0) continue;
-        const double square = (after[i] - before.positions[i]).squaredNorm();
-        squares += square;
-        largest = std::max(largest, square);
-    }
-    report.largest_displacement = std::sqrt(largest);
-    report.rms_displacement = std::sqrt(squares / static_cast<double>(report.vertices));
-    if (selection.empty() && report.boundary_edges == 0 && report.oriented_consistently)
-        report.volume_before = enclosed_volume(before);
-    report.volume_change =
-        parallel_sum(static_cast<std::int64_t>(before.triangles.size()), 0.0,
-                     [&](std::int64_t begin, std::int64_t end) {
-                         double sum = 0;
-                         for (std::int64_t i = begin; i < end; ++i) {
-                             if (!selection.empty() && selection[i] == 0) continue;
-                             const Triangle& triangle = before.triangles[i];
-                             sum += swept_volume(corners_of(before.positions, triangle),
-                                                 corners_of(after, triangle));
-                         }
-                         return sum;
-                     });
 }
 
 /// Returns what FlowReport::quality holds after the surface has moved from `before` to `after`.
@@ -116,6 +83,7 @@ std::vector<double> measure_quality(Quality quality, SurfaceFlow& flow, const Tr
 }  // namespace
 
 double default_detail_size(const TriangleMesh& mesh, const Selection& selection) {
+    validate(mesh, Inputs{selection, {}});
     return kDefaultDetailInEdges * mean_edge_length(mesh, selection);
 }
 
@@ -125,6 +93,7 @@ FlowReport evolve(TriangleMesh& mesh, const Inputs& inputs, const FlowParameters
     if (progress) meter.emplace(progress);
     validate(parameters);
     if (parameters.method == Method::Paper) check_no_inputs(inputs);
+    choose_instruction_set();  // refuses a bad choice before the work begins
     const ThreadTeam team(parameters.threads);
     const std::int64_t memory_before = resident_memory_bytes();
     const Stopwatch setup;
@@ -135,28 +104,31 @@ FlowReport evolve(TriangleMesh& mesh, const Inputs& inputs, const FlowParameters
     const Selection& moving = flow.selection();
     const double setup_seconds = setup.seconds();
 
-    const double area_before = surface_area(mesh, moving);
     make_steps(flow, mesh, parameters.iterations, on_step);
-    Moved after = moved_by(flow, mesh);
-    if (flow.report().stop == Stop::None && after.area <= kVanishedArea * area_before) {
+    const auto change = [&](const std::vector<Eigen::Vector3d>& after) {
+        return change_of(mesh, after, flow.one_copies(), moving, flow.encloses_volume());
+    };
+    std::vector<Eigen::Vector3d> after = moved_by(flow, mesh);
+    ChangeReport changed = change(after);
+    if (flow.report().stop == Stop::None &&
+        changed.area_after <= kVanishedArea * changed.area_before) {
         // The flow itself would notice only in the next step.
         flow.end_before_last_step(Stop::Vanished);
         after = moved_by(flow, mesh);
+        changed = change(after);
     }
 
     enter_phase(progress_before(parameters.iterations, parameters.iterations),
                 "Moving the vertices");
     FlowReport report = flow.report();
     report.setup_seconds = setup_seconds;
-    report.area_before = area_before;
-    report.area_after = after.area;
-    compare(mesh, after.positions, flow.one_copies(), moving, report);
-    report.quality = measure_quality(parameters.quality, flow, mesh, after.positions, moving);
+    static_cast<ChangeReport&>(report) = changed;
+    report.quality = measure_quality(parameters.quality, flow, mesh, after, moving);
     report.estimated_memory_bytes += memory_before;
     report.peak_memory_bytes = peak_memory_bytes();
     enter_phase(1, "Done");
     // Nothing can fail from here on.
-    mesh.positions.swap(after.positions);
+    mesh.positions.swap(after);
     return report;
 }
 

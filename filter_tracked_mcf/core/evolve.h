@@ -34,7 +34,7 @@ FlowReport evolve(TriangleMesh& mesh, const Inputs& inputs, const FlowParameters
                   const Progress& progress = {}, const StepObserver& on_step = {});
 
 /// Returns the detail size that a flow of these triangles takes by default, see
-/// FlowParameters::detail_size.
+/// FlowParameters::detail_size. Throws InvalidMesh.
 double default_detail_size(const TriangleMesh& mesh, const Selection& selection = {});
 
 /// Smooths all of the mesh.

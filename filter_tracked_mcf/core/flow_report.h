@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "filter_tracked_mcf/core/change_report.h"
 #include "filter_tracked_mcf/core/crack_report.h"
 
 namespace tracked_mcf {
@@ -38,7 +39,7 @@ enum class Stop {
 };
 
 /// Sizes, durations and results of a whole flow.
-struct FlowReport {
+struct FlowReport : ChangeReport {
     std::int64_t vertices = 0;              ///< of the surface: coincident ones count once
     std::int64_t triangles = 0;             ///< that flow
     std::int64_t unselected_triangles = 0;  ///< that do not, because others are selected
@@ -66,16 +67,7 @@ struct FlowReport {
     std::int64_t fragments = 0;        ///< non-empty intersections of triangles and cells
     std::int64_t split_triangles = 0;  ///< triangles of the fragments' fans
     std::int64_t samples = 0;          ///< quadrature points
-    double area_before = 0;            ///< of the triangles that flow, mesh units²
-    double area_after = 0;
-    /// Volume between the initial and the final surface, mesh units³. It is positive where the
-    /// surface has moved along its normals. Of a closed surface, it is the change of the enclosed
-    /// volume. Means nothing unless the triangles are oriented consistently.
-    double volume_change = 0;
-    double volume_before = 0;  ///< enclosed, mesh units³; 0 unless all of a closed surface flows
     bool oriented_consistently = true;
-    double largest_displacement = 0;  ///< of a vertex, mesh units
-    double rms_displacement = 0;      ///< of the vertices above, mesh units
     /// One number per vertex of the mesh, see FlowParameters::quality; 0 at vertices that do not
     /// flow. Empty if nothing was asked for.
     std::vector<double> quality;

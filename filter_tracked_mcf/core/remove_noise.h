@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "filter_tracked_mcf/core/change_report.h"
 #include "filter_tracked_mcf/core/crack_report.h"
 #include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/noise_parameters.h"
@@ -23,7 +24,7 @@ enum class NoiseStop {
 };
 
 /// What remove_noise() has measured and done.
-struct NoiseReport {
+struct NoiseReport : ChangeReport {
     std::int64_t vertices = 0;              ///< of the smoothed triangles, coincident ones once
     std::int64_t triangles = 0;             ///< that were smoothed
     std::int64_t degenerate_triangles = 0;  ///< of these, with zero area
@@ -32,10 +33,15 @@ struct NoiseReport {
     CrackReport cracks;
 
     NoiseStop stop = NoiseStop::None;
-    double noise = 0;           ///< standard deviation along the normals, mesh units
+    /// Standard deviation along the normals, mesh units, as measured, whatever the parameters say;
+    /// 0 if too few vertices can move.
+    double noise = 0;
     double noise_size = 0;      ///< how wide what counts as noise is, see NoiseParameters
     std::int64_t outliers = 0;  ///< vertices with so much more noise that they hardly counted
     double crease_share = 0;    ///< share of the area in triangles that a crease crosses
+    /// If creases are too many, the angle by which half of the area turns across a triangle,
+    /// degrees: more than this are creases that can be told from noise.
+    double median_turn = 0;
     /// Of the treatment that suits the whole surface best; places may have chosen others. See
     /// NoiseParameters::detail_size; 0 if there was nothing to do.
     double detail_size = 0;
@@ -48,13 +54,7 @@ struct NoiseReport {
     /// lumps or waves that may be noise nevertheless.
     double stairs = 0, lump_width = 0, lump_height = 0;
 
-    double rms_displacement = 0;  ///< of the vertices above, mesh units
-    double largest_displacement = 0;
-    std::int64_t bounded_vertices = 0;       ///< stopped by NoiseParameters::largest_movement
-    double area_before = 0, area_after = 0;  ///< of the smoothed triangles, mesh units²
-    /// Volume between the initial and the final surface, mesh units³, see FlowReport.
-    double volume_change = 0;
-    double volume_before = 0;  ///< see FlowReport
+    std::int64_t bounded_vertices = 0;  ///< stopped by NoiseParameters::largest_movement
     /// Connected parts that have lost more than 3 % of their area or changed their volume by as
     /// much, not counting the area that noise adds; and the largest such shares of a part.
     std::int64_t shrunken_parts = 0;

@@ -45,16 +45,20 @@ void check_strengths(const TriangleMesh& mesh, const std::vector<double>& streng
 
 }  // namespace
 
+void check_size(std::size_t vertices, std::size_t triangles) {
+    constexpr std::size_t most_vertices = std::numeric_limits<std::int32_t>::max();
+    constexpr std::size_t most_triangles = std::numeric_limits<std::uint32_t>::max() / 3;
+    if (vertices <= most_vertices && triangles <= most_triangles) return;
+    throw InvalidMesh("The mesh has more than " + std::to_string(most_vertices) + " vertices or " +
+                      std::to_string(most_triangles) + " faces; simplify it first.");
+}
+
 void validate(const TriangleMesh& mesh) {
     if (mesh.positions.empty()) throw InvalidMesh("The mesh is empty: it has no vertices.");
     if (mesh.triangles.empty()) {
         throw InvalidMesh("The mesh has no faces; the filter needs a surface, not a point cloud.");
     }
-    constexpr std::size_t most = std::numeric_limits<std::int32_t>::max();
-    if (mesh.positions.size() > most || mesh.triangles.size() > most) {
-        throw InvalidMesh(
-            "The mesh has more than 2147483647 vertices or faces; simplify it first.");
-    }
+    check_size(mesh.positions.size(), mesh.triangles.size());
     for (const Triangle& triangle : mesh.triangles) check_triangle(mesh, triangle);
 }
 

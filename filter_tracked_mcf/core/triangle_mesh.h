@@ -38,6 +38,10 @@ struct Inputs {
     std::vector<double> strength;
 };
 
+/// Throws InvalidMesh if there are so many vertices that 32 bits cannot count them with a sign, or
+/// so many triangles that they cannot count the corners without one.
+void check_size(std::size_t vertices, std::size_t triangles);
+
 /// Throws InvalidMesh unless the mesh has vertices and triangles, all indices are in range, and all
 /// vertices that triangles use are finite. Unreferenced vertices are not checked.
 void validate(const TriangleMesh& mesh);

@@ -17,6 +17,10 @@ std::string rounded(double number) {
     return text.str();
 }
 
+std::string per_cent(double share) {
+    return share < 0.1 ? rounded(100 * share) : std::to_string(std::lround(100 * share));
+}
+
 /// Begins a sentence that says why no noise was removed. A rim may have moved.
 std::string nothing(const NoiseReport& report) {
     return report.largest_displacement > 0 ? "No noise was removed: " : "Nothing has moved: ";
@@ -77,22 +81,30 @@ std::string stop_text(const NoiseReport& report) {
                    "Give the noise, a detail size or a smaller size of the noise, or refine the "
                    "mesh.";
         case NoiseStop::TooManyCreases:
-            return nothing(report) + "creases cross " + rounded(100 * report.crease_share) +
-                   " % of the area, so noise cannot be told from the shape. Give the noise or a "
-                   "detail size, or a larger crease angle.";
+            return nothing(report) + "creases cross " + per_cent(report.crease_share) +
+                   " % of the area, so noise cannot be told from the shape. Give a crease angle of "
+                   "more than " +
+                   rounded(report.median_turn) +
+                   "°, by which half of the area turns, or the noise, or a detail size.";
         case NoiseStop::NoNoise:
             return no_noise(report);
     }
     return {};
 }
 
+/// Empty unless steps were shorter than the detail size that the user gives needs.
+std::string shorter(const NoiseParameters& parameters, const NoiseReport& report) {
+    constexpr double least = 0.99;  // rounding
+    if (report.detail_size == 0 || report.detail_size >= least * parameters.detail_size) return {};
+    return "Only detail smaller than " + rounded(report.detail_size) +
+           " was removed: larger steps would take vertices away or lose their places. The flow "
+           "removes larger detail.";
+}
+
 /// Empty unless a part of the surface has lost more than noise.
 std::string loss(const NoiseReport& report) {
     if (report.shrunken_parts == 0) return {};
     const bool one = report.shrunken_parts == 1;
-    const auto per_cent = [](double share) {
-        return share < 0.1 ? rounded(100 * share) : std::to_string(std::lround(100 * share));
-    };
     return (one ? "A part of the surface has lost"
                 : std::to_string(report.shrunken_parts) + " parts of the surface have lost up to") +
            " " + per_cent(report.lost_area) + " % of the area without noise, and the volume " +
@@ -106,7 +118,8 @@ std::string loss(const NoiseReport& report) {
 std::vector<std::string> warnings_of(const NoiseParameters& parameters, const NoiseReport& report) {
     std::vector<std::string> warnings = surface_warnings(report);
     for (const std::string& warning :
-         {stop_text(report), stairs_text(report), too_small(parameters, report), loss(report)}) {
+         {stop_text(report), stairs_text(report), too_small(parameters, report),
+          shorter(parameters, report), loss(report)}) {
         if (!warning.empty()) warnings.push_back(warning);
     }
     return warnings;

@@ -147,6 +147,7 @@ ReportObject report_values(const NoiseParameters& parameters, const ReportObject
             {"lump_width", {report.lump_width}},
             {"lump_height", {report.lump_height}},
             {"crease_share", {report.crease_share}},
+            {"median_turn", unless(report.median_turn == 0, {report.median_turn})},
             {"detail_size", {report.detail_size}},
             {"steps", integer(report.steps)},
             {"sharpenings", integer(report.sharpenings)},

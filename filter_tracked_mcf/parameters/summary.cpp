@@ -122,14 +122,14 @@ std::string summary(const NoiseParameters& parameters, const NoiseReport& report
                        vertices(report.vertices) + " in " + digits(report.seconds, 2) + " s.";
     if (report.steps > 0 && is_smooth) text += " The rim was smoothed, too.";
     if (report.steps > 0) {
-        text += "\nThe noise along the normals was about " + digits(report.noise, 3) + ".";
+        if (report.noise > 0)
+            text += "\nThe noise along the normals was about " + digits(report.noise, 3) + ".";
         if (report.outliers > 0) {
             text += "\n" + vertices(report.outliers) +
                     " had so much more than others that they hardly counted.";
         }
         if (report.crease_share > 0) {
-            text += "\nCreases were kept. They cross " + digits(100 * report.crease_share, 3) +
-                    " % of the area.";
+            text += "\nCreases cross " + digits(100 * report.crease_share, 3) + " % of the area.";
         }
         if (report.detail_size > 0) {
             text += std::string(report.crease_share > 0 ? "\nElsewhere, detail" : "\nDetail") +

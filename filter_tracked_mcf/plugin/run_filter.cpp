@@ -84,7 +84,6 @@ double error_estimate(Method method, const StepReport& step) {
 
 double default_detail_size_or_zero(const TriangleMesh& mesh, const Selection& selection) {
     try {
-        validate(mesh);
         return default_detail_size(mesh, selection);
     } catch (const InvalidMesh&) {
         return 0;

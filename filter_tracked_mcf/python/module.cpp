@@ -229,7 +229,6 @@ nb::tuple filtered(nb::handle vertices, nb::handle faces, const nb::object& on_s
 
 double default_detail_size_of(nb::handle vertices, nb::handle faces, const nb::kwargs& given) {
     const TriangleMesh mesh = mesh_of(vertices, faces);
-    validate(mesh);
     return default_detail_size(mesh, inputs_of<FlowParameters>(given, mesh).selection);
 }
 

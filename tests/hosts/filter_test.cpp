@@ -217,7 +217,7 @@ TEST(Summary, OfNoiseHasAFactInEachLine) {
         "Removed noise from 100 vertices in 0.12 s.\n"
         "The noise along the normals was about 0.0123.\n"
         "3 vertices had so much more than others that they hardly counted.\n"
-        "Creases were kept. They cross 5.67 % of the area.\n"
+        "Creases cross 5.67 % of the area.\n"
         "Elsewhere, detail smaller than 0.25 was removed.\n"
         "Vertices moved by up to 0.1, RMS 0.02.\nArea: unchanged. Volume: unchanged.\n"
         "7 vertices moved as far as the largest movement allows.\n"
@@ -241,8 +241,10 @@ TEST(NoiseWarnings, SayWhyNothingWasRemovedAndWhatToDo) {
     report.stop = NoiseStop::TooFewVertices;
     EXPECT_THAT(warning(report), HasSubstr("Nothing has moved: fewer than 100 vertices"));
     report.stop = NoiseStop::TooManyCreases;
-    report.crease_share = 0.625;
-    EXPECT_THAT(warning(report), HasSubstr("creases cross 62 % of the area"));
+    report.crease_share = 0.998;
+    report.median_turn = 7;
+    EXPECT_THAT(warning(report), HasSubstr("creases cross 100 % of the area"));
+    EXPECT_THAT(warning(report), HasSubstr("Give a crease angle of more than 7°"));
     report.stop = NoiseStop::NoNoise;
     EXPECT_THAT(warning(report), HasSubstr("give the size of the noise: half the width of lumps"));
     report.lump_width = 2;

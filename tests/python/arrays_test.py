@@ -439,6 +439,14 @@ class Meshes(unittest.TestCase):
         with self.assertRaisesRegex(InvalidMesh, "The mesh has quad; give triangles only"):
             tracked_mcf.smooth(mesh)
 
+    def test_pyvista_grid(self):
+        mesh = Stand(points=VERTICES, cells_dict={5: FACES, 3: FACES[:, :2]}, celltypes=[5, 3], point_data={}, cell_data={})
+        self.assertEqual(self.moved(mesh).points.tobytes(), smooth()[0].tobytes())
+        for kind, name in (9, "quad"), (12, "cells of type 12"):
+            mesh.cells_dict = {5: FACES, kind: FACES}
+            with self.assertRaisesRegex(InvalidMesh, f"The mesh has {name}; give triangles only"):
+                tracked_mcf.smooth(mesh)
+
     def test_pyvista(self):
         padded = numpy.insert(FACES, 0, 3, axis=1).ravel()
         mesh = Stand(points=VERTICES, faces=padded, is_all_triangles=True, point_data={"Normals": VERTICES, "kept": 1},

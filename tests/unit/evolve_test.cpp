@@ -104,6 +104,14 @@ TEST(Evolve, ReportsHowTheSurfaceChanged) {
     EXPECT_EQ(flipped.volume_before, 0);
     mesh.triangles.erase(mesh.triangles.begin());
     EXPECT_EQ(evolve(mesh, parameters(5, 1e-3, 1)).volume_before, 0) << "the surface is open";
+    mesh = shapes::box(4, {1, 1, 1});
+    const TriangleMesh wall =
+        shapes::transformed(shapes::square(4), Eigen::Affine3d(Eigen::Translation3d(0, 0, 0.5)));
+    mesh = shapes::merged(mesh, wall);
+    const FlowReport walled = evolve(mesh, parameters(5, 1e-4, 1));
+    EXPECT_EQ(walled.boundary_edges, 0);
+    EXPECT_TRUE(walled.oriented_consistently);
+    EXPECT_EQ(walled.volume_before, 0) << "a wall inside has the volume on both sides";
 }
 
 TEST(Evolve, ReportsOfASoupWhatItReportsOfTheMesh) {

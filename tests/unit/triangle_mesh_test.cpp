@@ -44,5 +44,11 @@ TEST(Validate, IgnoresVerticesThatNoTriangleUses) {
     EXPECT_NO_THROW(validate(mesh));
 }
 
+TEST(CheckSize, RefusesMoreThan32BitsCount) {
+    EXPECT_NO_THROW(check_size(2147483647, 1431655765));
+    EXPECT_THROW(check_size(2147483648, 1), InvalidMesh);
+    EXPECT_THROW(check_size(3, 1431655766), InvalidMesh);
+}
+
 }  // namespace
 }  // namespace tracked_mcf

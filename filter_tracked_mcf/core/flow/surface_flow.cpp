@@ -5,7 +5,8 @@ namespace tracked_mcf {
 
 SurfaceFlow::SurfaceFlow(const Plan& plan)
     : selection_(plan.domain.selection()),
-      one_copies_(one_copy_of_each_vertex(plan.domain.topology())) {
+      one_copies_(one_copy_of_each_vertex(plan.domain.topology())),
+      encloses_volume_(plan.domain.encloses_volume()) {
     const Domain& domain = plan.domain;
     const std::vector<std::uint8_t>& constrained = domain.constrained_vertices();
     for (std::size_t i = 0; i < one_copies_.size(); ++i) {

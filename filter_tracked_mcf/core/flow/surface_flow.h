@@ -46,6 +46,8 @@ public:
     const FlowReport& report() const { return report_; }
     /// Returns which triangles of the mesh flow.
     const Selection& selection() const { return selection_; }
+    /// Returns Domain::encloses_volume().
+    bool encloses_volume() const { return encloses_volume_; }
     /// Returns flags of one copy of each vertex of the surface.
     const std::vector<std::uint8_t>& one_copies() const { return one_copies_; }
 
@@ -60,6 +62,7 @@ private:
 
     Selection selection_;
     std::vector<std::uint8_t> one_copies_;
+    bool encloses_volume_;
 };
 
 }  // namespace tracked_mcf

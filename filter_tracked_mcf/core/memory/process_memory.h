@@ -8,7 +8,7 @@ namespace tracked_mcf {
 
 /// Returns how many bytes this process can still allocate: the least of the machine's free memory
 /// with its swap space and of what other limits leave. On Unix, these are the limits of the control
-/// groups (cgroup v2) and of the process; on Windows, the address space. At least 1, or 0 if the
+/// groups (cgroups) and of the process; on Windows, the address space. At least 1, or 0 if the
 /// system does not report it.
 std::int64_t available_memory_bytes();
 
@@ -26,8 +26,9 @@ std::int64_t peak_memory_bytes();
 /// Returns a number such as "3.7 GB", "37 GB" or "370 MB".
 std::string bytes_in_words(double bytes);
 
-/// Throws NotEnoughMemory if `task` ("Removing noise") needs these bytes and fewer are free. The
-/// message ends with `advice`.
+/// Throws NotEnoughMemory if `task` ("Removing noise") needs these bytes and fewer are free: as
+/// many as the environment variable TRACKED_MCF_FREE_MEMORY says, or else available_memory_bytes().
+/// The message ends with `advice`. Throws InvalidParameter if the variable is no number.
 void check_free_memory(double bytes, const std::string& task, const std::string& advice);
 
 }  // namespace tracked_mcf

@@ -16,19 +16,6 @@ namespace {
 
 constexpr std::int64_t kUnlimited = std::numeric_limits<std::int64_t>::max();
 
-/// Returns the number that follows the word `name` in a file, or the file's first number if `name`
-/// is empty. Returns nothing if a word such as "max" stands in its place.
-std::optional<std::int64_t> number_in(const std::string& file, const std::string& name = "") {
-    std::ifstream stream(file);
-    std::string word;
-    while (word != name) {
-        if (!(stream >> word)) return {};
-    }
-    std::int64_t number = 0;
-    if (stream >> number) return number;
-    return {};
-}
-
 std::int64_t free_in_machine(const std::string& root) {
     const std::string file = root + "/proc/meminfo";
     const auto available = number_in(file, "MemAvailable:");
@@ -37,18 +24,29 @@ std::int64_t free_in_machine(const std::string& root) {
     return std::int64_t{1024} * (*available + number_in(file, "SwapFree:").value_or(0));
 }
 
-/// Returns what the limit of one control group leaves.
+/// Returns what the limit of one control group leaves. Pages of files, which the kernel takes back
+/// when it needs them, count as free.
 std::int64_t free_in_folder(const std::string& folder) {
-    const auto limit = number_in(folder + "/memory.max");
-    const auto use = number_in(folder + "/memory.current");
+    const auto one_of = [&](const char* second_version, const char* first_version) {
+        const auto number = number_in(folder + second_version);
+        return number ? number : number_in(folder + first_version);
+    };
+    const auto limit = one_of("/memory.max", "/memory.limit_in_bytes");
+    const auto use = one_of("/memory.current", "/memory.usage_in_bytes");
     if (!limit || !use) return kUnlimited;
-    const auto reclaimable = number_in(folder + "/memory.stat", "inactive_file");
-    return *limit - std::max<std::int64_t>(0, *use - reclaimable.value_or(0));
+    std::int64_t reclaimable = 0;
+    for (const char* const kind : {"inactive_file", "active_file", "slab_reclaimable"}) {
+        const std::string file = folder + "/memory.stat";
+        // In the first version, these are the numbers with those of groups inside.
+        const auto of_all = number_in(file, std::string("total_") + kind);
+        reclaimable += of_all.value_or(number_in(file, kind).value_or(0));
+    }
+    return *limit - std::max<std::int64_t>(0, *use - reclaimable);
 }
 
 std::int64_t free_in_groups(const std::string& root) {
     std::int64_t least = kUnlimited;
-    for (const std::string& folder : control_group_folders(root)) {
+    for (const std::string& folder : control_group_folders(root, "memory")) {
         least = std::min(least, free_in_folder(folder));
     }
     return least;

@@ -58,6 +58,10 @@ public:
     /// Returns the number of sides of the surface's triangles on the boundary of the mesh.
     std::int64_t boundary_edge_count() const { return boundary_edge_count_; }
     bool has_constraints() const;
+    /// Returns whether all of the mesh flows, and is closed, with a well-defined volume inside.
+    bool encloses_volume() const {
+        return selection_.empty() && boundary_edge_count_ == 0 && topology_.bounds_volume();
+    }
 
 private:
     // Steps of the constructor, in order.

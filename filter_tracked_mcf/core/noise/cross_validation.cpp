@@ -22,8 +22,10 @@ constexpr std::array<double, 5> kNormalLengths = {0, 0.65, 1.3, 2.6, 3.9};
 constexpr double kDetailOfNormalLengths = 9;
 constexpr std::array<double, 7> kStepSizes = {0.04, 0.075, 0.15, 0.3, 0.6, 1.2, 2.4};
 constexpr int kMostSteps = 4;
-/// Steps if the user gives the detail size.
+/// Steps if the user gives the detail size, and the largest one: beyond it, single precision loses
+/// the mass beside the square of the stiffness.
 constexpr int kStepsToDetailSize = 2;
+constexpr double kLargestDetailSize = 250;
 /// Their widths are relative to the least crease.
 constexpr std::array<Sharpening, 3> kSharpenings = {{{0.23, 3}, {0.46, 5}, {0.46, 15}}};
 
@@ -108,14 +110,14 @@ public:
         : sample_(sample),
           wishes_(wishes),
           width_(wishes.width),
+          detail_size_(std::min(wishes.detail_size, kLargestDetailSize)),
           signs_(sample.signs),
           box_(confinement(sample.surface.positions)),
           smoothing_(sample.surface),
           unit_length_(wishes.crease > 0
-                           ? std::max(1.0, wishes.detail_size / kDetailOfNormalLengths) /
-                                 wishes.crease
+                           ? std::max(1.0, detail_size_ / kDetailOfNormalLengths) / wishes.crease
                            : 0),
-          noise_(wishes.noise) {
+          noise_(wishes.noise > 0 ? wishes.noise : wishes.measured_noise) {
         count_ = std::count(sample.counts.begin(), sample.counts.end(), 1);
         widen_signs();
         perturb(kTrialPerturbation * width_);
@@ -148,7 +150,8 @@ public:
             }
         }
         choice.treatment = best_.treatment;
-        choice.noise = noise_of(best_.effect);
+        const bool is_known = wishes_.noise > 0 || wishes_.measured_noise > 0;
+        choice.noise = is_known ? noise_ : noise_of(best_.effect);
         choice.kind = kind_of_noise(sample_.surface.stars, heights_of(best_.twins), sample_.counts);
         if (may_be_none && choice.kind == NoiseKind::Even &&
             best_.effect.divergence < kMostDivergence) {
@@ -162,6 +165,7 @@ public:
             try_steps(settings_for(wishes_.crease > 0 ? kNormalLengthOfWidth : 0, step_size),
                       kMostStepsOfWidth);
         }
+        if (best_.treatment.steps == 0) return {};
         std::vector<float> taken(signs_.size()), of_signs(signs_.size());
         parallel_for_rows(sample_.surface.stars.count(), [&](std::int32_t vertex) {
             taken[vertex] = static_cast<float>(height(best_.twins, vertex));
@@ -273,7 +277,7 @@ private:
     }
 
     void measure_noise() {
-        if (wishes_.noise > 0) return;
+        if (wishes_.noise > 0 || wishes_.measured_noise > 0) return;
         Twins twins = untreated_;
         step(settings_for(kTrialNormalLength, kTrialStepSize), twins);
         noise_ = noise_of(effect_of(twins));
@@ -283,9 +287,15 @@ private:
         return normals_[vertex].head<3>().cast<double>();
     }
 
-    void step(const StepSettings& settings, Twins& twins) {
-        smoothing_.step(settings, box_, twins.plain);
-        smoothing_.step(settings, box_, twins.perturbed);
+    /// Makes a step of both twins. Returns false and makes none if it would take a vertex away.
+    bool step(const StepSettings& settings, Twins& twins) {
+        Twins moved = twins;
+        if (!smoothing_.step(settings, box_, moved.plain) ||
+            !smoothing_.step(settings, box_, moved.perturbed)) {
+            return false;
+        }
+        twins = std::move(moved);
+        return true;
     }
 
     Effect effect_of(const Twins& twins) const {
@@ -355,7 +365,7 @@ private:
         Treatment treatment;
         treatment.settings = settings;
         for (double last = std::numeric_limits<double>::infinity(); treatment.steps < most;) {
-            step(settings, twins);
+            if (!step(settings, twins)) return;
             ++treatment.steps;
             const double score = keep(attempt_of(treatment, twins));
             if (!(score < last)) return;
@@ -365,14 +375,17 @@ private:
 
     /// Tries as many steps as reach the detail size that the user gives.
     void try_detail_size(double normal_length) {
-        const double wave = wishes_.detail_size / kTwoPi;
+        const double wave = detail_size_ / kTwoPi;
         Treatment treatment;
         treatment.settings =
             settings_for(normal_length, wave * wave * std::sqrt(halved_waves(kStepsToDetailSize)));
-        treatment.steps = kStepsToDetailSize;
         Twins twins = untreated_;
-        for (int i = 0; i < treatment.steps; ++i) step(treatment.settings, twins);
-        keep(attempt_of(treatment, twins));
+        for (int i = 0; i < kStepsToDetailSize; ++i) {
+            if (!make_step(treatment.settings, [&] { return step(treatment.settings, twins); }))
+                break;
+            ++treatment.steps;
+        }
+        if (treatment.steps > 0) keep(attempt_of(treatment, twins));
     }
 
     /// Walks over the grid of treatments, to a better neighbour each time.
@@ -420,7 +433,8 @@ private:
 
     const Sample& sample_;
     const NoiseWishes wishes_;
-    const double width_;        ///< of the noise
+    const double width_;  ///< of the noise
+    const double detail_size_;
     std::vector<float> signs_;  ///< per vertex; with a width, averaged over it
     const Eigen::AlignedBox3d box_;
     Smoothing smoothing_;

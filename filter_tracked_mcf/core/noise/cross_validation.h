@@ -11,13 +11,14 @@ namespace tracked_mcf {
 
 /// What the user asks for. Lengths are in edges.
 struct NoiseWishes {
-    double crease = 0;        ///< difference of unit normals across the least crease; 0: no creases
-    double noise = 0;         ///< standard deviation; 0: unknown
-    double detail_size = 0;   ///< see NoiseParameters::detail_size; 0: what the noise needs
-    double width = 1;         ///< of the noise, at least 1
-    bool is_certain = false;  ///< whether noise is removed even if it may be detail
-    bool is_doubtful = false;  ///< whether what may be detail passed for detail before
-    bool is_quick = false;     ///< whether Choice::others are few and share the treatment's steps
+    double crease = 0;  ///< difference of unit normals across the least crease; 0: no creases
+    double noise = 0;   ///< standard deviation; 0: unknown
+    double measured_noise = 0;  ///< what a sample has shown of it; 0: not yet measured
+    double detail_size = 0;     ///< see NoiseParameters::detail_size; 0: what the noise needs
+    double width = 1;           ///< of the noise, at least 1
+    bool is_certain = false;    ///< whether noise is removed even if it may be detail
+    bool is_doubtful = false;   ///< whether what may be detail passed for detail before
+    bool is_quick = false;      ///< whether Choice::others are few and share the treatment's steps
 };
 
 /// How to remove the noise of a surface, as a sample shows.

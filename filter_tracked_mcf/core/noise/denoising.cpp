@@ -46,22 +46,58 @@ constexpr int kRounds = 3;
 /// The size of normals' smoothing along which residuals are measured.
 constexpr double kStepOfNormals = 2;
 
-/// Returns the share of the area in triangles whose vertices' normals differ by a crease.
-double crease_share(const Stars& stars, const Positions& positions, const Vectors& normals,
-                    double crease) {
-    const auto least = static_cast<float>(crease * crease);
-    double all = 0, sharp = 0;
-    for (const Triangle& t : stars.triangles) {
-        const Eigen::Vector4f &a = normals[t[0]], &b = normals[t[1]], &c = normals[t[2]];
-        const auto [p, q, r] = corners_of(positions, t);
-        const double area = twice_vector_area(p, q, r).norm();
-        const float turn =
-            std::max({(a - b).squaredNorm(), (b - c).squaredNorm(), (c - a).squaredNorm()});
-        all += area;
-        if (turn >= least) sharp += area;
-    }
-    return all > 0 ? sharp / all : 0;
+const double kRadian = std::acos(-1.0) / 180;
+
+/// Returns the angle of a difference of unit normals, in degrees: the inverse of crease_of().
+double angle_of(double chord) {
+    return 2 * std::asin(std::min(chord / 2, 1.0)) / kRadian;
 }
+
+/// How much normals differ across the triangles of a surface.
+class Turns {
+public:
+    Turns(const Stars& stars, const Positions& positions, const Vectors& normals) {
+        turns_.reserve(stars.triangles.size());
+        for (const Triangle& t : stars.triangles) {
+            const Eigen::Vector4f &a = normals[t[0]], &b = normals[t[1]], &c = normals[t[2]];
+            const auto [p, q, r] = corners_of(positions, t);
+            const float square =
+                std::max({(a - b).squaredNorm(), (b - c).squaredNorm(), (c - a).squaredNorm()});
+            turns_.push_back({std::sqrt(square), twice_vector_area(p, q, r).norm()});
+            area_ += turns_.back().area;
+        }
+    }
+
+    /// Returns the share of the area in triangles that a crease crosses.
+    double share_of(double crease) const {
+        double sharp = 0;
+        for (const Turn& turn : turns_) {
+            if (turn.chord >= crease) sharp += turn.area;
+        }
+        return area_ > 0 ? sharp / area_ : 0;
+    }
+
+    /// Returns the angle by which the normals of half the area differ, degrees.
+    double median_angle() {
+        std::sort(turns_.begin(), turns_.end(),
+                  [](const Turn& a, const Turn& b) { return a.chord < b.chord; });
+        double sum = 0;
+        for (const Turn& turn : turns_) {
+            sum += turn.area;
+            if (sum >= area_ / 2) return angle_of(turn.chord);
+        }
+        return 0;
+    }
+
+private:
+    struct Turn {
+        double chord;  ///< largest difference of the unit normals at two corners
+        double area;
+    };
+
+    std::vector<Turn> turns_;
+    double area_ = 0;
+};
 
 /// Returns why noise cannot be measured on a sample, or None.
 NoiseStop obstacle(const Sample& sample) {
@@ -123,6 +159,7 @@ Clusters clusters_of_width(const NoisySurface& surface, double width) {
 Choice treatment_of_width(const Clusters& clusters, NoiseWishes wishes) {
     const double edge = clusters.edge;
     wishes.noise /= edge;
+    wishes.measured_noise /= edge;
     wishes.detail_size /= edge;
     wishes.width = std::max(1.0, wishes.width / edge);
     Choice choice = best_treatment(clusters.sample, wishes);
@@ -140,6 +177,8 @@ Choice treatment_of_width(const Clusters& clusters, NoiseWishes wishes) {
 /// Returns the width of the noise, at least an edge: the one that is wished for, or that of stairs.
 double width_of_noise(const NoisySurface& surface, const Sample& sample, double wish,
                       NoiseReport& report) {
+    // Nothing on the surface is wider than all of it.
+    wish = std::min(wish, std::sqrt(static_cast<double>(surface.stars.count())));
     // All of a large surface takes long.
     if (wish > 0 || stairs_of(sample.surface).height == 0) return std::max(1.0, wish);
     const Stairs stairs = stairs_of(surface);
@@ -166,13 +205,11 @@ public:
         wishes_.is_certain = wishes_.width > 1 || report.stairs > 0;
         report.stairs *= edge;
         report.noise_size = edge * wishes_.width;
-        report.noise = parameters.noise;
     }
 
     Positions result() {
         const Choice choice = first_choice();
         if (report_.stop != NoiseStop::None) return surface_.positions;
-        if (wishes_.noise == 0) report_.noise = edge_ * choice.noise;
         NoiseKind kind = is_measured() ? choice.kind : NoiseKind::Even;
         sideways_ = along_normals_ ? 0 : kSideways * choice.noise;
         Perturbation perturbation;
@@ -198,10 +235,11 @@ public:
         if (kind == NoiseKind::Varying) treat_by_local_noise(choice.treatment.steps > 0);
         if (kind == NoiseKind::Outliers) treat_without_outliers();
         if (report_.stop != NoiseStop::None) return surface_.positions;
-        report_.steps = treatments_[0].steps;
-        report_.sharpenings = treatments_[0].sharpening.iterations;
+        const Treatment& made = treated_.made[0];
+        report_.steps = made.steps;
+        report_.sharpenings = made.sharpening.iterations;
         report_.iterations = treated_.iterations;
-        report_.detail_size = edge_ * detail_size_of(treatments_[0]);
+        report_.detail_size = edge_ * detail_size_of(made);
         return std::move(treated_.positions[0]);
     }
 
@@ -211,25 +249,47 @@ private:
         return wishes_.noise == 0 && wishes_.detail_size == 0 && !wishes_.is_certain;
     }
 
-    /// Returns the treatment that the sample shows, or sets why there is none.
+    /// Returns the treatment that the sample shows, or sets why there is none. Reports the noise,
+    /// as measured with the usual creases and nothing else that the user may ask for.
     Choice first_choice() {
         enter_phase(0, "Measuring the noise");
         const bool is_wide = wishes_.width > 1;
         Clusters clusters{{{{{}, 0}, {}, {}}, {}, {}}, 1};
         if (is_wide) clusters = clusters_of_width(surface_, wishes_.width);
-        report_.stop = NoiseStop::None;
-        if (is_wide) {
-            report_.stop = obstacle(clusters.sample);
-        } else if (wishes_.noise == 0 && wishes_.detail_size == 0) {
-            report_.stop = obstacle(sample_);
-        }
+        const NoiseStop hindrance = obstacle(is_wide ? clusters.sample : sample_);
+        const bool is_told = wishes_.noise > 0 || wishes_.detail_size > 0;
+        report_.stop = is_told && !is_wide ? NoiseStop::None : hindrance;
         if (report_.stop != NoiseStop::None) return {};
-        return is_wide ? treatment_of_width(clusters, wishes_) : best_treatment(sample_, wishes_);
+        const auto choice_for = [&](const NoiseWishes& wishes) {
+            return is_wide ? treatment_of_width(clusters, wishes) : best_treatment(sample_, wishes);
+        };
+        const double usual = crease_of(NoiseParameters().crease_angle);
+        if (!is_told && wishes_.crease == usual) {
+            usual_ = choice_for(wishes_);
+            report_.noise = edge_ * usual_.noise;
+            return usual_;
+        }
+        if (hindrance == NoiseStop::None) {
+            NoiseWishes wishes = wishes_;
+            wishes.crease = usual;
+            wishes.noise = wishes.detail_size = 0;
+            usual_ = choice_for(wishes);
+            wishes_.measured_noise = usual_.noise;
+            report_.noise = edge_ * usual_.noise;
+        }
+        return choice_for(wishes_);
     }
 
-    /// Returns whether there is a treatment. If not, it is detail that the surface has.
+    /// Returns whether there is a treatment. If not, it is detail that the surface has, or the
+    /// creases that the user asks for are everywhere.
     bool has_treatment(const Choice& choice) {
         if (choice.treatment.steps > 0) return true;
+        if (wishes_.crease > 0 && usual_.treatment.steps > 0) {
+            const Vectors normals =
+                Smoothing(surface_).smooth_normals(surface_.positions, usual_.treatment.settings);
+            if (has_too_many_creases(Turns(surface_.stars, surface_.positions, normals)))
+                return false;
+        }
         report_.stop = NoiseStop::NoNoise;
         report_unevenness(surface_, wishes_, edge_, report_);
         return false;
@@ -244,15 +304,26 @@ private:
         treated_ = treat(surface_, treatments_, surface_.positions, perturbation);
         treated_.iterations += iterations;
         if (wishes_.crease == 0) return;
-        report_.crease_share =
-            crease_share(surface_.stars, treated_.positions[0], treated_.normals, wishes_.crease);
-        if (!is_measured() || report_.crease_share <= kMostCreases) return;
+        Turns turns(surface_.stars, treated_.positions[0], treated_.normals);
+        if (is_measured()) {
+            has_too_many_creases(std::move(turns));
+        } else {
+            report_.crease_share = turns.share_of(wishes_.crease);
+        }
+    }
+
+    /// Returns whether creases are so many that they are noise, and reports them.
+    bool has_too_many_creases(Turns turns) {
+        report_.crease_share = turns.share_of(wishes_.crease);
+        if (report_.crease_share <= kMostCreases) return false;
         report_.stop = NoiseStop::TooManyCreases;
-        report_.noise = 0;
+        report_.median_turn = turns.median_angle();
+        return true;
     }
 
     /// Treats the surface with fidelities, as suits a sample that has them, too.
-    void treat_with_fidelities(const std::vector<float>& fidelities, const NoiseWishes& wishes) {
+    void treat_with_fidelities(const std::vector<float>& fidelities, NoiseWishes wishes) {
+        wishes.measured_noise = 0;  // with fidelities it is another
         const Choice choice = best_treatment(sample_of(surface_, kSample, fidelities), wishes);
         if (!has_treatment(choice)) return;
         const std::vector<float> strengths = surface_.fidelity;
@@ -299,6 +370,7 @@ private:
     NoiseReport& report_;
     const Sample sample_;
     NoiseWishes wishes_;
+    Choice usual_;  ///< with the usual creases, and without wishes; empty if it cannot be measured
     double sideways_ = 0;
     std::vector<Treatment> treatments_;  ///< of treated_
     Treated treated_;
@@ -307,8 +379,7 @@ private:
 }  // namespace
 
 double crease_of(double angle) {
-    const double radian = std::acos(-1.0) / 180;
-    return 2 * std::sin(angle * radian / 2);
+    return 2 * std::sin(angle * kRadian / 2);
 }
 
 Positions denoised(NoisySurface& surface, double edge, const NoiseParameters& parameters,

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "filter_tracked_mcf/core/memory/process_memory.h"
+#include "filter_tracked_mcf/core/mesh/change.h"
 #include "filter_tracked_mcf/core/mesh/measures.h"
 #include "filter_tracked_mcf/core/noise/denoising.h"
 #include "filter_tracked_mcf/core/noise/losses.h"
@@ -106,28 +107,6 @@ void report_losses(const SurfaceOfMesh& from, const Positions& moved, NoiseRepor
     report.lost_volume = losses.volume;
 }
 
-void measure_change(const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& after,
-                    const SurfaceOfMesh& from, const Selection& selection, NoiseReport& report) {
-    const Positions moved = movements(mesh, after, from);
-    double squares = 0;
-    for (const Eigen::Vector3d& movement : moved) {
-        const double distance = movement.norm();
-        report.largest_displacement = std::max(report.largest_displacement, distance);
-        squares += distance * distance;
-    }
-    report.rms_displacement = std::sqrt(squares / static_cast<double>(report.vertices));
-    if (selection.empty() && report.boundary_edges == 0 && report.oriented_consistently)
-        report.volume_before = enclosed_volume(mesh);
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-        if (!selection.empty() && selection[i] == 0) continue;
-        report.volume_change += swept_volume(corners_of(mesh.positions, mesh.triangles[i]),
-                                             corners_of(after, mesh.triangles[i]));
-    }
-    if (report.largest_displacement > 0) report_losses(from, moved, report);
-    report.area_before = surface_area(mesh, selection);
-    report.area_after = surface_area({after, mesh.triangles}, selection);
-}
-
 /// Returns the surface of the mesh's triangles, and reports on it.
 SurfaceOfMesh read_surface(const Domain& domain, NoiseReport& report) {
     bounding_box(domain.surface());  // throws if the size is none to compute with
@@ -168,6 +147,8 @@ NoiseReport remove_noise(TriangleMesh& mesh, const Inputs& inputs,
                                      ? BoundaryCondition::Locked
                                      : BoundaryCondition::Free);
     const Selection moving = domain->selection();
+    const std::vector<std::uint8_t> one_copies = one_copy_of_each_vertex(domain->topology());
+    const bool encloses_volume = domain->encloses_volume();
     SurfaceOfMesh from = read_surface(*domain, report);
     domain.reset();
     report.stop = NoiseStop::NothingMoves;
@@ -177,7 +158,9 @@ NoiseReport remove_noise(TriangleMesh& mesh, const Inputs& inputs,
     enter_phase(0.95, "Moving the vertices");
     std::vector<Eigen::Vector3d> after =
         moved_positions(mesh, from, to, parameters.largest_movement, report);
-    measure_change(mesh, after, from, moving, report);
+    static_cast<ChangeReport&>(report) =
+        change_of(mesh, after, one_copies, moving, encloses_volume);
+    if (report.largest_displacement > 0) report_losses(from, movements(mesh, after, from), report);
     if (parameters.quality == Quality::Displacement)
         report.quality = displacements_along_normals(mesh, after, moving);
     report.seconds = watch.seconds();

@@ -9,9 +9,6 @@ namespace tracked_mcf {
 
 namespace {
 
-/// A step that would take a vertex away is made with a quarter of its size, at most so many times.
-constexpr int kMostShorter = 8;
-
 /// The share of the time that steps take.
 constexpr double kShareOfSteps = 0.8;
 
@@ -30,15 +27,20 @@ void make_steps(const NoisySurface& surface, const std::vector<Treatment>& treat
     const Eigen::AlignedBox3d box = confinement(surface.positions);
     StepSettings settings = treatments[first].settings;
     Positions positions = start;
+    int made = 0;
     for (int step = 1; step <= steps; ++step) {
         enter_phase((step - 1.0) / steps,
                     "Step " + std::to_string(step) + " of " + std::to_string(steps));
-        for (int tries = 0; tries <= kMostShorter; ++tries, settings.step_size /= 4) {
-            if (smoothing.step(settings, box, positions, perturbation.heights)) break;
+        if (make_step(settings, [&] {
+                return smoothing.step(settings, box, positions, perturbation.heights);
+            })) {
+            ++made;
         }
         for (std::size_t i = 0; i < treatments.size(); ++i) {
             if (treatments[i].steps != step || !shares(treatments[i])) continue;
             treated.positions[i] = positions;
+            treated.made[i].settings.step_size = settings.step_size;
+            treated.made[i].steps = made;
             if (!treated.twins.empty()) treated.twins[i] = perturbed(positions, perturbation);
             if (i == 0) treated.normals = smoothing.normals();
         }
@@ -77,7 +79,7 @@ Positions perturbed(const Positions& positions, const Perturbation& perturbation
 Treated treat(const NoisySurface& surface, const std::vector<Treatment>& treatments,
               const Positions& start, const Perturbation& perturbation) {
     const auto count = static_cast<double>(treatments.size());
-    Treated treated{std::vector<Positions>(treatments.size(), start), {}, {}, 0};
+    Treated treated{std::vector<Positions>(treatments.size(), start), treatments, {}, {}, 0};
     if (!perturbation.heights.empty()) {
         treated.twins.assign(treatments.size(), perturbed(start, perturbation));
     }

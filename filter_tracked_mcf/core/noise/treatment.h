@@ -32,15 +32,31 @@ struct Perturbation {
     double scale = 0;  ///< the perturbations are this times the heights
 };
 
+/// Calls `step`, which uses the settings, until it returns true; each time after the first with a
+/// quarter of the step size. Returns false if it never does. Then the settings are as before.
+template <class Step>
+bool make_step(StepSettings& settings, const Step& step) {
+    constexpr int most_shorter = 8;
+    const double asked = settings.step_size;
+    for (int i = 0; i <= most_shorter; ++i, settings.step_size /= 4) {
+        if (step()) return true;
+    }
+    settings.step_size = asked;
+    return false;
+}
+
 /// Returns positions with a perturbation.
 Positions perturbed(const Positions& positions, const Perturbation& perturbation);
 
 /// What treatments make of a surface.
 struct Treated {
     std::vector<Positions> positions;  ///< per treatment
-    std::vector<Positions> twins;      ///< the same with a perturbation; or empty
-    Vectors normals;                   ///< of the last step of the first treatment
-    int iterations = 0;                ///< of conjugate gradients
+    /// What was made of each treatment: fewer steps, or shorter ones, where they would have taken a
+    /// vertex far away.
+    std::vector<Treatment> made;
+    std::vector<Positions> twins;  ///< the same with a perturbation; or empty
+    Vectors normals;               ///< of the last step of the first treatment
+    int iterations = 0;            ///< of conjugate gradients
 };
 
 /// Treats a surface whose vertices are at `start`. Treatments that share their steps are made

@@ -30,11 +30,15 @@ int schedulable_processors() {
 
 int processor_quota(const std::string& root) {
     int least = std::numeric_limits<int>::max();
-    for (const std::string& folder : control_group_folders(root)) {
-        // Microseconds of processor time in each period, or the word "max".
-        std::ifstream file(folder + "/cpu.max");
+    for (const std::string& folder : control_group_folders(root, "cpu")) {
+        // Microseconds of processor time in each period, or the word "max"; in the first version
+        // two files, and -1.
         double time = 0, period = 0;
-        if (!(file >> time >> period) || time <= 0 || period <= 0) continue;
+        if (std::ifstream file(folder + "/cpu.max"); !(file >> time >> period)) {
+            time = static_cast<double>(number_in(folder + "/cpu.cfs_quota_us").value_or(0));
+            period = static_cast<double>(number_in(folder + "/cpu.cfs_period_us").value_or(0));
+        }
+        if (time <= 0 || period <= 0) continue;
         least = static_cast<int>(std::min<double>(least, std::ceil(time / period)));
     }
     return least;

@@ -41,7 +41,8 @@ std::vector<double> triangle_densities(const Domain& domain, bool follows_edges,
     std::vector<double> densities;
     densities.reserve(domain.topology().triangles.size());
     for (const auto& [a, b, c] : domain.topology().triangles) {
-        double ratio = limited((domain.strength(a) + domain.strength(b) + domain.strength(c)) / 3);
+        const double strength = (domain.strength(a) + domain.strength(b) + domain.strength(c)) / 3;
+        double ratio = std::max(strength, kLeastStrength);
         if (follows_edges) ratio *= limited((lengths[a] + lengths[b] + lengths[c]) / 3 / mean);
         densities.push_back(1 / (ratio * ratio));
     }

@@ -8,8 +8,12 @@
 namespace tracked_mcf {
 
 /// Edge lengths multiply the detail size at a place by at most this number and at least its
-/// inverse; strengths, by at least its inverse.
+/// inverse.
 inline constexpr double kLargestDetailRatio = 10;
+
+/// A smaller mean strength of a triangle's vertices acts like this one: even here, the surface
+/// moves by a millionth of what it would with strength 1.
+inline constexpr double kLeastStrength = 1e-3;
 
 /// Returns the mass density of each triangle of the domain's surface; nothing if all are 1. In
 /// equation 2, a density ρ acts like a time step δ / ρ, so it is 1 / r² where the detail size is r

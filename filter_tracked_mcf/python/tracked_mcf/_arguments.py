@@ -7,6 +7,9 @@ import sys
 
 import numpy
 
+# An UnstructuredGrid of PyVista numbers its kinds of cells as VTK does.
+_KINDS_OF_VTK = {1: "vertex", 3: "line", 5: "triangle", 9: "quad", 10: "tetra"}
+
 
 def arrays_of(mesh, faces):
     """Returns vertices, faces, and a function that puts moved vertices into a mesh of the same kind.
@@ -16,11 +19,15 @@ def arrays_of(mesh, faces):
     """
     if faces is not None:
         return mesh, faces, lambda moved: moved
-    if hasattr(mesh, "cells_dict"):  # meshio
-        kinds = set(mesh.cells_dict) - {"vertex", "line", "triangle"}
-        if kinds or "triangle" not in mesh.cells_dict:
+    if hasattr(mesh, "cells_dict"):  # meshio, or an UnstructuredGrid of PyVista
+        is_grid = hasattr(mesh, "celltypes")
+        cells = {_KINDS_OF_VTK.get(kind, f"cells of type {kind}") if is_grid else kind: rows
+                 for kind, rows in mesh.cells_dict.items()}
+        kinds = set(cells) - {"vertex", "line", "triangle"}
+        if kinds or "triangle" not in cells:
             raise ValueError(f"The mesh has {', '.join(sorted(kinds)) or 'no triangles'}; give triangles only.")
-        return mesh.points, mesh.cells_dict["triangle"], lambda moved: _with(mesh, "points", moved)
+        return mesh.points, cells["triangle"], lambda moved: (
+            _with_points(mesh, moved) if is_grid else _with(mesh, "points", moved))
     if hasattr(mesh, "is_all_triangles"):  # PyVista
         if not mesh.is_all_triangles:
             raise ValueError("The mesh has faces that are not triangles; give mesh.triangulate().")

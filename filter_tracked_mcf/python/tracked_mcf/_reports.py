@@ -46,6 +46,7 @@ class NoiseReport(Report, _Quality):
     lump_width: float  # where no noise was removed: of what may be noise in lumps or waves
     lump_height: float
     crease_share: float  # share of the area in triangles that a crease crosses
+    median_turn: Optional[float]  # by which half of the area turns in a triangle, degrees; None unless creases are too many
     steps: int
     sharpenings: int  # iterations of the bilateral filter after the steps
     iterations: int  # of conjugate gradients, in all steps

@@ -55,14 +55,16 @@ TEST(Strength, MultipliesTheDetailSize) {
     }
 }
 
-TEST(Strength, GoesDownToATenth) {
+TEST(Strength, GoesDownToAThousandth) {
     FlowParameters p = parameters(5, 1e-3, 1);
     const auto moved = [&](double strength) {
         WeightedMesh mesh = noisy_sphere([&](double) { return strength; });
         return evolve(mesh, p).rms_displacement;
     };
-    EXPECT_EQ(moved(1e-9), moved(0.1));
-    EXPECT_LT(moved(0.1), 0.1 * moved(1));
+    EXPECT_EQ(moved(1e-9), moved(1e-3));
+    for (const double strength : {1.0, 0.1, 0.01}) {
+        EXPECT_LT(moved(0.1 * strength), 0.1 * moved(strength));
+    }
 }
 
 TEST(Strength, ZeroHoldsAndTheSurfaceStaysWhole) {

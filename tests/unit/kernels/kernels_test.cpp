@@ -3,34 +3,22 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <string>
 
 #include "filter_tracked_mcf/core/errors.h"
+#include "filter_tracked_mcf/core/evolve.h"
+#include "tests/support/environment_variable.h"
+#include "tests/support/shapes.h"
 
 namespace tracked_mcf {
 namespace {
 
-/// Restores TRACKED_MCF_INSTRUCTIONS at the end of a test.
 class InstructionSets : public ::testing::Test {
 protected:
-    InstructionSets() {
-        const char* const value = std::getenv(kVariable);
-        if (value != nullptr) before_ = value;
-    }
-    ~InstructionSets() override { set(before_); }
-
-    static void set(const std::string& value) {
-#ifdef _WIN32
-        _putenv_s(kVariable, value.c_str());
-#else
-        setenv(kVariable, value.c_str(), 1);
-#endif
-    }
+    void set(const std::string& value) const { variable_.set(value); }
 
 private:
-    static constexpr const char* kVariable = "TRACKED_MCF_INSTRUCTIONS";
-    std::string before_;
+    const EnvironmentVariable variable_{"TRACKED_MCF_INSTRUCTIONS"};
 };
 
 TEST_F(InstructionSets, TheBestIsChosenByDefault) {
@@ -55,6 +43,16 @@ TEST_F(InstructionSets, UnknownNamesThrow) {
         set(value);
         EXPECT_THROW(choose_instruction_set(), InvalidParameter);
     }
+}
+
+TEST_F(InstructionSets, ABadChoiceIsRefusedBeforeTheWorkBegins) {
+    set("sse9");
+    TriangleMesh mesh = shapes::geodesic_sphere(3);
+    int calls = 0;
+    EXPECT_THROW(
+        evolve(mesh, FlowParameters(), [&](double, std::string_view) { return ++calls > 0; }),
+        InvalidParameter);
+    EXPECT_EQ(calls, 0);
 }
 
 TEST_F(InstructionSets, UnavailableOnesThrow) {

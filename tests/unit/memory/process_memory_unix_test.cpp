@@ -8,6 +8,7 @@
 #include <string>
 
 #include "filter_tracked_mcf/core/errors.h"
+#include "tests/support/environment_variable.h"
 #include "tests/unit/flows.h"
 #include "tests/unit/memory/address_space_limit.h"
 #include "tests/unit/system_files.h"
@@ -37,7 +38,21 @@ TEST(NotEnoughMemory, IsSaidWithBothNumbersAndTheAdvice) {
     } catch (const NotEnoughMemory& error) {
         const std::string message = error.what();
         EXPECT_EQ(message.find("The work would need about 1000000000 GB of memory, but only "), 0U);
-        EXPECT_NE(message.find(" are free. Do less."), std::string::npos) << message;
+        EXPECT_NE(message.find(" are free. Do less. If more are free, set "), std::string::npos)
+            << message;
+    }
+}
+
+TEST(NotEnoughMemory, IsWhatTheEnvironmentSays) {
+    const EnvironmentVariable variable("TRACKED_MCF_FREE_MEMORY");
+    variable.set("1000");
+    EXPECT_THROW(check_free_memory(2000, "The work", "Do less."), NotEnoughMemory);
+    EXPECT_NO_THROW(check_free_memory(900, "The work", "Do less."));
+    variable.set("1e30");
+    EXPECT_NO_THROW(check_free_memory(1e20, "The work", "Do less."));
+    for (const char* const wrong : {"much", "1 GB", "-1", "0", "nan"}) {
+        variable.set(wrong);
+        EXPECT_THROW(check_free_memory(1, "The work", "Do less."), InvalidParameter) << wrong;
     }
 }
 
@@ -66,11 +81,25 @@ TEST_F(AvailableMemoryByFiles, IsAtMostWhatEveryControlGroupAllows) {
     EXPECT_EQ(bytes(), 1024 * 3000);
     write("/sys/fs/cgroup/outer/memory.max", "1000000\n");
     write("/sys/fs/cgroup/outer/memory.current", "300000\n");
-    write("/sys/fs/cgroup/outer/memory.stat", "anon 5\ninactive_file 100000\n");
-    EXPECT_EQ(bytes(), 800000) << "inactive files can be reclaimed";
+    write("/sys/fs/cgroup/outer/memory.stat",
+          "anon 5\ninactive_file 100000\nactive_file 20000\nslab_reclaimable 3000\n");
+    EXPECT_EQ(bytes(), 823000) << "pages of files can be reclaimed";
     write("/sys/fs/cgroup/memory.max", "400000\n");
     write("/sys/fs/cgroup/memory.current", "300000\n");
     EXPECT_EQ(bytes(), 100000);
+}
+
+TEST_F(AvailableMemoryByFiles, KnowsTheFirstVersionOfControlGroups) {
+    write("/proc/self/cgroup", "9:cpu,cpuacct:/x\n4:hugetlb,memory:/outer/inner\n");
+    write("/sys/fs/cgroup/memory/outer/memory.limit_in_bytes", "1000000\n");
+    write("/sys/fs/cgroup/memory/outer/memory.usage_in_bytes", "300000\n");
+    EXPECT_EQ(bytes(), 700000);
+    write("/sys/fs/cgroup/memory/outer/memory.stat",
+          "active_file 1\ntotal_inactive_file 30000\ntotal_active_file 4000\n");
+    EXPECT_EQ(bytes(), 734000);
+    write("/sys/fs/cgroup/memory/memory.limit_in_bytes", "9223372036854771712\n");
+    write("/sys/fs/cgroup/memory/memory.usage_in_bytes", "900000\n");
+    EXPECT_EQ(bytes(), 734000);
 }
 
 TEST_F(AvailableMemoryByFiles, IsThatOfTheMountIfAContainerHidesTheGroup) {

@@ -295,10 +295,50 @@ TEST(RemoveNoise, TakesTheNoiseItIsTold) {
         NoiseParameters parameters;
         parameters.noise = noise * edge;
         const NoiseReport report = report_of(before, parameters);
-        EXPECT_EQ(report.noise, parameters.noise);
+        EXPECT_NEAR(report.noise, 0.2 * edge, 0.01 * edge) << "the noise that it has";
         EXPECT_GT(report.rms_displacement, last);
         last = report.rms_displacement;
     }
+}
+
+TEST(RemoveNoise, ReportsTheNoiseWhateverIsAskedFor) {
+    const TriangleMesh before = with_noise(shapes::geodesic_sphere(20), 0.2);
+    const double edge = mean_edge_length(before);
+    const double noise = report_of(before).noise;
+    EXPECT_NEAR(noise, 0.2 * edge, 0.01 * edge);
+    for (const double angle : {0.0, 0.5, 8.0, 40.0}) {
+        for (const double detail : {0.0, 5.0, 1e200}) {
+            NoiseParameters parameters;
+            parameters.crease_angle = angle;
+            parameters.detail_size = detail * edge;
+            EXPECT_EQ(report_of(before, parameters).noise, noise) << angle << ' ' << detail;
+        }
+    }
+}
+
+TEST(RemoveNoise, SaysThatSmallCreasesCannotBeToldFromNoise) {
+    const TriangleMesh before = with_noise(shapes::geodesic_sphere(20), 0.2);
+    NoiseParameters parameters;
+    parameters.crease_angle = 0.5;
+    const NoiseReport report = report_of(before, parameters);
+    EXPECT_EQ(report.stop, NoiseStop::TooManyCreases);
+    EXPECT_GT(report.crease_share, 0.9);
+    EXPECT_GT(report.median_turn, 1);
+    EXPECT_EQ(report.detail_size, 0);
+    parameters.crease_angle = 1.5 * report.median_turn;
+    EXPECT_EQ(report_of(before, parameters).stop, NoiseStop::None);
+}
+
+TEST(RemoveNoise, ReportsTheDetailThatItRemoved) {
+    const TriangleMesh before = with_noise(shapes::geodesic_sphere(20), 0.2);
+    NoiseParameters parameters;
+    parameters.detail_size = 10 * mean_edge_length(before);
+    EXPECT_NEAR(report_of(before, parameters).detail_size, parameters.detail_size,
+                1e-9 * parameters.detail_size);
+    parameters.detail_size = 1e200;
+    const NoiseReport report = report_of(before, parameters);
+    EXPECT_LT(report.detail_size, 300 * mean_edge_length(before));
+    EXPECT_GT(report.largest_displacement, 0);
 }
 
 TEST(RemoveNoise, ReportsWhatItHasDone) {

@@ -14,6 +14,7 @@
 
 #include "filter_tracked_mcf/core/evolve.h"
 #include "filter_tracked_mcf/core/parallel/progress_meter.h"
+#include "filter_tracked_mcf/core/remove_noise.h"
 #include "tests/support/shapes.h"
 #include "tests/unit/flows.h"
 
@@ -207,6 +208,21 @@ TEST(Progress, OfAFlowInsideACallbackGoesToItsOwnCallback) {
     EXPECT_TRUE(same_bits(flowing, alone));
     EXPECT_GT(outer, 200);
     EXPECT_EQ(inner.fractions.back(), 1);
+}
+
+TEST(Progress, OfAFilterThatAnObserverCallsGoesNowhere) {
+    const TriangleMesh mesh = shapes::bumpy_sphere(5);
+    const FlowParameters p = parameters(3, 1e-3, 1);
+    Calls with, without;
+    TriangleMesh flowing = mesh;
+    evolve(flowing, {}, p, without.progress(), [](int, const auto&) {});
+    flowing = mesh;
+    evolve(flowing, {}, p, with.progress(), [&](int, const auto&) {
+        TriangleMesh other = mesh;
+        remove_noise(other, {}, NoiseParameters());
+        evolved(mesh, p);
+    });
+    EXPECT_EQ(with.phases, without.phases);
 }
 
 TEST(ProgressMeter, ServesItsThreadDuringItsLife) {

@@ -15,6 +15,7 @@
 
 #include "filter_tracked_mcf/core/parallel/parallel.h"
 #include "filter_tracked_mcf/core/parallel/processors.h"
+#include "tests/support/environment_variable.h"
 #include "tests/unit/memory/address_space_limit.h"
 #include "tests/unit/system_files.h"
 
@@ -104,29 +105,14 @@ TEST(ThreadTeam, StaysSmallerIfTheSystemRefusesThreads) {
     EXPECT_EQ(sum_of_squares(64), expected);
 }
 
-/// Sets OMP_NUM_THREADS during its life.
-class OmpNumThreads {
-public:
-    explicit OmpNumThreads(const char* value) {
-        if (const char* before = std::getenv(kName)) before_ = before;
-        setenv(kName, value, 1);
-    }
-    ~OmpNumThreads() { before_.empty() ? unsetenv(kName) : setenv(kName, before_.c_str(), 1); }
-    OmpNumThreads(const OmpNumThreads&) = delete;
-    OmpNumThreads& operator=(const OmpNumThreads&) = delete;
-
-private:
-    static constexpr const char* kName = "OMP_NUM_THREADS";
-    std::string before_;
-};
-
 TEST(ThreadTeam, TakesItsSizeFromOmpNumThreadsElseFromTheProcessors) {
+    const EnvironmentVariable variable("OMP_NUM_THREADS");
     for (const auto& [value, size] : {std::pair{"3", 3},
                                       {"5,2", 5},
                                       {"", processor_count()},
                                       {"0", processor_count()},
                                       {"many", processor_count()}}) {
-        const OmpNumThreads set(value);
+        variable.set(value);
         EXPECT_EQ(ThreadTeam::default_size(), size) << value;
         const ThreadTeam team(0);
         EXPECT_EQ(ThreadTeam::size(), static_cast<std::size_t>(size)) << value;
@@ -148,6 +134,15 @@ TEST_F(ProcessorQuota, IsTheLeastOfTheControlGroupsRoundedUp) {
     EXPECT_EQ(processor_quota(root_), 2);
     write("/sys/fs/cgroup/cpu.max", "10000 100000\n");
     EXPECT_EQ(processor_quota(root_), 1);
+}
+
+TEST_F(ProcessorQuota, KnowsTheFirstVersionOfControlGroups) {
+    write("/proc/self/cgroup", "4:cpu,cpuacct:/a\n3:memory:/b\n");
+    write("/sys/fs/cgroup/cpu/a/cpu.cfs_quota_us", "150000\n");
+    write("/sys/fs/cgroup/cpu/a/cpu.cfs_period_us", "100000\n");
+    EXPECT_EQ(processor_quota(root_), 2);
+    write("/sys/fs/cgroup/cpu/a/cpu.cfs_quota_us", "-1\n");
+    EXPECT_GT(processor_quota(root_), 1'000'000);
 }
 
 TEST_F(ProcessorQuota, IsLargerThanAnyMachineIfThereIsNone) {
