@@ -9,11 +9,11 @@
 #include <tuple>
 #include <utility>
 
+#include "filter_tracked_mcf/core/fair/factorisation.h"
+#include "filter_tracked_mcf/core/fair/patches.h"
 #include "filter_tracked_mcf/core/memory/process_memory.h"
 #include "filter_tracked_mcf/core/mesh/domain.h"
 #include "filter_tracked_mcf/core/mesh/measures.h"
-#include "filter_tracked_mcf/core/noise/factorisation.h"
-#include "filter_tracked_mcf/core/noise/patches.h"
 #include "filter_tracked_mcf/core/parallel/progress_meter.h"
 #include "filter_tracked_mcf/core/parallel/stopwatch.h"
 

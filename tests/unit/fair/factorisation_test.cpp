@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "filter_tracked_mcf/core/noise/factorisation.h"
+#include "filter_tracked_mcf/core/fair/factorisation.h"
 
 #include <gtest/gtest.h>
 
