@@ -43,7 +43,7 @@ constexpr int kPasses = 5;
 constexpr double kSolved = 1e-5;
 /// Most iterations of conjugate gradients. With the factors of the same metric, rounding needs 2 or
 /// 3: the condition number of the equation of curvature is that of L to the third power. With those
-/// of the pass before, 15 take less time than to factorise.
+/// of the pass before, these take less time than new factors of a large patch.
 constexpr int kSolves = 15;
 /// Surroundings are rough if their turn from vertex to vertex, over the radius of the hole, makes
 /// so many times the rise of the patch. With holes cut into scans, this told best where the
@@ -98,9 +98,10 @@ public:
     /// Solves the equation with as much of the continuity as the surroundings tell: the patch stays
     /// near the membrane, and every continuity changes it by no more than the one before. On a
     /// smooth surface, the changes decrease; noise and bad triangles add the more to them, the
-    /// higher the derivatives are. Returns the continuity.
+    /// higher the derivatives are. Returns the continuity, or -1 if not even the membrane is found:
+    /// then nothing moves.
     int solve(int continuity) {
-        find_membrane();
+        if (!find_membrane()) return -1;
         double change = std::numeric_limits<double>::infinity();
         for (int present = 1; present <= continuity; ++present) {
             const Points before = positions_;
@@ -143,15 +144,19 @@ public:
     }
 
 private:
-    /// Moves the patch to its membrane in the metric of the given positions.
-    void find_membrane() {
+    /// Moves the patch to its membrane in the metric of the given positions. Returns false if that
+    /// fails.
+    bool find_membrane() {
+        bool is_found = false;
         for (const double thickening : {kThickening, kRoundThickening}) {
             positions_ = membrane_;
             is_factorised_ = false;
             assemble(thickening);
-            if (step(0) && is_in_hole()) break;
+            is_found = step(0);
+            if (is_found && is_in_hole()) break;
         }
         membrane_ = positions_;
+        return is_found;
     }
 
     /// Solves the equation in the metric of the result. Returns false if there is no solution near
