@@ -21,7 +21,7 @@ struct FairReport {
     /// Of these, patches that have less continuity than was asked for: more would have changed them
     /// by more than the continuity before, or taken them farther than `height` 1 from the membrane.
     std::int64_t flatter_patches = 0;
-    std::int64_t rough_patches = 0;  ///< whose surroundings turn so much that chance may have raised them
+    std::int64_t rough_patches = 0;  ///< that chance may have raised, as their surroundings turn
 
     /// RMS of the mean curvature around the seams and in the faired patches, in 1 / mesh units. If
     /// the first is much larger, the surroundings are too rough for the size of the hole to tell

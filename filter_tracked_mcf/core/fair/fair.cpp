@@ -2,12 +2,14 @@
 #include "filter_tracked_mcf/core/fair.h"
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <Eigen/Sparse>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 #include "filter_tracked_mcf/core/fair/factorisation.h"
 #include "filter_tracked_mcf/core/fair/patches.h"

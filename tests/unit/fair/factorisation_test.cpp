@@ -5,6 +5,9 @@
 
 #include <Eigen/Dense>
 #include <chrono>
+#include <cmath>
+#include <string_view>
+#include <vector>
 
 #include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/parallel/progress_meter.h"

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
+#include <vector>
 
 #include "filter_tracked_mcf/core/fair.h"
 #include "tests/support/shapes.h"
