@@ -18,10 +18,10 @@ struct FairReport {
     std::int64_t triangles = 0;  ///< that are selected
     CrackReport cracks;
     std::int64_t patches = 0;
-    /// Of these, patches that have less continuity than was asked for, because more would have
-    /// taken them far away from the membrane.
+    /// Of these, patches that have less continuity than was asked for: more would have changed them
+    /// by more than the continuity before, or taken them farther than `height` 1 from the membrane.
     std::int64_t flatter_patches = 0;
-    std::int64_t rough_patches = 0;  ///< whose surroundings bend much more than they do
+    std::int64_t rough_patches = 0;  ///< that chance may have raised, as their surroundings turn
 
     /// RMS of the mean curvature around the seams and in the faired patches, in 1 / mesh units. If
     /// the first is much larger, the surroundings are too rough for the size of the hole to tell
@@ -30,7 +30,7 @@ struct FairReport {
     /// Largest distance from the membrane, relative to the size of the hole: the diameter of a
     /// sphere around its seam.
     double height = 0;
-    int iterations = 0;  ///< of the patch that took most
+    int iterations = 0;  ///< solves in a new metric, of the patch that took most
 
     double rms_displacement = 0;  ///< of the vertices above, mesh units
     double largest_displacement = 0;
@@ -50,7 +50,8 @@ struct FairReport {
 ///
 /// With mass M and stiffness L of linear elements, the positions x solve L x = 0 (Position),
 /// L M⁻¹ L x = 0 (Tangent) or L M⁻¹ L M⁻¹ L x = 0 (Curvature) at the inner vertices, where M and L
-/// are those of the result.
+/// are those of the result. A patch takes less continuity where its surroundings do not tell more,
+/// see FairReport::flatter_patches. So it is never farther from the membrane than the hole is wide.
 ///
 /// Positions are written at the very end, after the last call of `progress` has returned true.
 /// Throws InvalidMesh if nothing is selected, no vertex is an inner one, or nothing holds a patch;

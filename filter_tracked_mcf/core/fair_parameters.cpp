@@ -16,9 +16,6 @@ const std::vector<ParameterOf<FairParameters>>& parameter_table() {
               "continuity", "Continuity",
               "What the patch shares with its surroundings. Position suits rough ones, curvature "
               "smooth ones."),
-        named(integer<&P::iterations>(1, 20), "iterations", "Iterations",
-              "1 to 20: how often tangent and curvature are solved for, each time on the shape "
-              "before."),
         displacement<&P::quality>(),
         threads<&P::threads>(),
     };

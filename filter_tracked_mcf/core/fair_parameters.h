@@ -16,10 +16,6 @@ enum class Continuity {
 struct FairParameters {
     Continuity continuity = Continuity::Tangent;
 
-    /// How often the equation is solved for Tangent and Curvature, each time in the metric of the
-    /// result before. Fewer are made if the patch no longer changes.
-    int iterations = 5;
-
     /// None or Displacement: what FairReport::quality holds.
     Quality quality = Quality::None;
 

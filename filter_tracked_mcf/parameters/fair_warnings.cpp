@@ -12,9 +12,9 @@ std::vector<std::string> warnings_of(const FairParameters& parameters, const Fai
                (report.patches == 1 ? " patch" : " patches");
     };
     if (report.flatter_patches > 0) {
-        warnings.push_back(of_all(report.flatter_patches) +
-                           " would have left the hole far behind, so less continuity was taken. "
-                           "Look at the result.");
+        warnings.push_back("The surface around " + of_all(report.flatter_patches) +
+                           " does not tell the continuity that was asked for, so less was taken. "
+                           "Remove noise first, and mend bad triangles, or look at the result.");
     }
     if (report.rough_patches > 0 && parameters.continuity != Continuity::Position) {
         warnings.push_back("The surface around " + of_all(report.rough_patches) +

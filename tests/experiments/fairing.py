@@ -9,6 +9,11 @@ of the patch's vertices from the original surface, in mean edges. Real holes: Me
 Explicit Remeshing fill and refine those of open scans; the original is unknown, so the error is the mean angle between
 normals of faces across the seam, in degrees.
 
+Rough surroundings: the shapes with noise or needles around the hole. The error is the RMS distance from the shape, in
+mean edges. Noise moves every vertex by a normal distribution along each axis. Needles slide a sixth of the vertices in
+four rings around the hole towards a neighbour. Crossings are pairs of triangles, one at least in the patch, that cross
+and have no vertex in common.
+
 Needs tracked_mcf_cgal_fair in the build folder, which TRACKED_MCF_BENCHMARK builds; without it, CGAL is left out.
 """
 
@@ -162,6 +167,96 @@ def measure_shapes(experiment, runner):
         experiment.check("tangent and curvature: largest error over CGAL's", worst, at_most=1.01)
 
 
+def crossings(vertices, faces, selected):
+    """Returns the number of pairs of triangles that cross, have no common vertex, and one of which is selected."""
+    corners = vertices[faces]
+    middles = corners.mean(axis=1)
+    radii = numpy.linalg.norm(corners - middles[:, None], axis=2).max(axis=1)
+    chosen = numpy.flatnonzero(selected)
+    near = cKDTree(middles).query_ball_point(middles[chosen], radii[chosen] + radii.max())
+    first, second = numpy.repeat(chosen, [len(row) for row in near]), numpy.concatenate(near).astype(int)
+    apart = (faces[first][:, :, None] != faces[second][:, None, :]).all(axis=(1, 2))
+    apart &= ~selected[second] | (first < second)
+    first, second = first[apart], second[apart]
+
+    def pierced(a, b):
+        """Returns whether a side of a triangle passes through another one."""
+        normals = numpy.cross(corners[b, 1] - corners[b, 0], corners[b, 2] - corners[b, 0])
+        found = numpy.zeros(len(a), bool)
+        for k in range(3):
+            start, end = corners[a, k], corners[a, (k + 1) % 3]
+            above, below = (((p - corners[b, 0]) * normals).sum(axis=1) for p in (start, end))
+            with numpy.errstate(all="ignore"):
+                point = start + (end - start) * (above / (above - below))[:, None]
+                inside = above * below < 0
+                for i in range(3):
+                    side = corners[b, (i + 1) % 3] - corners[b, i]
+                    inside &= (numpy.cross(side, point - corners[b, i]) * normals).sum(axis=1) > 0
+            found |= inside
+        return found
+
+    return int((pierced(first, second) | pierced(second, first)).sum())
+
+
+def surroundings(vertices, faces, selected, random):
+    """Yields names and vertices with noise, or with needles around what is selected."""
+    edge = numpy.linalg.norm(vertices[faces] - vertices[faces[:, [1, 2, 0]]], axis=2).mean()
+    yield "smooth", vertices
+    for noise in (0.03, 0.1, 0.3):
+        yield f"noise of {noise} edges", vertices + noise * edge * random.normal(size=vertices.shape)
+    adjacency = neighbours(faces, len(vertices))
+    inner = numpy.ones(len(vertices), bool)
+    inner[faces[~selected]] = False
+    ring = inner
+    for _ in range(4):
+        ring = ring | (adjacency @ ring)
+    around = numpy.flatnonzero(ring & ~inner)
+    for share in (0.9, 0.99, 0.9999):
+        moved = vertices.copy()
+        for vertex in random.choice(around, len(around) // 6, replace=False):
+            other = random.choice(adjacency[vertex].indices)
+            moved[vertex] += share * (vertices[other] - vertices[vertex])
+        yield f"needles, {share} of the way", moved
+
+
+def measure_surroundings(experiment, runner):
+    experiment.say("\n## Rough surroundings\n\nMedian and largest RMS distance from the shapes, in edges; crossings; patches "
+                   "that took less continuity, and patches that a warning called rough.\n")
+    random = numpy.random.default_rng(SEED)
+    rows = []
+    for size in [8] if experiment.options.quick else [8, 16, 24]:
+        for name, (make, inside, distance) in SHAPES.items():
+            vertices, faces = make(size)
+            moving = inside(vertices)
+            selected = moving[faces].any(axis=1)
+            edge = numpy.linalg.norm(vertices[faces] - vertices[faces[:, [1, 2, 0]]], axis=2).mean()
+            scale = edge / (0.4 if name == "torus" else 1)
+            for around, rough in surroundings(vertices, faces, selected, random):
+                flat, _ = runner.ours(rough, faces, selected, "position")
+                row = {"table": "surroundings", "shape": name, "size": size, "around": around}
+                for continuity in CONTINUITIES:
+                    moved, report = runner.ours(flat, faces, selected, continuity)
+                    row[continuity] = float(numpy.sqrt((distance(moved[moving]) ** 2).mean())) / scale
+                    row[f"crossings {continuity}"] = crossings(moved, faces, selected)
+                    row[f"less {continuity}"] = report["flatter_patches"]
+                    row[f"rough {continuity}"] = report["rough_patches"]
+                rows.append(row)
+    experiment.record(rows)
+    table = []
+    for around in dict.fromkeys(row["around"] for row in rows):
+        for continuity in CONTINUITIES:
+            errors, crossed, less, rough = (
+                numpy.array([row[key] for row in rows if row["around"] == around])
+                for key in (continuity, f"crossings {continuity}", f"less {continuity}", f"rough {continuity}"))
+            table.append([around, continuity, len(errors), float(numpy.median(errors)), float(errors.max()),
+                          int(crossed.sum()), int(less.sum()), int(rough.sum())])
+    experiment.table(["surroundings", "continuity", "patches", "median", "largest", "crossings", "less continuity",
+                      "called rough"], table)
+    for continuity in CONTINUITIES[1:]:
+        worst = max(row[continuity] / max(row["position"], 0.2) for row in rows)
+        experiment.check(f"{continuity}: largest ratio to the membrane's error, of at least 0.2 edges", worst, at_most=2)
+
+
 def neighbours(faces, count):
     """Returns the sparse adjacency as lists."""
     from scipy.sparse import coo_matrix
@@ -229,7 +324,9 @@ def measure_holes(experiment, runner):
             row[continuity] = error(moved)
             if continuity == "tangent":
                 row.update({key: report[key] for key in ("seam_curvature", "patch_curvature", "height",
-                                                         "rough_patches", "flatter_patches")})
+                                                         "rough_patches")})
+            else:
+                row["flatter_patches"] = report["flatter_patches"]
             result = runner.cgal(flat, part_faces, selected, continuity)
             row[f"CGAL {continuity}"] = error(result[0]) if result else numpy.nan
         rows.append(row)
@@ -248,8 +345,11 @@ def report_holes(experiment, rows):
         table.append([mesh, len(of_mesh), *(float(numpy.nanmedian([row[name] for row in of_mesh])) for name in columns),
                       f"{better.sum()}", f"{(better & warned).sum()}", f"{(~better & warned).sum()}"])
     experiment.table(["scan", "holes", *columns, "membrane better", "of these warned", "warned of others"], table)
-    worst = max(row["tangent"] / max(row["membrane"], 0.1) for row in rows)
-    experiment.say(f"- the largest ratio of tangent to membrane, of at least 0.1 edges: {worst:.3g}")
+    less = sum(row["flatter_patches"] for row in rows)
+    experiment.say(f"- curvature was asked for, and the patch took less: {less} of {len(rows)}")
+    for continuity in CONTINUITIES[1:]:
+        worst = max(row[continuity] / max(row["membrane"], 0.1) for row in rows)
+        experiment.check(f"{continuity}: largest ratio to the membrane's error, of at least 0.1 edges", worst, at_most=3)
 
 
 FILL = """<!DOCTYPE FilterScript><FilterScript><filter name="Close Holes">
@@ -370,6 +470,19 @@ def measure_real_holes(experiment, runner):
     experiment.table(keys, [[row.get(key, "") for key in keys] for row in rows])
 
 
+def measure_deep(experiment, runner):
+    vertices, faces = sphere(16 if experiment.options.quick else 33)
+    selected = (vertices[:, 2] > -0.5)[faces].any(axis=1)
+    flat, _ = runner.ours(vertices, faces, selected, "position")
+    rows = []
+    for continuity in CONTINUITIES:
+        _, report = runner.ours(flat, faces, selected, continuity)
+        rows.append([continuity, report["vertices"], report["iterations"], report["processor_seconds"]])
+        experiment.record([{"table": "deep", "continuity": continuity, "processor_seconds": rows[-1][-1]}])
+    experiment.say("\n## Three quarters of a sphere\n")
+    experiment.table(["continuity", "vertices that move", "metrics", "processor seconds"], rows)
+
+
 def measure_large(experiment, runner):
     frequency = 40 if experiment.options.quick else 320
     vertices, faces = sphere(frequency)
@@ -398,8 +511,10 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         runner = Runner(experiment, folder)
         measure_shapes(experiment, runner)
+        measure_surroundings(experiment, runner)
         measure_holes(experiment, runner)
         measure_real_holes(experiment, runner)
+        measure_deep(experiment, runner)
         measure_large(experiment, runner)
     experiment.finish()
 

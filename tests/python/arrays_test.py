@@ -568,8 +568,7 @@ class Fair(WithFolder):
 
     def test_help_names_all_parameters(self):
         names = list(inspect.signature(tracked_mcf.fair).parameters)
-        self.assertEqual(names, ["vertices", "faces", "continuity", "iterations", "quality", "threads", "selected",
-                                 "progress"])
+        self.assertEqual(names, ["vertices", "faces", "continuity", "quality", "threads", "selected", "progress"])
         for name in names[2:]:
             self.assertRegex(inspect.getdoc(tracked_mcf.fair), f"\n    {name}\\b")
         self.assertEqual(set(tracked_mcf.fair(VERTICES, FACES, selected=self.selected, quality="displacement")[1]),

@@ -15,6 +15,7 @@
 #include <stdexcept>
 
 #include "filter_tracked_mcf/core/parameter_table.h"
+#include "tests/support/shapes.h"
 #include "tests/zoo/bad_meshes.h"
 
 namespace tracked_mcf::zoo {
@@ -49,6 +50,11 @@ Selection random_selection(const TriangleMesh& mesh, Random& random) {
     return selection;
 }
 
+/// A vertex and one of its neighbours.
+struct Vertex {
+    std::int32_t at, neighbour;
+};
+
 /// The triangles in a ball around a vertex.
 Selection random_patch(const TriangleMesh& mesh, double side, Random& random) {
     Selection selection;
@@ -61,6 +67,69 @@ Selection random_patch(const TriangleMesh& mesh, double side, Random& random) {
         selection.push_back(is_inside ? 1 : 0);
     }
     return selection;
+}
+
+/// Changes random vertices of triangles that are not selected, or adds triangles without area that
+/// link any places. Returns the kind.
+std::string spoil_surroundings(Case& of, Random& random) {
+    std::vector<Vertex> around;
+    for (std::size_t i = 0; i < of.mesh.triangles.size(); ++i) {
+        const Triangle& t = of.mesh.triangles[i];
+        if (of.inputs.selection[i] == 0) around.push_back({t[0], t[1]});
+    }
+    if (around.empty()) return "smooth_around";
+    std::vector<Eigen::Vector3d>& at = of.mesh.positions;
+    const auto any = [&] { return around[random.below(static_cast<int>(around.size()))]; };
+    const double share = random.log_between(1e-3, 1);
+    const int count = 1 + static_cast<int>(share * static_cast<double>(around.size()));
+    switch (random.below(4)) {
+        case 0:
+            return "smooth_around";
+        case 1: {
+            const double edge = (at[around[0].at] - at[around[0].neighbour]).norm();
+            const double size = edge * random.log_between(1e-3, 1);
+            for (Eigen::Vector3d& position : at) position += size * random.point();
+            return "noise_around";
+        }
+        case 2:
+            for (int i = 0; i < count; ++i) {
+                const Vertex moved = any();
+                const double left =
+                    random.chance(0.5) ? random.unit() : random.log_between(1e-12, 1);
+                at[moved.at] = at[moved.neighbour] + left * (at[moved.at] - at[moved.neighbour]);
+            }
+            return "needles_around";
+        default:
+            for (int i = 0; i < count; ++i) {
+                const std::int32_t first = any().at;
+                const auto other =
+                    static_cast<std::int32_t>(random.below(static_cast<int>(at.size())));
+                of.mesh.triangles.push_back({first, first, other});
+                of.inputs.selection.push_back(random.chance(0.5) ? 1 : 0);
+            }
+            return "degenerate_around";
+    }
+}
+
+/// Replaces the mesh by one that is fine enough for a patch, selects the patch, and changes what is
+/// around it.
+void make_patch(Case& made, Random& random) {
+    const int n = random.integer(6, 16);
+    switch (random.below(4)) {
+        case 0:
+            made.mesh = shapes::torus(4 * n, 2 * n, 1, 0.4);
+            break;
+        case 1:
+            made.mesh = shapes::tube(3 * n, 2 * n, 4);
+            break;
+        case 2:
+            made.mesh = shapes::square(2 * n);
+            break;
+        default:
+            made.mesh = shapes::bumpy_sphere(n);
+    }
+    made.inputs.selection = random_patch(made.mesh, 1, random);
+    made.kind = spoil_surroundings(made, random);
 }
 
 void set_step_size(FlowParameters& parameters, double side, Random& random) {
@@ -222,8 +291,8 @@ Case fair_case_of(std::uint64_t seed, std::int64_t number) {
     FairParameters& fair = made.fair.emplace();
     fair.continuity =
         random.pick({Continuity::Position, Continuity::Tangent, Continuity::Curvature});
-    fair.iterations = random.integer(1, 8);
     if (random.chance(0.3)) fair.quality = Quality::Displacement;
+    if (random.chance(0.5)) make_patch(made, random);
     return made;
 }
 

@@ -31,7 +31,8 @@ Case case_of(std::uint64_t seed, std::int64_t number);
 /// Returns the same mesh with random parameters of the removal of noise.
 Case noise_case_of(std::uint64_t seed, std::int64_t number);
 
-/// Returns the same mesh with a random patch to be faired.
+/// Returns the same mesh with a random patch to be faired; or, in half of the cases, a finer mesh
+/// with noise, needles or faces without area around its patch.
 Case fair_case_of(std::uint64_t seed, std::int64_t number);
 
 /// Returns about how many fragments (pieces of a triangle in one cell) a flow at this depth has. 0

@@ -102,11 +102,11 @@ class FairReport(_Quality):
     open_pairs: int  # of vertices at cracks that are too wide for that
     patches: int
     flatter_patches: int  # that have less continuity than was asked for
-    rough_patches: int  # whose surroundings bend much more than they do
+    rough_patches: int  # whose surroundings turn so much that chance may have raised them
     seam_curvature: float  # RMS of the mean curvature around the seams
     patch_curvature: float  # the same in the patches
     height: float  # largest distance from the membrane, relative to the size of the hole
-    iterations: int  # of the patch that took most
+    iterations: int  # solves in a new metric, of the patch that took most
     area_before: float
     area_after: float
     largest_displacement: float

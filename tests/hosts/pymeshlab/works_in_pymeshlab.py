@@ -48,7 +48,7 @@ WRONG = [
     (REMOVE_NOISE, {"crease_angle": 180}, "crease_angle is 180"),
     (REMOVE_NOISE, {"largest_movement": pymeshlab.PureValue(-1)}, "largest_movement is -1"),
     (FAIR, {}, "No face is selected"),
-    (FAIR, {"iterations": 0}, "iterations is 0"),
+    (FAIR, {"iterations": 1}, "iterations not found"),
 ]
 
 

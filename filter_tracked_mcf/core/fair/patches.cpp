@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "filter_tracked_mcf/core/noise/patches.h"
+#include "filter_tracked_mcf/core/fair/patches.h"
 
 #include <algorithm>
 #include <map>
@@ -17,46 +17,51 @@ constexpr std::uint8_t kRings = 3;
 /// Per vertex, its distance in edges from the vertices that move, at most kRings + 1.
 using Rings = std::vector<std::uint8_t>;
 
+/// Calls visit(t, triangle) for the triangles that have three vertices. The others are no part of
+/// the surface: they link nothing.
+template <class Visit>
+void for_each_proper_triangle(const MeshTopology& topology, const Visit& visit) {
+    for (std::size_t t = 0; t < topology.triangles.size(); ++t) {
+        if (has_three_vertices(topology.triangles[t])) visit(t, topology.triangles[t]);
+    }
+}
+
 /// Calls visit(a, b, sides) for each side of a triangle: its vertices, and how many triangles have
 /// the edge; 1 on the boundary.
 template <class Visit>
 void for_each_side(const MeshTopology& topology, const Visit& visit) {
     std::vector<std::uint8_t> sides(static_cast<std::size_t>(topology.edge_count), 0);
-    for (const bool counts : {true, false}) {
-        for (std::size_t t = 0; t < topology.edges.size(); ++t) {
-            for (int k = 0; k < 3; ++k) {
-                const std::int32_t edge = topology.edges[t][k];
-                if (edge == MeshTopology::kNoEdge) continue;
-                if (counts) {
-                    sides[edge] = static_cast<std::uint8_t>(std::min(sides[edge] + 1, 3));
-                    continue;
-                }
-                visit(topology.triangles[t][k], topology.triangles[t][(k + 1) % 3],
-                      has_bit(topology.boundary[t], k) ? 1 : int{sides[edge]});
-            }
+    for_each_proper_triangle(topology, [&](std::size_t t, const Triangle&) {
+        for (const std::int32_t edge : topology.edges[t])
+            sides[edge] = static_cast<std::uint8_t>(std::min(sides[edge] + 1, 3));
+    });
+    for_each_proper_triangle(topology, [&](std::size_t t, const Triangle& triangle) {
+        for (int k = 0; k < 3; ++k) {
+            visit(triangle[k], triangle[(k + 1) % 3],
+                  has_bit(topology.boundary[t], k) ? 1 : int{sides[topology.edges[t][k]]});
         }
-    }
+    });
 }
 
 /// Throws InvalidMesh if fewer than three vertices hold a connected part of those that move.
 void check_seams(const MeshTopology& topology, const Rings& rings) {
     DisjointSets parts(static_cast<std::int32_t>(rings.size()));
-    for (const Triangle& t : topology.triangles) {
+    for_each_proper_triangle(topology, [&](std::size_t, const Triangle& t) {
         for (int k = 0; k < 3; ++k) {
             const std::int32_t a = t[k], b = t[(k + 1) % 3];
             if (rings[a] == 0 && rings[b] == 0) parts.unite(a, b);
         }
-    }
+    });
     std::map<std::int32_t, std::set<std::int32_t>> seams;
     for (std::size_t i = 0; i < rings.size(); ++i) {
         if (rings[i] == 0) seams[parts.find(static_cast<std::int32_t>(i))];
     }
-    for (const Triangle& t : topology.triangles) {
+    for_each_proper_triangle(topology, [&](std::size_t, const Triangle& t) {
         for (int k = 0; k < 9; ++k) {
             const std::int32_t a = t[k / 3], b = t[k % 3];
             if (rings[a] == 0 && rings[b] == 1) seams[parts.find(a)].insert(b);
         }
-    }
+    });
     for (const auto& [part, seam] : seams) {
         if (seam.size() >= 3) continue;
         throw InvalidMesh(
@@ -80,10 +85,10 @@ Rings rings_around_inner_vertices(const MeshTopology& topology, const Selection&
     });
     for (std::uint8_t ring = 0; ring < kRings; ++ring) {
         const auto next = static_cast<std::uint8_t>(ring + 1);
-        for (const Triangle& t : topology.triangles) {
-            if (std::min({rings[t[0]], rings[t[1]], rings[t[2]]}) != ring) continue;
+        for_each_proper_triangle(topology, [&](std::size_t, const Triangle& t) {
+            if (std::min({rings[t[0]], rings[t[1]], rings[t[2]]}) != ring) return;
             for (const std::int32_t vertex : t) rings[vertex] = std::min(rings[vertex], next);
-        }
+        });
     }
     return rings;
 }
@@ -96,11 +101,11 @@ std::vector<Patch> patches_of(const MeshTopology& topology, const Selection& sel
     const auto count = static_cast<std::int32_t>(rings.size());
     DisjointSets sets(count);
     const auto is_near = [&](const Triangle& t) {
-        return std::min({rings[t[0]], rings[t[1]], rings[t[2]]}) < kRings && has_three_vertices(t);
+        return std::min({rings[t[0]], rings[t[1]], rings[t[2]]}) < kRings;
     };
-    for (const Triangle& t : topology.triangles) {
+    for_each_proper_triangle(topology, [&](std::size_t, const Triangle& t) {
         if (is_near(t)) sets.unite(t[0], t[1]), sets.unite(t[1], t[2]);
-    }
+    });
     std::vector<std::uint8_t> has_normal(rings.size(), 1);
     for_each_side(topology, [&](std::int32_t a, std::int32_t b, int sides) {
         if (sides != 2) has_normal[a] = has_normal[b] = 0;
@@ -127,11 +132,11 @@ std::vector<Patch> patches_of(const MeshTopology& topology, const Selection& sel
             if (ring == 2) patch.inner = end;
         }
     }
-    for (const Triangle& t : topology.triangles) {
-        if (!is_near(t)) continue;
+    for_each_proper_triangle(topology, [&](std::size_t, const Triangle& t) {
+        if (!is_near(t)) return;
         patches[patch_of[sets.find(t[0])]].triangles.push_back(
             {numbers[t[0]], numbers[t[1]], numbers[t[2]]});
-    }
+    });
     return patches;
 }
 

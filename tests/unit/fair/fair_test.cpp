@@ -77,6 +77,25 @@ double from_torus(const Eigen::Vector3d& p) {
     return std::hypot(std::hypot(p[0], p[1]) - 1, p[2]) - 0.4;
 }
 
+/// Moves the vertices of a sphere along their normals.
+TriangleMesh roughened(TriangleMesh sphere, double size) {
+    for (std::size_t i = 0; i < sphere.positions.size(); ++i) {
+        sphere.positions[i] *= 1 + size * std::sin(1e4 * static_cast<double>(i));
+    }
+    return sphere;
+}
+
+/// Returns the RMS distance from a sphere of the vertices that were inside.
+double rms_error(const TriangleMesh& mesh, const TriangleMesh& sphere, const Inside& inside) {
+    double squares = 0, count = 0;
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        if (!inside(sphere.positions[i])) continue;
+        squares += std::pow(from_sphere(mesh.positions[i]), 2);
+        ++count;
+    }
+    return std::sqrt(squares / count);
+}
+
 std::string refusal(TriangleMesh mesh, const Selection& selection) {
     const TriangleMesh before = mesh;
     try {
@@ -214,12 +233,78 @@ TEST(Fair, TellsRoughSurroundingsFromSmoothOnes) {
     EXPECT_EQ(of_smooth.rough_patches, 0);
     EXPECT_NEAR(of_smooth.seam_curvature, 1, 0.05);
     EXPECT_NEAR(of_smooth.patch_curvature, 1, 0.1);
-    TriangleMesh rough = sphere;
-    for (std::size_t i = 0; i < rough.positions.size(); ++i) {
-        rough.positions[i] *= 1 + 0.01 * std::sin(1e4 * static_cast<double>(i));
+    // Around a patch that rises by much less than the noise's slope, chance alone raises it.
+    TriangleMesh square = shapes::square(20);
+    for (std::size_t i = 0; i < square.positions.size(); ++i)
+        square.positions[i][2] = 0.01 * std::sin(1e4 * static_cast<double>(i));
+    const auto middle = [](const Eigen::Vector3d& p) {
+        return std::hypot(p[0] - 0.5, p[1] - 0.5) < 0.3;
+    };
+    const Filled noisy(square, middle);
+    TriangleMesh tangent = noisy.mesh;
+    EXPECT_EQ(fair(tangent, noisy.selection, {}).rough_patches, 1);
+    const auto squared_heights = [&](const TriangleMesh& mesh) {
+        double sum = 0;
+        for (const Eigen::Vector3d& p : mesh.positions) sum += middle(p) ? p[2] * p[2] : 0;
+        return sum;
+    };
+    EXPECT_GT(squared_heights(tangent), 1.5 * squared_heights(noisy.mesh));
+    // A patch that rises more is better than its membrane in spite of noise.
+    const Filled deeper(roughened(sphere, 0.01), cap(30));
+    tangent = deeper.mesh;
+    EXPECT_EQ(fair(tangent, deeper.selection, {}).rough_patches, 0);
+    EXPECT_LT(rms_error(tangent, sphere, cap(30)), 0.3 * rms_error(deeper.mesh, sphere, cap(30)));
+}
+
+TEST(Fair, EndsWhenTheShapeIsFinal) {
+    // Further passes only slide the vertices along the sphere.
+    const Filled filled(shapes::geodesic_sphere(24), cap(30));
+    TriangleMesh mesh = filled.mesh;
+    const FairReport report = fair(mesh, filled.selection, with(Continuity::Tangent));
+    EXPECT_EQ(report.iterations, 3);
+    TriangleMesh again = mesh;
+    EXPECT_LT(fair(again, filled.selection, {}).largest_displacement,
+              0.01 * report.largest_displacement);
+}
+
+TEST(Fair, TakesTheCurvatureOfSmoothSurroundings) {
+    const TriangleMesh sphere = shapes::geodesic_sphere(24);
+    for (const double degrees : {15, 30, 60, 90, 120}) {
+        Filled filled(sphere, cap(degrees));
+        const FairReport report = fair(filled.mesh, filled.selection, with(Continuity::Curvature));
+        EXPECT_EQ(report.flatter_patches, 0) << degrees;
+        EXPECT_EQ(report.rough_patches, 0) << degrees;
     }
-    Filled noisy(rough, cap(30));
-    EXPECT_EQ(fair(noisy.mesh, noisy.selection, {}).rough_patches, 1);
+}
+
+/// Moves a third of the vertices outside close to one of their neighbours, along the surface.
+TriangleMesh with_needles(TriangleMesh mesh, const Inside& inside, double distance) {
+    const std::vector<Eigen::Vector3d> before = mesh.positions;
+    for (const Triangle& t : mesh.triangles) {
+        if (t[0] % 3 != 0 || inside(before[t[0]])) continue;
+        mesh.positions[t[0]] = before[t[1]] + distance * (before[t[0]] - before[t[1]]);
+    }
+    return mesh;
+}
+
+TEST(Fair, TakesNoMoreContinuityThanItsSurroundingsTell) {
+    const TriangleMesh sphere = shapes::geodesic_sphere(30);
+    const double edge = mean_edge_length(sphere);
+    for (const double degrees : {30, 60}) {
+        const TriangleMesh noisy = roughened(sphere, 0.5 * edge);
+        const TriangleMesh needles = with_needles(sphere, cap(degrees + 1), 1e-4);
+        for (const TriangleMesh& bad : {noisy, needles}) {
+            const Filled filled(bad, cap(degrees));
+            TriangleMesh tangent = filled.mesh, curvature = filled.mesh;
+            EXPECT_EQ(fair(tangent, filled.selection, {}).flatter_patches, 0);
+            const FairReport report =
+                fair(curvature, filled.selection, with(Continuity::Curvature));
+            EXPECT_EQ(report.flatter_patches, 1);
+            EXPECT_TRUE(same_bits(tangent, curvature));
+            EXPECT_LT(rms_error(tangent, sphere, cap(degrees)),
+                      rms_error(filled.mesh, sphere, cap(degrees)));
+        }
+    }
 }
 
 TEST(Fair, KeepsTheRimOfAnOpenMesh) {
@@ -284,15 +369,15 @@ TEST(Fair, TakesSeamsWhereMoreThanTwoFacesMeet) {
 }
 
 TEST(Fair, StaysNearTheMembraneInRoughSurroundings) {
-    TriangleMesh rough = shapes::geodesic_sphere(16);
-    for (std::size_t i = 0; i < rough.positions.size(); ++i) {
-        rough.positions[i] *= 1 + 0.2 * std::sin(1e4 * static_cast<double>(i));
-    }
+    const TriangleMesh rough = roughened(shapes::geodesic_sphere(16), 0.2);
     for (const double degrees : {20, 60, 120}) {
         for (const Continuity continuity : {Continuity::Tangent, Continuity::Curvature}) {
             Filled filled(rough, cap(degrees));
+            const TriangleMesh membrane = filled.mesh;
             const FairReport report = fair(filled.mesh, filled.selection, with(continuity));
             EXPECT_LE(report.height, 1);
+            const double size = 2 * 1.2 * std::sin(std::min(degrees, 90.0) * kPi / 180);
+            EXPECT_LE(distance(filled.mesh, membrane), 1.01 * size);
             for (const Eigen::Vector3d& p : filled.mesh.positions) EXPECT_LT(p.norm(), 4);
         }
     }
@@ -320,7 +405,7 @@ TEST(Fair, RefusesWhatItCannotContinue) {
     TriangleMesh mesh = sphere;
     EXPECT_THROW(fair(mesh, Selection(3, 1), {}), InvalidParameter);
     FairParameters parameters;
-    parameters.iterations = 0;
+    parameters.threads = -1;
     EXPECT_THROW(fair(mesh, one, parameters), InvalidParameter);
     mesh.positions[0][0] = std::numeric_limits<double>::quiet_NaN();
     EXPECT_THROW(fair(mesh, one, {}), InvalidMesh);
