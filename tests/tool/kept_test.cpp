@@ -24,7 +24,7 @@ using Marks = std::vector<bool>;
 using Location = std::array<double, 3>;
 
 std::unique_ptr<PlyDocument> open_ply(const std::filesystem::path& path) {
-    auto document = std::make_unique<PlyDocument>(parse_ply_table(read_file(path)));
+    auto document = std::make_unique<PlyDocument>(read_file(path));
     EXPECT_FALSE(document->positions().empty());
     return document;
 }
@@ -215,18 +215,17 @@ INSTANTIATE_TEST_SUITE_P(OpenMeshes, Kept,
                              return test.param.empty() ? "bumpy_square" : test.param;
                          });
 
-/// Returns the bytes of all fields of a PLY file but positions, and the number of these fields.
+/// Returns the words of all fields of a PLY file but positions, and the number of these fields.
 std::pair<std::string, std::size_t> all_but_positions(const std::filesystem::path& path) {
     std::pair<std::string, std::size_t> result;
-    for (const PlyElement& element : parse_ply_table(read_file(path)).elements) {
-        result.first += element.name + std::to_string(element.count);
-        element.for_each_field(
-            [&](std::size_t, const PlyProperty& property, std::string_view bytes) {
-                if (property.name == "x" || property.name == "y" || property.name == "z") return;
-                result.first.append(property.name).append(bytes);
-                ++result.second;
-            });
-    }
+    PlyTable(read_file(path))
+        .for_each_field([&](const PlyElement& element, std::size_t row, const PlyProperty& property,
+                            const Words& words) {
+            if (property.name == "x" || property.name == "y" || property.name == "z") return;
+            result.first += element.name + std::to_string(row) + property.name;
+            for (const std::string_view word : words) result.first.append(word) += ' ';
+            ++result.second;
+        });
     return result;
 }
 

@@ -245,8 +245,8 @@ TEST_F(Program, WhatCannotBePreservedIsRefused) {
 TEST_F(Program, TheQualityIsAPropertyOfThePlyFile) {
     const auto quality = [&](const std::string& option) {
         EXPECT_EQ(run("a.off b.ply --depth 4 --step-size 1e-4 " + option).exit_code, 0);
-        const PlyTable table = parse_ply_table(read_file(folder_ / "b.ply"));
-        return table.find("vertex")->numbers("quality");
+        const PlyTable table(read_file(folder_ / "b.ply"));
+        return table.numbers(*table.find("vertex"), "quality");
     };
     EXPECT_TRUE(quality("").empty());
     // All corners of the tetrahedron stand out and move in.

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <ostream>
 
 #include "filter_tracked_mcf/tool/documents/binary.h"
-#include "filter_tracked_mcf/tool/documents/file_document.h"
-#include "filter_tracked_mcf/tool/documents/text.h"
+#include "filter_tracked_mcf/tool/documents/text_document.h"
 #include "filter_tracked_mcf/tool/file_error.h"
 
 namespace tracked_mcf {
@@ -15,55 +15,40 @@ namespace {
 /// (the normal and three vertices) and 2 bytes, which some programs use for a colour.
 constexpr std::size_t kHeaderSize = 80, kCountSize = 4, kFloatsSize = 48, kTriangleSize = 50;
 
-void write_floats(std::ostream& out, const Eigen::Vector3d& v) {
-    out << as_bytes(Eigen::Vector3f(v.cast<float>()));
+/// Returns a vector as floats.
+std::string_view as_floats(const Eigen::Vector3d& vector, Eigen::Vector3f& floats) {
+    floats = vector.cast<float>();
+    return as_bytes(floats);
 }
 
-/// Writes a binary file. `attributes` has the last two bytes of each triangle; empty is all zero.
-void write_binary(std::ostream& out, std::string header, const Points& positions,
-                  const std::vector<Triangle>& triangles,
-                  const std::vector<std::uint16_t>& attributes) {
-    header.resize(kHeaderSize, ' ');
-    out << header;
-    out << as_bytes(static_cast<std::uint32_t>(triangles.size()));
-    for (std::size_t i = 0; i < triangles.size(); ++i) {
-        std::array<Eigen::Vector3d, 3> corners;
-        for (std::size_t k = 0; k < 3; ++k) {
-            corners[k] = positions[static_cast<std::size_t>(triangles[i][k])];
-        }
-        const Eigen::Vector3d area = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
-        write_floats(out, area.stableNormalized());
-        for (const Eigen::Vector3d& corner : corners) write_floats(out, corner);
-        out << as_bytes(attributes.empty() ? std::uint16_t{0} : attributes[i]);
-    }
-}
-
-/// Triangles with three vertices of their own each. Coordinates are floats, as in binary files.
-class StlDocument : public FileDocument {
+/// Triangles with three vertices of their own each. Coordinates are floats, also in text.
+class StlDocument : public TextDocument {
 public:
-    explicit StlDocument(std::string_view content) {
-        const std::string problem = problem_of_binary(content);
-        const bool is_ascii =
-            content.substr(0, 5) == "solid" && content.find('\0') == std::string_view::npos;
+    explicit StlDocument(std::string content) : TextDocument(std::move(content)) {
+        numbers_ = Numbers::FloatWords;
+        const std::string problem = problem_of_binary(content_);
         // The size decides first, because some binary files begin with "solid".
-        if (problem.empty())
-            read_binary(content);
-        else if (is_ascii)
-            read_ascii(content);
+        is_binary_ = problem.empty();
+        if (is_binary_)
+            read_binary();
+        else if (is_text(content_))
+            read_text();
         else
             throw UnreadableFile(problem);
     }
 
     std::vector<std::string> extras() const override {
-        for (const std::uint16_t attribute : attributes_) {
-            if (attribute != 0) return {"colours of triangles"};
-        }
-        return {};
+        std::vector<std::string> extras;
+        if (has_colors_) extras.emplace_back("colours of triangles");
+        if (solid_count_ > 1) extras.emplace_back("solids");
+        return extras;
     }
 
-    /// Writes a binary file whatever the file was.
     void write(std::ostream& out, const Points& positions) const override {
-        write_binary(out, header_, positions, triangles(), attributes_);
+        if (is_binary_)
+            write_binary(out, positions);
+        else
+            TextDocument::write(out, positions);
     }
 
 private:
@@ -75,73 +60,122 @@ private:
         const auto count = number_from<std::uint32_t>(content.data() + kHeaderSize);
         if (count == 0) return "it has no triangles";
         const std::size_t announced = kHeaderSize + kCountSize + kTriangleSize * count;
-        if (content.size() == announced) return {};
+        // Some programs append bytes, but whole triangles too many mean that the count is wrong.
+        const std::size_t more = std::max(content.size(), announced) - announced;
+        if (content.size() >= announced && (more == 0 || more % kTriangleSize != 0)) return {};
         return "it announces " + std::to_string(count) + " triangles, which take " +
                std::to_string(announced) + " bytes, but it has " + std::to_string(content.size());
     }
 
-    void read_binary(std::string_view content) {
-        header_ = content.substr(0, kHeaderSize);
-        content.remove_prefix(kHeaderSize + kCountSize);
-        for (; !content.empty(); content.remove_prefix(kTriangleSize)) {
-            const auto number = [&](std::size_t i) {
-                return double{number_from<float>(content.data() + i * sizeof(float))};
-            };
-            for (std::size_t i = 3; i < 12; i += 3) {
-                add_corner({number(i), number(i + 1), number(i + 2)});
+    /// Text has no control characters but blanks. Zeros and Ctrl-Z may end it.
+    static bool is_text(std::string_view content) {
+        const std::size_t end = content.find_last_not_of(std::string_view("\0\x1A", 2)) + 1;
+        const std::string_view begin = content.substr(0, std::min<std::size_t>(end, 1000));
+        return std::none_of(begin.begin(), begin.end(), [](char c) { return c >= 0 && c < '\t'; });
+    }
+
+    void read_binary() {
+        const auto count = number_from<std::uint32_t>(content_.data() + kHeaderSize);
+        for (std::size_t i = 0; i < count; ++i) {
+            const char* const triangle = triangle_bytes(i).data();
+            for (std::size_t k = 3; k < 12; k += 3) {
+                const auto number = [&](std::size_t axis) {
+                    return double{number_from<float>(triangle + (k + axis) * sizeof(float))};
+                };
+                add_corner(static_cast<std::int32_t>(i));
+                positions_.emplace_back(number(0), number(1), number(2));
             }
             polygons_.close();
-            attributes_.push_back(number_from<std::uint16_t>(content.data() + kFloatsSize));
+            if (number_from<std::uint16_t>(triangle + kFloatsSize) != 0) has_colors_ = true;
         }
     }
 
-    void read_ascii(std::string_view content) {
-        if (content.find('\n') == std::string_view::npos) {
-            throw UnreadableFile("it is a single line");
-        }
-        if (content.find("endsolid") == std::string_view::npos) {
-            throw UnreadableFile("it ends before 'endsolid'; it is truncated");
-        }
-        for (WordReader words(content); words.has_more();) {
-            const std::string_view word = words.word();
-            if (word == "vertex") {
-                Eigen::Vector3d corner;
-                for (int axis = 0; axis < 3; ++axis) {
-                    corner[axis] = static_cast<float>(parse_number(words.word()));
-                }
-                add_corner(corner);
-            } else if (word == "endloop") {
-                polygons_.close();
-                if (polygons_.corner_count(polygons_.size() - 1) != 3) {
-                    words.fail("a facet has not 3 vertices");
-                }
-            } else if (word == "solid" || word == "endsolid") {
-                words.take(words.words_left());  // the name may be any words
+    std::string_view triangle_bytes(std::size_t i) const {
+        return std::string_view(content_).substr(kHeaderSize + kCountSize + kTriangleSize * i,
+                                                 kTriangleSize);
+    }
+
+    void write_binary(std::ostream& out, const Points& positions) const {
+        const Points normals =
+            moved_normals(move_to(positions), polygons_, normal_of_corner_, polygons_.size());
+        Patch patch(out, content_);
+        Eigen::Vector3f floats;
+        for (std::size_t i = 0; i < normals.size(); ++i) {
+            for (std::size_t k = 0; k < 4; ++k) {
+                const Eigen::Vector3d& vector = k == 0 ? normals[i] : positions[3 * i + k - 1];
+                if (k == 0 && vector.isZero(0)) continue;
+                patch.replace(triangle_bytes(i).substr(k * sizeof floats, sizeof floats),
+                              as_floats(vector, floats));
             }
         }
-        if (polygons_.size() == 0) throw UnreadableFile("it has no triangles");
+        patch.finish();
+    }
+
+    void read_text() {
+        TextReader reader(content_);
+        std::int32_t normal = -1;
+        for (bool is_first = true; reader.words_left() > 0 || reader.find_line();
+             is_first = false) {
+            const std::string word = lower_case(reader.word());
+            if (is_first && word != "solid" && word != "facet") {
+                throw UnreadableFile("it is a text that does not begin with 'solid'");
+            }
+            if (word == "normal" && reader.words_left() >= 3) {
+                normal = static_cast<std::int32_t>(normals_.size());
+                read_point({reader.word(), reader.word(), reader.word()}, normals_);
+            } else if (word == "vertex") {
+                add_corner(normal);
+                read_point({reader.word(), reader.word(), reader.word()}, positions_);
+            } else if (word == "endloop") {
+                polygons_.close();
+                normal = -1;
+                if (polygons_.corner_count(polygons_.size() - 1) != 3) {
+                    reader.fail("a facet does not have 3 vertices");
+                }
+            } else if (word == "solid" || word == "endsolid") {
+                solid_count_ += word == "solid" ? 1 : 0;
+                // A name may be any words. It ends with its line, or before a facet.
+                while (reader.words_left() > 0 && lower_case(reader.next_word()) != "facet") {
+                    reader.word();
+                }
+            }
+        }
         if (polygons_.corners.size() > polygons_.first.back()) {
             throw UnreadableFile("it ends within a facet; it is truncated");
         }
     }
 
-    void add_corner(const Eigen::Vector3d& position) {
-        polygons_.corners.push_back(static_cast<std::int32_t>(positions_.size()));
-        positions_.push_back(position);
+    void add_corner(std::int32_t normal) {
+        polygons_.corners.push_back(static_cast<std::int32_t>(polygons_.corners.size()));
+        normal_of_corner_.push_back(normal);
     }
 
-    std::string header_;  ///< of a binary file
-    std::vector<std::uint16_t> attributes_;
+    bool is_binary_ = false, has_colors_ = false;
+    std::size_t solid_count_ = 0;  ///< in text
 };
 
 }  // namespace
 
 std::unique_ptr<FileDocument> parse_stl(std::string&& content) {
-    return std::make_unique<StlDocument>(content);
+    return std::make_unique<StlDocument>(std::move(content));
 }
 
 void convert_to_stl(std::ostream& out, const FileDocument& source, const Points& positions) {
-    write_binary(out, "binary STL by tracked_mcf", positions, source.triangles(), {});
+    const std::vector<Triangle> triangles = source.triangles();
+    std::string header = "binary STL by tracked_mcf";
+    header.resize(kHeaderSize, ' ');
+    out << header << as_bytes(static_cast<std::uint32_t>(triangles.size()));
+    Eigen::Vector3f floats;
+    for (const Triangle& triangle : triangles) {
+        std::array<Eigen::Vector3d, 4> vectors;
+        for (std::size_t k = 0; k < 3; ++k) {
+            vectors[k + 1] = positions[static_cast<std::size_t>(triangle[k])];
+        }
+        const Eigen::Vector3d area = (vectors[2] - vectors[1]).cross(vectors[3] - vectors[1]);
+        vectors[0] = area.stableNormalized();
+        for (const Eigen::Vector3d& vector : vectors) out << as_floats(vector, floats);
+        out << as_bytes(std::uint16_t{0});
+    }
 }
 
 }  // namespace tracked_mcf
