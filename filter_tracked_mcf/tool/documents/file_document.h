@@ -80,9 +80,8 @@ public:
 protected:
     bool doubles() const { return doubles_; }
 
-    Move move_to(const Points& positions) const {
-        return {positions_, positions, writes_floats() ? FLT_EPSILON : DBL_EPSILON};
-    }
+    /// Returns the relative precision of coordinates.
+    double precision() const { return writes_floats() ? FLT_EPSILON : DBL_EPSILON; }
 
     Points positions_;
     Polygons polygons_;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "filter_tracked_mcf/tool/documents/ply_document.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <ostream>
 
 #include "filter_tracked_mcf/tool/documents/binary.h"
+#include "filter_tracked_mcf/tool/documents/file_document.h"
+#include "filter_tracked_mcf/tool/documents/ply_table.h"
 #include "filter_tracked_mcf/tool/file_error.h"
 
 namespace tracked_mcf {
@@ -18,21 +18,19 @@ constexpr std::array<std::string_view, 3> kNormal = {"nx", "ny", "nz"};
 constexpr std::array<std::string_view, 4> kChannels = {"red", "green", "blue", "alpha"};
 constexpr std::string_view kQuality = "quality";
 
-/// Returns the index of a name among `names`, or -1.
-template <std::size_t count>
-int index_in(const std::array<std::string_view, count>& names, std::string_view name) {
-    const auto found = std::find(names.begin(), names.end(), name);
-    return found == names.end() ? -1 : static_cast<int>(found - names.begin());
-}
+/// What a property means. The axis is that of a point, or the channel of a colour.
+struct Role {
+    enum Kind { None, Coordinate, Normal, Channel, Corners, Strips } kind = None;
+    int axis = 0;
+};
 
 /// Returns the channel of a colour that a property is, or -1.
 int channel_of(const PlyProperty& property) {
     if (property.type != PlyType::U8 || property.is_list()) return -1;
-    const std::string lower = lower_case(property.name);
-    std::string_view name = lower;
-    constexpr std::string_view prefix = "diffuse_";
-    if (name.substr(0, prefix.size()) == prefix) name.remove_prefix(prefix.size());
-    return index_in(kChannels, name);
+    std::string name = lower_case(property.name);
+    if (name.rfind("diffuse_", 0) == 0) name.erase(0, 8);
+    const auto found = std::find(kChannels.begin(), kChannels.end(), name);
+    return found == kChannels.end() ? -1 : static_cast<int>(found - kChannels.begin());
 }
 
 /// Returns the list of vertices of faces or strips. It has one of the names that programs use, or
@@ -69,157 +67,176 @@ void append_strips(const std::vector<std::int32_t>& vertices, Polygons& triangle
     }
 }
 
-}  // namespace
-
-PlyDocument::PlyDocument(std::string content)
-    : table_(std::move(content)), vertices_(table_.find("vertex")), faces_(table_.find("face")) {
-    const PlyElement* const strips = table_.find("tristrips");
-    if (!vertices_) throw UnreadableFile("it has no vertices");
-    if (!faces_ && !strips) throw UnreadableFile("it has no faces; a surface is needed");
-    roles_.resize(table_.property_count());
-    if (!set_roles(vertices_, Role::Coordinate, kCoordinates)) {
-        throw UnreadableFile("its vertices lack a number x, y or z");
-    }
-    vertices_have_normals_ = set_roles(vertices_, Role::Normal, kNormal);
-    faces_have_normals_ = set_roles(faces_, Role::Normal, kNormal);
-    for (const PlyProperty& property : vertices_->properties) {
-        const int channel = channel_of(property);
-        if (channel >= 0) roles_[property.index] = {Role::Channel, channel};
-    }
-    if (faces_) roles_[find_indices(*faces_).index].kind = Role::Corners;
-    if (strips) roles_[find_indices(*strips).index].kind = Role::Strips;
-    read();
-}
-
-/// Sets the roles of the numbers of these names, if the element has all of them.
-bool PlyDocument::set_roles(const PlyElement* element, Role::Kind kind,
-                            const std::array<std::string_view, 3>& names) {
-    std::array<const PlyProperty*, 3> found;
-    for (std::size_t i = 0; i < 3; ++i) {
-        found[i] = element ? element->find(names[i]) : nullptr;
-        if (!found[i] || found[i]->is_list()) return false;
-    }
-    for (int i = 0; i < 3; ++i) roles_[found[static_cast<std::size_t>(i)]->index] = {kind, i};
-    return true;
-}
-
-void PlyDocument::read() {
-    Polygons strip_triangles;
-    std::vector<std::int32_t> vertices;
-    const auto read_vertices = [&](const PlyElement& element, std::size_t row,
-                                   const PlyProperty& property, const Words& words, int lowest) {
-        vertices.clear();
-        for (std::size_t i = 1; i < words.size(); ++i) {
-            const double vertex = table_.number(words[i], property.type);
-            const bool is_whole = vertex == std::floor(vertex);
-            if (!is_whole || vertex < lowest || vertex >= static_cast<double>(vertices_->count)) {
-                throw UnreadableFile(element.name + ' ' + std::to_string(row) +
-                                     " refers to vertex " + format_number(vertex) + " of " +
-                                     std::to_string(vertices_->count) + " (counted from 0)");
-            }
-            vertices.push_back(static_cast<std::int32_t>(vertex));
+/// Vertices with x, y, z and faces or tristrips with vertex_indices. The triangles of strips follow
+/// the faces.
+class PlyDocument : public FileDocument {
+public:
+    explicit PlyDocument(std::string content)
+        : table_(std::move(content)),
+          vertices_(table_.find("vertex")),
+          faces_(table_.find("face")) {
+        const PlyElement* const strips = table_.find("tristrips");
+        if (!vertices_) throw UnreadableFile("it has no vertices");
+        if (!faces_ && !strips) throw UnreadableFile("it has no faces; a surface is needed");
+        roles_.resize(table_.property_count());
+        if (!set_roles(vertices_, Role::Coordinate, kCoordinates)) {
+            throw UnreadableFile("its vertices lack a number x, y or z");
         }
-    };
-    table_.for_each_field([&](const PlyElement& element, std::size_t row,
-                              const PlyProperty& property, const Words& words) {
-        const Role role = roles_[property.index];
-        if (&element == vertices_ && positions_.size() == row) {
-            positions_.emplace_back(Eigen::Vector3d::Zero());
+        vertices_have_normals_ = set_roles(vertices_, Role::Normal, kNormal);
+        faces_have_normals_ = set_roles(faces_, Role::Normal, kNormal);
+        for (const PlyProperty& property : vertices_->properties) {
+            const int channel = channel_of(property);
+            if (channel >= 0) roles_[property.index] = {Role::Channel, channel};
         }
-        if (role.kind == Role::Coordinate) {
-            positions_[row][role.axis] = table_.number(words[0], property.type);
-        } else if (role.kind == Role::Corners) {
-            read_vertices(element, row, property, words, 0);
-            auto& corners = polygons_.corners;
-            corners.insert(corners.end(), vertices.begin(), vertices.end());
-            polygons_.close();
-        } else if (role.kind == Role::Strips) {
-            read_vertices(element, row, property, words, -1);
-            append_strips(vertices, strip_triangles);
-        } else if (table_.is_text()) {
-            for (const std::string_view word : words) parse_number(word);
-        }
-    });
-    for (std::size_t i = 0; i < strip_triangles.corners.size(); ++i) {
-        polygons_.corners.push_back(strip_triangles.corners[i]);
-        if (i % 3 == 2) polygons_.close();
+        if (faces_) roles_[find_indices(*faces_).index].kind = Role::Corners;
+        if (strips) roles_[find_indices(*strips).index].kind = Role::Strips;
+        read();
     }
-}
 
-bool PlyDocument::writes_floats() const {
-    const auto& properties = vertices_->properties;
-    return !doubles() && std::all_of(properties.begin(), properties.end(), [&](const auto& p) {
-        return roles_[p.index].kind != Role::Coordinate || p.type == PlyType::Float;
-    });
-}
+    bool writes_floats() const override {
+        const auto& properties = vertices_->properties;
+        return !doubles() && std::all_of(properties.begin(), properties.end(), [&](const auto& p) {
+            return roles_[p.index].kind != Role::Coordinate || p.type == PlyType::Float;
+        });
+    }
 
-std::vector<Color> PlyDocument::vertex_colors() const {
-    std::vector<Color> colors;
-    const auto is_channel = [](const Role& role) { return role.kind == Role::Channel; };
-    if (std::none_of(roles_.begin(), roles_.end(), is_channel)) return colors;
-    colors.resize(vertices_->count, kWhite);
-    table_.for_each_field(
-        [&](const PlyElement&, std::size_t row, const PlyProperty& property, const Words& words) {
+    std::vector<Color> vertex_colors() const override {
+        std::vector<Color> colors;
+        const auto is_channel = [](const Role& role) { return role.kind == Role::Channel; };
+        if (std::none_of(roles_.begin(), roles_.end(), is_channel)) return colors;
+        colors.resize(positions_.size(), kWhite);
+        table_.for_each_field([&](const PlyElement&, std::size_t row, const PlyProperty& property,
+                                  const Words& words) {
             const Role role = roles_[property.index];
             if (!is_channel(role)) return;
             const double number = table_.number(words[0], property.type);
             colors[row][static_cast<std::size_t>(role.axis)] =
                 static_cast<std::uint8_t>(number > 0 ? std::lround(std::min(number, 255.0)) : 0);
         });
-    return colors;
-}
-
-std::vector<double> PlyDocument::numbers(NumbersOf items, const std::string& name) const {
-    const PlyElement* const element = items == NumbersOf::Faces ? faces_ : vertices_;
-    std::vector<double> numbers;
-    if (element) numbers = table_.numbers(*element, name);
-    // Triangles of strips follow the faces.
-    if (element == faces_ && !numbers.empty()) numbers.resize(polygons_.size());
-    return numbers;
-}
-
-std::vector<std::string> PlyDocument::property_names(NumbersOf items) const {
-    const PlyElement* const element = items == NumbersOf::Faces ? faces_ : vertices_;
-    std::vector<std::string> names;
-    for (std::size_t i = 0; element && i < element->properties.size(); ++i) {
-        if (!element->properties[i].is_list()) names.push_back(element->properties[i].name);
+        return colors;
     }
-    return names;
-}
 
-std::vector<std::string> PlyDocument::extras() const {
-    std::vector<std::string> extras;
-    for (const PlyElement& element : table_.elements()) {
-        std::string names;
-        bool is_converted = false;
-        for (const PlyProperty& property : element.properties) {
-            const Role::Kind kind = roles_[property.index].kind;
-            if (kind == Role::None || kind == Role::Normal)
-                names += (names.empty() ? "" : ", ") + property.name;
-            else
-                is_converted = true;
+    std::vector<double> numbers(NumbersOf items, const std::string& name) const override {
+        const PlyElement* const element = element_of(items);
+        std::vector<double> numbers;
+        if (element) numbers = table_.numbers(*element, name);
+        if (element == faces_ && !numbers.empty()) numbers.resize(polygons_.size());
+        return numbers;
+    }
+
+    std::vector<std::string> property_names(NumbersOf items) const override {
+        const PlyElement* const element = element_of(items);
+        std::vector<std::string> names;
+        for (std::size_t i = 0; element && i < element->properties.size(); ++i) {
+            if (!element->properties[i].is_list()) names.push_back(element->properties[i].name);
         }
-        if (!is_converted)
-            extras.push_back(element.name);
-        else if (!names.empty())
-            extras.push_back(names + (&element == vertices_ ? " of vertices" : " of faces"));
+        return names;
     }
-    if (table_.header().find("comment TextureFile ") != std::string_view::npos) {
-        extras.emplace_back("textures");
+
+    std::vector<std::string> extras() const override {
+        std::vector<std::string> extras;
+        for (const PlyElement& element : table_.elements()) {
+            std::string names;
+            bool is_converted = false;
+            for (const PlyProperty& property : element.properties) {
+                const Role::Kind kind = roles_[property.index].kind;
+                if (kind == Role::None || kind == Role::Normal)
+                    names += (names.empty() ? "" : ", ") + property.name;
+                else
+                    is_converted = true;
+            }
+            if (!is_converted)
+                extras.push_back(element.name);
+            else if (!names.empty())
+                extras.push_back(names + (&element == vertices_ ? " of vertices" : " of faces"));
+        }
+        const bool has_texture =
+            table_.header().find("comment TextureFile ") != std::string_view::npos;
+        if (has_texture) extras.emplace_back("textures");
+        return extras;
     }
-    return extras;
-}
+
+    void write(std::ostream& out, const Points& positions) const override;
+
+private:
+    const PlyElement* element_of(NumbersOf items) const {
+        return items == NumbersOf::Faces ? faces_ : vertices_;
+    }
+
+    /// Sets the roles of the numbers of these names, if the element has all of them.
+    bool set_roles(const PlyElement* element, Role::Kind kind,
+                   const std::array<std::string_view, 3>& names) {
+        std::array<const PlyProperty*, 3> found;
+        for (std::size_t i = 0; i < 3; ++i) {
+            found[i] = element ? element->find(names[i]) : nullptr;
+            if (!found[i] || found[i]->is_list()) return false;
+        }
+        for (int i = 0; i < 3; ++i) roles_[found[static_cast<std::size_t>(i)]->index] = {kind, i};
+        return true;
+    }
+
+    void read() {
+        Polygons strips;
+        std::vector<std::int32_t> vertices;
+        table_.for_each_field([&](const PlyElement& element, std::size_t row,
+                                  const PlyProperty& property, const Words& words) {
+            const Role role = roles_[property.index];
+            if (&element == vertices_ && positions_.size() == row) {
+                positions_.emplace_back(Eigen::Vector3d::Zero());
+            }
+            if (role.kind == Role::Coordinate) {
+                positions_[row][role.axis] = table_.number(words[0], property.type);
+            } else if (role.kind == Role::Corners) {
+                for (std::size_t i = 1; i < words.size(); ++i) {
+                    polygons_.corners.push_back(vertex(words[i], element, row, property, 0));
+                }
+                polygons_.close();
+            } else if (role.kind == Role::Strips) {
+                vertices.clear();
+                for (std::size_t i = 1; i < words.size(); ++i) {
+                    vertices.push_back(vertex(words[i], element, row, property, -1));
+                }
+                append_strips(vertices, strips);
+            } else if (table_.is_text()) {
+                for (const std::string_view word : words) parse_number(word);
+            }
+        });
+        for (std::size_t i = 0; i < strips.corners.size(); ++i) {
+            polygons_.corners.push_back(strips.corners[i]);
+            if (i % 3 == 2) polygons_.close();
+        }
+    }
+
+    std::int32_t vertex(std::string_view word, const PlyElement& element, std::size_t row,
+                        const PlyProperty& property, int lowest) const {
+        const double vertex = table_.number(word, property.type);
+        const auto count = static_cast<double>(vertices_->count);
+        if (vertex >= lowest && vertex < count && vertex == std::floor(vertex)) {
+            return static_cast<std::int32_t>(vertex);
+        }
+        throw UnreadableFile(element.name + ' ' + std::to_string(row) + " refers to vertex " +
+                             format_number(vertex) + " of " + format_number(count) +
+                             " (counted from 0)");
+    }
+
+    PlyTable table_;
+    const PlyElement *vertices_, *faces_;  ///< faces_ is null if there are only strips
+    std::vector<Role> roles_;              ///< by PlyProperty::index
+    bool vertices_have_normals_ = false, faces_have_normals_ = false;
+};
 
 void PlyDocument::write(std::ostream& out, const Points& positions) const {
     std::vector<std::int32_t> polygon_of_corner;
     for (std::size_t i = 0; i < polygons_.size(); ++i) {
         polygon_of_corner.resize(polygons_.first[i + 1], static_cast<std::int32_t>(i));
     }
-    const Move move = move_to(positions);
-    const Points vertex_normals = moved_normals(move, polygons_, polygons_.corners,
-                                                vertices_have_normals_ ? positions.size() : 0);
-    const Points face_normals = moved_normals(move, polygons_, polygon_of_corner,
-                                              faces_have_normals_ ? polygons_.size() : 0);
+    const auto normals = [&](const std::vector<std::int32_t>& of_corner, std::size_t count) {
+        return moved_normals(positions_, positions, precision(), polygons_, of_corner, count);
+    };
+    const Points vertex_normals =
+        normals(polygons_.corners, vertices_have_normals_ ? positions.size() : 0);
+    const Points face_normals =
+        normals(polygon_of_corner, faces_have_normals_ ? polygons_.size() : 0);
     const PlyProperty* const old_quality = quality().empty() ? nullptr : vertices_->find(kQuality);
     const PlyProperty* const before_quality =
         quality().empty() || old_quality ? nullptr : &vertices_->properties.back();
@@ -229,10 +246,9 @@ void PlyDocument::write(std::ostream& out, const Points& positions) const {
     for (const PlyElement& element : table_.elements()) {
         for (const PlyProperty& property : element.properties) {
             const Role::Kind kind = roles_[property.index].kind;
-            if (kind != Role::Coordinate && kind != Role::Normal && &property != old_quality)
-                continue;
-            const bool keeps_floats =
-                property.type == PlyType::Float && !doubles() && &property != old_quality;
+            const bool is_quality = &property == old_quality;
+            if (kind != Role::Coordinate && kind != Role::Normal && !is_quality) continue;
+            const bool keeps_floats = property.type == PlyType::Float && !doubles() && !is_quality;
             const PlyType type = keeps_floats ? PlyType::Float : PlyType::Double;
             types[property.index] = type;
             if (type == property.type && !property.is_list()) continue;
@@ -271,6 +287,8 @@ void PlyDocument::write(std::ostream& out, const Points& positions) const {
     });
     patch.finish();
 }
+
+}  // namespace
 
 std::unique_ptr<FileDocument> parse_ply(std::string&& content) {
     return std::make_unique<PlyDocument>(std::move(content));

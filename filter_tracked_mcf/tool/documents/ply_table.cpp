@@ -15,6 +15,10 @@ namespace tracked_mcf {
 
 namespace {
 
+/// The names of PlyTable's encodings.
+constexpr std::array<std::string_view, 3> kEncodings = {"ascii", "binary_little_endian",
+                                                        "binary_big_endian"};
+
 /// A zero of any type that PLY has.
 using Zero = std::variant<std::int8_t, std::uint8_t, std::int16_t, std::uint16_t, std::int32_t,
                           std::uint32_t, std::int64_t, std::uint64_t, float, double>;
@@ -79,17 +83,13 @@ auto find_by_name(const Range& range, std::string_view name) {
 
 PlyElement parse_element(const Words& words, const std::vector<PlyElement>& elements) {
     if (words.size() != 3) throw UnreadableFile("an element of its header is not 'element NAME N'");
-    PlyElement element;
-    element.name = words[1];
+    const std::string name(words[1]);
     const std::int64_t count = parse_integer(words[2]);
     if (count < 0 || count > std::numeric_limits<std::int32_t>::max()) {
-        throw UnreadableFile("the number of " + element.name + " elements is out of range");
+        throw UnreadableFile("the number of " + name + " elements is out of range");
     }
-    if (find_by_name(elements, element.name)) {
-        throw UnreadableFile("it has two elements " + element.name);
-    }
-    element.count = static_cast<std::size_t>(count);
-    return element;
+    if (find_by_name(elements, name)) throw UnreadableFile("it has two elements " + name);
+    return {name, static_cast<std::size_t>(count), {}, {}};
 }
 
 }  // namespace
@@ -109,15 +109,7 @@ PlyTable::PlyTable(std::string content) : content_(std::move(content)) {
     for (const PlyElement& element : elements_) {
         if (!element.properties.empty()) row_count += element.count;
     }
-    rows_are_lines_ = begin_body().text.count_lines() == row_count;
-}
-
-PlyTable::Encoding PlyTable::parse_format(const Words& words) {
-    const std::string name = words.size() >= 2 ? lower_case(words[1]) : "";
-    if (name == "ascii") return Encoding::Text;
-    if (name == "binary_little_endian") return Encoding::LittleEndian;
-    if (name == "binary_big_endian") return Encoding::BigEndian;
-    throw UnreadableFile("its header has no format that PLY knows");
+    rows_are_lines_ = body().text.count_lines() == row_count;
 }
 
 /// Lines that begin with another keyword, or have none, say nothing.
@@ -126,14 +118,13 @@ void PlyTable::parse_header() {
     if (!reader.find_line() || lower_case(reader.words()[0]) != "ply") {
         throw UnreadableFile("it is not a PLY file: it does not begin with 'ply'");
     }
-    bool has_format = false;
+    std::string format;
     for (std::string keyword; keyword != "end_header";) {
         if (!reader.find_line()) throw UnreadableFile("it ends within its header");
         const Words& words = reader.words();
         keyword = lower_case(words[0]);
-        if (keyword == "format") {
-            encoding_ = parse_format(words);
-            has_format = true;
+        if (keyword == "format" && words.size() > 1) {
+            format = lower_case(words[1]);
         } else if (keyword == "element") {
             elements_.push_back(parse_element(words, elements_));
             elements_.back().line_end = reader.line_end();
@@ -144,12 +135,14 @@ void PlyTable::parse_header() {
             element.line_end = reader.line_end();
         }
     }
-    if (!has_format) throw UnreadableFile("its header does not say in which format it is");
+    const auto found = std::find(kEncodings.begin(), kEncodings.end(), format);
+    if (found == kEncodings.end()) throw UnreadableFile("its header has no format that PLY knows");
+    encoding_ = Encoding(found - kEncodings.begin());
     body_ = content_.size() - reader.rest().size();
     header_lines_ = reader.line_number();
 }
 
-PlyTable::Body PlyTable::begin_body() const {
+PlyTable::Body PlyTable::body() const {
     const std::string_view bytes = std::string_view(content_).substr(body_);
     return {TextReader(bytes, TextReader::Syntax::Plain, header_lines_), bytes};
 }

@@ -49,10 +49,7 @@ public:
     const std::string& content() const { return content_; }
     std::string_view header() const { return std::string_view(content_).substr(0, body_); }
     const std::vector<PlyElement>& elements() const { return elements_; }
-
-    /// Returns the number of properties of all elements.
-    std::size_t property_count() const { return property_count_; }
-
+    std::size_t property_count() const { return property_count_; }  ///< of all elements
     bool is_text() const { return encoding_ == Encoding::Text; }
 
     /// Returns the element of that name, or null; as PlyElement::find() does.
@@ -63,7 +60,7 @@ public:
     /// first word. Throws UnreadableFile unless everything that the header announces is there.
     template <class Visit>
     void for_each_field(Visit visit) const {
-        Body body = begin_body();
+        Body body = this->body();
         Words words;
         for (const PlyElement& element : elements_) {
             if (element.properties.empty()) continue;
@@ -96,17 +93,15 @@ private:
         std::string_view bytes;
     };
 
-    static Encoding parse_format(const Words& words);
     void parse_header();
-    Body begin_body() const;
+    Body body() const;
     std::string_view next(Body& body, PlyType type) const;
     void read_field(Body& body, const PlyProperty& property, Words& words) const;
 
     std::string content_;
     std::vector<PlyElement> elements_;
     Encoding encoding_ = Encoding::Text;
-    std::size_t property_count_ = 0;
-    std::size_t body_ = 0, header_lines_ = 0;  ///< the header's bytes and lines
+    std::size_t property_count_ = 0, body_ = 0, header_lines_ = 0;
     bool rows_are_lines_ = false;  ///< each row has a line, whose further words are ignored
 };
 

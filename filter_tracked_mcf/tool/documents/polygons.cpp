@@ -76,22 +76,23 @@ void choose_diagonals(const Points& positions, Polygons& polygons) {
     }
 }
 
-Points moved_normals(const Move& move, const Polygons& polygons,
-                     const std::vector<std::int32_t>& normal_of_corner, std::size_t count) {
+Points moved_normals(const Points& before, const Points& after, double precision,
+                     const Polygons& polygons, const std::vector<std::int32_t>& normal_of_corner,
+                     std::size_t count) {
     Points normals(count, Eigen::Vector3d::Zero());
     std::vector<bool> has_moved(count, false);
     for (std::size_t i = 0; i < polygons.size() && count > 0; ++i) {
         const std::size_t begin = polygons.first[i], end = polygons.first[i + 1];
-        const auto vertex = [&](std::size_t c) {
-            return static_cast<std::size_t>(polygons.corners[c]);
+        const auto point = [&](const Points& points, std::size_t c) -> const Eigen::Vector3d& {
+            return points[static_cast<std::size_t>(polygons.corners[c])];
         };
         Eigen::Vector3d area = Eigen::Vector3d::Zero();
         bool moves = false;
         for (std::size_t c = begin; c < end; ++c) {
-            moves = moves || move.after[vertex(c)] != move.before[vertex(c)];
+            moves = moves || point(after, c) != point(before, c);
             if (c < begin + 2) continue;
-            area += area_vector(move.after[vertex(begin)], move.after[vertex(c - 1)],
-                                move.after[vertex(c)], move.precision);
+            area +=
+                area_vector(point(after, begin), point(after, c - 1), point(after, c), precision);
         }
         for (std::size_t c = begin; c < end && !area.isZero(0); ++c) {
             if (normal_of_corner[c] < 0) continue;

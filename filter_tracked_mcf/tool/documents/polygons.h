@@ -44,19 +44,13 @@ std::vector<Triangle> fans(const Polygons& polygons);
 /// another quadrangle already uses this diagonal.
 void choose_diagonals(const Points& positions, Polygons& polygons);
 
-/// The positions of a mesh before and after a move.
-struct Move {
-    const Points &before, &after;
-    double precision;  ///< relative distance of two neighbouring coordinates
-};
-
-/// Returns `count` unit normals after a move. Corner c contributes the area vector of its polygon
-/// to normal normal_of_corner[c], or to none if that is -1. One normal per vertex gives
-/// area-weighted vertex normals; a vertex with several normals keeps its crease sharp.
-///
-/// A normal is zero if it has no polygon with a moved vertex, or only such polygons without area.
-/// A triangle that is as thin as its coordinates are precise has no area.
-Points moved_normals(const Move& move, const Polygons& polygons,
-                     const std::vector<std::int32_t>& normal_of_corner, std::size_t count);
+/// Returns `count` unit normals of the shape `after`. Corner c contributes the area vector of its
+/// polygon to normal normal_of_corner[c], or to none if that is -1. One normal per vertex gives
+/// area-weighted vertex normals; a vertex with several normals keeps its crease sharp. A normal is
+/// zero unless one of its polygons has an area and a vertex that has moved since `before`.
+/// Triangles that are as thin as coordinates of this relative precision are precise have no area.
+Points moved_normals(const Points& before, const Points& after, double precision,
+                     const Polygons& polygons, const std::vector<std::int32_t>& normal_of_corner,
+                     std::size_t count);
 
 }  // namespace tracked_mcf

@@ -31,7 +31,7 @@ public:
         is_binary_ = problem.empty();
         if (is_binary_)
             read_binary();
-        else if (is_text(content_))
+        else if (is_text())
             read_text();
         else
             throw UnreadableFile(problem);
@@ -45,13 +45,30 @@ public:
     }
 
     void write(std::ostream& out, const Points& positions) const override {
-        if (is_binary_)
-            write_binary(out, positions);
-        else
-            TextDocument::write(out, positions);
+        if (!is_binary_) return TextDocument::write(out, positions);
+        const Points normals = moved_normals(positions_, positions, precision(), polygons_,
+                                             normal_of_corner_, polygons_.size());
+        Patch patch(out, content_);
+        Eigen::Vector3f floats;
+        for (std::size_t i = 0; i < normals.size(); ++i) {
+            for (std::size_t k = 0; k < 4; ++k) {
+                const Eigen::Vector3d& vector = k == 0 ? normals[i] : positions[3 * i + k - 1];
+                if (k == 0 && vector.isZero(0)) continue;
+                patch.replace(triangle_bytes(i).substr(k * sizeof floats, sizeof floats),
+                              as_floats(vector, floats));
+            }
+        }
+        patch.finish();
     }
 
 private:
+    /// Returns whether the beginning has no control characters but blanks and those at the end.
+    bool is_text() const {
+        const auto end = content_.find_last_not_of(std::string_view("\0\x1A", 2)) + 1;
+        return std::none_of(content_.begin(), content_.begin() + std::min<std::ptrdiff_t>(end, 999),
+                            [](char c) { return c >= 0 && c < '\t'; });
+    }
+
     /// Says what is wrong, or nothing.
     static std::string problem_of_binary(std::string_view content) {
         if (content.size() < kHeaderSize + kCountSize) {
@@ -65,13 +82,6 @@ private:
         if (content.size() >= announced && (more == 0 || more % kTriangleSize != 0)) return {};
         return "it announces " + std::to_string(count) + " triangles, which take " +
                std::to_string(announced) + " bytes, but it has " + std::to_string(content.size());
-    }
-
-    /// Text has no control characters but blanks. Zeros and Ctrl-Z may end it.
-    static bool is_text(std::string_view content) {
-        const std::size_t end = content.find_last_not_of(std::string_view("\0\x1A", 2)) + 1;
-        const std::string_view begin = content.substr(0, std::min<std::size_t>(end, 1000));
-        return std::none_of(begin.begin(), begin.end(), [](char c) { return c >= 0 && c < '\t'; });
     }
 
     void read_binary() {
@@ -95,29 +105,14 @@ private:
                                                  kTriangleSize);
     }
 
-    void write_binary(std::ostream& out, const Points& positions) const {
-        const Points normals =
-            moved_normals(move_to(positions), polygons_, normal_of_corner_, polygons_.size());
-        Patch patch(out, content_);
-        Eigen::Vector3f floats;
-        for (std::size_t i = 0; i < normals.size(); ++i) {
-            for (std::size_t k = 0; k < 4; ++k) {
-                const Eigen::Vector3d& vector = k == 0 ? normals[i] : positions[3 * i + k - 1];
-                if (k == 0 && vector.isZero(0)) continue;
-                patch.replace(triangle_bytes(i).substr(k * sizeof floats, sizeof floats),
-                              as_floats(vector, floats));
-            }
-        }
-        patch.finish();
-    }
-
     void read_text() {
         TextReader reader(content_);
         std::int32_t normal = -1;
-        for (bool is_first = true; reader.words_left() > 0 || reader.find_line();
-             is_first = false) {
+        std::string first;
+        while (reader.words_left() > 0 || reader.find_line()) {
             const std::string word = lower_case(reader.word());
-            if (is_first && word != "solid" && word != "facet") {
+            if (first.empty()) first = word;
+            if (first != "solid" && first != "facet") {
                 throw UnreadableFile("it is a text that does not begin with 'solid'");
             }
             if (word == "normal" && reader.words_left() >= 3) {

@@ -18,8 +18,8 @@ std::vector<Color> TextDocument::vertex_colors() const {
 }
 
 void TextDocument::write(std::ostream& out, const Points& positions) const {
-    const Points normals =
-        moved_normals(move_to(positions), polygons_, normal_of_corner_, normals_.size());
+    const Points normals = moved_normals(positions_, positions, precision(), polygons_,
+                                         normal_of_corner_, normals_.size());
     Patch patch(out, content_);
     for (const Point& point : points_) {
         const auto i = static_cast<std::size_t>(point.index);
