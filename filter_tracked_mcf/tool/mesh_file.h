@@ -15,10 +15,9 @@ class FileDocument;
 
 /// A mesh that was read from a PLY, OBJ, OFF or STL file.
 ///
-/// Written in its own format, the file keeps everything but positions and normals: polygons, PLY
-/// properties and elements of any kind, OBJ groups and materials, comments. Another format gets the
-/// positions, the polygons and the colours of vertices. STL has triangles, in floats, and no
-/// colours of vertices.
+/// Written in its own format, the file keeps everything but positions and normals to the letter,
+/// as text or binary. Another format gets the positions, the polygons and the colours of vertices.
+/// STL has triangles, in floats, and no colours of vertices.
 class MeshFile {
 public:
     /// Reads a file in the format of its extension. Throws UnreadableFile.

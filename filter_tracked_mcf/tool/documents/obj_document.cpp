@@ -23,7 +23,16 @@ public:
                 reader.fail(error.what());
             }
         }
-        check_indices();
+        // Vertices and normals may follow the faces that refer to them.
+        if (last_index_ >= static_cast<std::int64_t>(positions_.size())) {
+            throw UnreadableFile("line " + std::to_string(line_of_last_index_) +
+                                 ": a face refers to vertex " +
+                                 std::to_string(last_index_ + std::int64_t{1}) + " of " +
+                                 std::to_string(positions_.size()));
+        }
+        for (std::int32_t& normal : normal_of_corner_) {
+            if (normal >= static_cast<std::int64_t>(normals_.size())) normal = -1;
+        }
     }
 
     std::vector<std::string> extras() const override {
@@ -46,8 +55,10 @@ private:
         const Words& words = reader.words();
         if (words[0] == "v")
             read_vertex(words);
+        else if (words[0] == "vn" && words.size() >= 4)
+            read_point({words[1], words[2], words[3]}, normals_);
         else if (words[0] == "vn")
-            read_normal(words);
+            throw UnreadableFile("a normal does not have 3 coordinates");
         else if (words[0] == "f")
             read_face(words, reader.line_number());
         else if (words[0] == "q")
@@ -65,11 +76,6 @@ private:
         if (words.size() >= 7) read_color(&words[4], 3);
     }
 
-    void read_normal(const Words& words) {
-        if (words.size() < 4) throw UnreadableFile("a normal does not have 3 coordinates");
-        read_point({words[1], words[2], words[3]}, normals_);
-    }
-
     void read_face(const Words& words, std::size_t line) {
         for (std::size_t i = 1; i < words.size(); ++i) {
             read_corner(words[i]);
@@ -83,21 +89,20 @@ private:
     /// "v", "v/vt", "v//vn" or "v/vt/vn".
     void read_corner(std::string_view word) {
         const std::size_t slash = std::min(word.find('/'), word.size());
-        std::string_view texture = word.substr(std::min(slash + 1, word.size()));
-        const std::size_t second = std::min(texture.find('/'), texture.size());
-        const std::string_view normal = texture.substr(std::min(second + 1, texture.size()));
-        texture = texture.substr(0, second);
-
+        const std::string_view rest = word.substr(std::min(slash + 1, word.size()));
+        const std::size_t second = std::min(rest.find('/'), rest.size());
+        const std::string_view normal = rest.substr(std::min(second + 1, rest.size()));
+        if (second > 0) zero_based_index(rest.substr(0, second), 0);
+        constexpr std::int64_t largest_index = 2147483647;
         const std::int64_t vertex = zero_based_index(word.substr(0, slash), positions_.size());
-        if (vertex < 0 || vertex > kLargestIndex) {
+        if (vertex < 0 || vertex > largest_index) {
             throw UnreadableFile("a face refers to vertex " + std::string(word) + ", but only " +
                                  std::to_string(positions_.size()) + " precede it");
         }
         polygons_.corners.push_back(static_cast<std::int32_t>(vertex));
-        if (!texture.empty()) zero_based_index(texture, 0);
         const std::int64_t index = normal.empty() ? -1 : zero_based_index(normal, normals_.size());
-        normal_of_corner_.push_back(static_cast<std::int32_t>(
-            std::clamp(index, std::int64_t{-1}, std::int64_t{kLargestIndex})));
+        normal_of_corner_.push_back(
+            static_cast<std::int32_t>(std::clamp<std::int64_t>(index, -1, largest_index)));
     }
 
     /// Returns an index counted from 0. Files count from 1, or with negative numbers from the last
@@ -107,21 +112,6 @@ private:
         if (number == 0) throw UnreadableFile("a face has the index 0, which nothing has");
         return number > 0 ? number - 1 : static_cast<std::int64_t>(count) + number;
     }
-
-    /// Vertices and normals may follow the faces that refer to them.
-    void check_indices() {
-        if (last_index_ >= static_cast<std::int64_t>(positions_.size())) {
-            throw UnreadableFile("line " + std::to_string(line_of_last_index_) +
-                                 ": a face refers to vertex " +
-                                 std::to_string(last_index_ + std::int64_t{1}) + " of " +
-                                 std::to_string(positions_.size()));
-        }
-        for (std::int32_t& normal : normal_of_corner_) {
-            if (normal >= static_cast<std::int64_t>(normals_.size())) normal = -1;
-        }
-    }
-
-    static constexpr std::int32_t kLargestIndex = 2147483647;
 
     std::set<std::string_view> keywords_;  ///< the first words of other lines
     std::int32_t last_index_ = -1;

@@ -88,7 +88,7 @@ public:
             const int channel = channel_of(property);
             if (channel >= 0) roles_[property.index] = {Role::Channel, channel};
         }
-        if (faces_) roles_[find_indices(*faces_).index].kind = Role::Corners;
+        if (faces_ && faces_->count > 0) roles_[find_indices(*faces_).index].kind = Role::Corners;
         if (strips) roles_[find_indices(*strips).index].kind = Role::Strips;
         read();
     }
@@ -118,9 +118,14 @@ public:
 
     std::vector<double> numbers(NumbersOf items, const std::string& name) const override {
         const PlyElement* const element = element_of(items);
+        const PlyProperty* const wanted = element ? element->find(name) : nullptr;
         std::vector<double> numbers;
-        if (element) numbers = table_.numbers(*element, name);
-        if (element == faces_ && !numbers.empty()) numbers.resize(polygons_.size());
+        if (!wanted || wanted->is_list()) return numbers;
+        table_.for_each_field(
+            [&](const PlyElement&, std::size_t, const PlyProperty& property, const Words& words) {
+                if (&property == wanted) numbers.push_back(table_.number(words[0], property.type));
+            });
+        if (element == faces_) numbers.resize(polygons_.size());
         return numbers;
     }
 
@@ -145,7 +150,7 @@ public:
                 else
                     is_converted = true;
             }
-            if (!is_converted)
+            if (!is_converted && element.count > 0)
                 extras.push_back(element.name);
             else if (!names.empty())
                 extras.push_back(names + (&element == vertices_ ? " of vertices" : " of faces"));

@@ -23,7 +23,6 @@ constexpr std::array<std::string_view, 3> kEncodings = {"ascii", "binary_little_
 using Zero = std::variant<std::int8_t, std::uint8_t, std::int16_t, std::uint16_t, std::int32_t,
                           std::uint32_t, std::int64_t, std::uint64_t, float, double>;
 
-/// A PlyType: its two names and its C++ type.
 struct Type {
     const char *name, *other_name;
     Zero zero;
@@ -197,18 +196,6 @@ std::string PlyTable::word(double number, PlyType type) const {
 
 const PlyElement* PlyTable::find(std::string_view element_name) const {
     return find_by_name(elements_, element_name);
-}
-
-std::vector<double> PlyTable::numbers(const PlyElement& element,
-                                      std::string_view property_name) const {
-    const PlyProperty* const wanted = element.find(property_name);
-    std::vector<double> numbers;
-    if (!wanted || wanted->is_list()) return numbers;
-    for_each_field(
-        [&](const PlyElement&, std::size_t, const PlyProperty& property, const Words& words) {
-            if (&property == wanted) numbers.push_back(number(words[0], property.type));
-        });
-    return numbers;
 }
 
 }  // namespace tracked_mcf

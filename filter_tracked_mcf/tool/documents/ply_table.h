@@ -31,8 +31,7 @@ struct PlyElement {
     std::vector<PlyProperty> properties;
     std::string_view line_end;  ///< of its last line in the header
 
-    /// Returns the property of that name, or null. Upper case counts as lower case unless another
-    /// property has the very name.
+    /// Returns the property of that name, or else of that name in upper case; or null.
     const PlyProperty* find(std::string_view property_name) const;
 };
 
@@ -79,10 +78,6 @@ public:
 
     /// Returns the word for a number of type Float or Double.
     std::string word(double number, PlyType type) const;
-
-    /// Returns one number per row: the property of that name. Empty if there is none or if it is a
-    /// list.
-    std::vector<double> numbers(const PlyElement& element, std::string_view property_name) const;
 
 private:
     enum class Encoding { Text, LittleEndian, BigEndian };

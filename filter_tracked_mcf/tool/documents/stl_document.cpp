@@ -75,7 +75,6 @@ private:
             return "it is neither a binary nor an ASCII STL file";
         }
         const auto count = number_from<std::uint32_t>(content.data() + kHeaderSize);
-        if (count == 0) return "it has no triangles";
         const std::size_t announced = kHeaderSize + kCountSize + kTriangleSize * count;
         // Some programs append bytes, but whole triangles too many mean that the count is wrong.
         const std::size_t more = std::max(content.size(), announced) - announced;

@@ -51,7 +51,7 @@ public:
     /// Goes to the next line that has words. Returns false at the end.
     bool find_line();
 
-    /// Goes to the next line that has words. Throws UnreadableFile if there is none.
+    /// Goes there, too. Throws UnreadableFile at the end.
     void advance();
 
     /// Returns the next word, of the next line that has one if this one has no more.
@@ -60,22 +60,15 @@ public:
     /// Returns the word that word() will return, which this line must have.
     std::string_view next_word() const { return words_[next_]; }
 
-    /// Returns all words of this line.
-    const Words& words() const { return words_; }
-
-    /// Returns the number of words that this line still has.
+    const Words& words() const { return words_; }  ///< all of this line
     std::size_t words_left() const { return words_.size() - next_; }
+
+    std::size_t line_number() const { return line_number_; }
+    std::string_view line_end() const { return text_.substr(line_end_, at_ - line_end_); }
+    std::string_view rest() const { return text_.substr(at_); }  ///< what follows this line
 
     /// Returns the number of lines with words that follow.
     std::size_t count_lines() const;
-
-    std::size_t line_number() const { return line_number_; }
-
-    /// Returns the characters that end this line.
-    std::string_view line_end() const { return text_.substr(line_end_, at_ - line_end_); }
-
-    /// Returns what follows this line.
-    std::string_view rest() const { return text_.substr(at_); }
 
     /// Throws UnreadableFile with the number of this line: `what` is wrong with it.
     [[noreturn]] void fail(const std::string& what) const;
