@@ -35,9 +35,11 @@ inline std::string reversed(std::string_view bytes) {
     return {bytes.rbegin(), bytes.rend()};
 }
 
-/// Removes `count` times `size` bytes from the front and returns them.
+/// Removes `count` times `size` bytes, at most 8, from the front and returns them.
 inline std::string_view take_bytes(std::string_view& bytes, std::size_t count, std::size_t size) {
-    if (count > bytes.size() / size) throw UnreadableFile("it ends too early; it is truncated");
+    if (count > bytes.size() || count * size > bytes.size()) {
+        throw UnreadableFile("it ends too early; it is truncated");
+    }
     const std::string_view result = bytes.substr(0, count * size);
     bytes.remove_prefix(result.size());
     return result;

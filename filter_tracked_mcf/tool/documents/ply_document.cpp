@@ -155,9 +155,8 @@ public:
             else if (!names.empty())
                 extras.push_back(names + (&element == vertices_ ? " of vertices" : " of faces"));
         }
-        const bool has_texture =
-            table_.header().find("comment TextureFile ") != std::string_view::npos;
-        if (has_texture) extras.emplace_back("textures");
+        const std::size_t texture = table_.header().find("comment TextureFile ");
+        if (texture != std::string_view::npos) extras.emplace_back("textures");
         return extras;
     }
 
@@ -183,6 +182,7 @@ private:
     void read() {
         Polygons strips;
         std::vector<std::int32_t> vertices;
+        positions_.reserve(std::min(vertices_->count, table_.content().size()));
         table_.for_each_field([&](const PlyElement& element, std::size_t row,
                                   const PlyProperty& property, const Words& words) {
             const Role role = roles_[property.index];
@@ -216,9 +216,9 @@ private:
                         const PlyProperty& property, int lowest) const {
         const double vertex = table_.number(word, property.type);
         const auto count = static_cast<double>(vertices_->count);
-        if (vertex >= lowest && vertex < count && vertex == std::floor(vertex)) {
-            return static_cast<std::int32_t>(vertex);
-        }
+        const auto index =
+            static_cast<std::int32_t>(vertex >= lowest && vertex < count ? vertex : -2);
+        if (index == vertex && index >= lowest) return index;
         throw UnreadableFile(element.name + ' ' + std::to_string(row) + " refers to vertex " +
                              format_number(vertex) + " of " + format_number(count) +
                              " (counted from 0)");

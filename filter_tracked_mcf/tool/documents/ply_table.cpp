@@ -3,10 +3,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
 #include <utility>
-#include <variant>
 
 #include "filter_tracked_mcf/tool/documents/binary.h"
 #include "filter_tracked_mcf/tool/file_error.h"
@@ -19,35 +17,33 @@ namespace {
 constexpr std::array<std::string_view, 3> kEncodings = {"ascii", "binary_little_endian",
                                                         "binary_big_endian"};
 
-/// A zero of any type that PLY has.
-using Zero = std::variant<std::int8_t, std::uint8_t, std::int16_t, std::uint16_t, std::int32_t,
-                          std::uint32_t, std::int64_t, std::uint64_t, float, double>;
-
 struct Type {
     const char *name, *other_name;
-    Zero zero;
+    std::size_t size;
+    double (*read)(const char* bytes);
 };
 
-constexpr std::array<Type, 11> kTypes = {{{"", "", double{}},
-                                          {"char", "int8", std::int8_t{}},
-                                          {"uchar", "uint8", std::uint8_t{}},
-                                          {"short", "int16", std::int16_t{}},
-                                          {"ushort", "uint16", std::uint16_t{}},
-                                          {"int", "int32", std::int32_t{}},
-                                          {"uint", "uint32", std::uint32_t{}},
-                                          {"int64", "int64", std::int64_t{}},
-                                          {"uint64", "uint64", std::uint64_t{}},
-                                          {"float", "float32", float{}},
-                                          {"double", "float64", double{}}}};
-
-/// Calls visit with a zero of the C++ type of `type`, and returns what it returns.
-template <class Visit>
-auto with_type(PlyType type, Visit visit) {
-    return std::visit(visit, kTypes[static_cast<std::size_t>(type)].zero);
+template <class Number>
+constexpr Type type_of(const char* name, const char* other_name) {
+    return {name, other_name, sizeof(Number),
+            [](const char* bytes) { return static_cast<double>(number_from<Number>(bytes)); }};
 }
 
-std::size_t size_of(PlyType type) {
-    return with_type(type, [](auto number) { return sizeof number; });
+/// The types by PlyType.
+constexpr std::array<Type, 11> kTypes = {type_of<double>("", ""),
+                                         type_of<std::int8_t>("char", "int8"),
+                                         type_of<std::uint8_t>("uchar", "uint8"),
+                                         type_of<std::int16_t>("short", "int16"),
+                                         type_of<std::uint16_t>("ushort", "uint16"),
+                                         type_of<std::int32_t>("int", "int32"),
+                                         type_of<std::uint32_t>("uint", "uint32"),
+                                         type_of<std::int64_t>("int64", "int64"),
+                                         type_of<std::uint64_t>("uint64", "uint64"),
+                                         type_of<float>("float", "float32"),
+                                         type_of<double>("double", "float64")};
+
+const Type& row_of(PlyType type) {
+    return kTypes[static_cast<std::size_t>(type)];
 }
 
 PlyType type_named(std::string_view word) {
@@ -94,7 +90,7 @@ PlyElement parse_element(const Words& words, const std::vector<PlyElement>& elem
 }  // namespace
 
 const char* name_of(PlyType type) {
-    return kTypes[static_cast<std::size_t>(type)].name;
+    return row_of(type).name;
 }
 
 const PlyProperty* PlyElement::find(std::string_view property_name) const {
@@ -147,7 +143,7 @@ PlyTable::Body PlyTable::body() const {
 }
 
 std::string_view PlyTable::next(Body& body, PlyType type) const {
-    if (!is_text()) return take_bytes(body.bytes, 1, size_of(type));
+    if (!is_text()) return take_bytes(body.bytes, 1, row_of(type).size);
     if (rows_are_lines_ && body.text.words_left() == 0) {
         body.text.fail("it has fewer numbers than the header announces");
     }
@@ -159,17 +155,17 @@ void PlyTable::read_field(Body& body, const PlyProperty& property, Words& words)
     if (!property.is_list()) return words.push_back(next(body, property.type));
     words.push_back(next(body, property.count_type));
     const double length = number(words[0], property.count_type);
-    if (length < 0 || length != std::floor(length)) {
+    const auto count = static_cast<std::size_t>(length >= 0 && length < 1e18 ? length : 0);
+    if (static_cast<double>(count) != length) {
         throw UnreadableFile("the length of a list " + property.name + " is " +
                              format_number(length));
     }
     if (is_text()) {
-        for (double i = 0; i < length; ++i) words.push_back(next(body, property.type));
+        for (std::size_t i = 0; i < count; ++i) words.push_back(next(body, property.type));
         return;
     }
-    const std::size_t size = size_of(property.type), too_many = body.bytes.size() + 1;
-    const double count = std::min(length, static_cast<double>(too_many));
-    std::string_view list = take_bytes(body.bytes, static_cast<std::size_t>(count), size);
+    const std::size_t size = row_of(property.type).size;
+    std::string_view list = take_bytes(body.bytes, count, size);
     for (; !list.empty(); list.remove_prefix(size)) words.push_back(list.substr(0, size));
 }
 
@@ -178,12 +174,8 @@ double PlyTable::number(std::string_view word, PlyType type) const {
         const double number = parse_number(word);
         return type == PlyType::Float ? static_cast<float>(number) : number;
     }
-    return with_type(type, [&](auto zero) {
-        using Number = decltype(zero);
-        const bool is_reversed = encoding_ == Encoding::BigEndian;
-        return static_cast<double>(
-            number_from<Number>(is_reversed ? reversed(word).data() : word.data()));
-    });
+    const bool is_reversed = encoding_ == Encoding::BigEndian;
+    return row_of(type).read(is_reversed ? reversed(word).data() : word.data());
 }
 
 std::string PlyTable::word(double number, PlyType type) const {

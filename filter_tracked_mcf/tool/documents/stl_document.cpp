@@ -13,20 +13,16 @@ namespace {
 
 /// A binary file has a header, the number of triangles in 4 bytes, and for each triangle 12 floats
 /// (the normal and three vertices) and 2 bytes, which some programs use for a colour.
-constexpr std::size_t kHeaderSize = 80, kCountSize = 4, kFloatsSize = 48, kTriangleSize = 50;
+constexpr std::size_t kHeaderSize = 80, kBegin = 84, kTriangleSize = 50;
 
-/// Returns a vector as floats.
-std::string_view as_floats(const Eigen::Vector3d& vector, Eigen::Vector3f& floats) {
-    floats = vector.cast<float>();
-    return as_bytes(floats);
-}
+using Floats = Eigen::Vector3f;
 
 /// Triangles with three vertices of their own each. Coordinates are floats, also in text.
 class StlDocument : public TextDocument {
 public:
     explicit StlDocument(std::string content) : TextDocument(std::move(content)) {
         numbers_ = Numbers::FloatWords;
-        const std::string problem = problem_of_binary(content_);
+        const std::string problem = problem_of_binary();
         // The size decides first, because some binary files begin with "solid".
         is_binary_ = problem.empty();
         if (is_binary_)
@@ -49,13 +45,11 @@ public:
         const Points normals = moved_normals(positions_, positions, precision(), polygons_,
                                              normal_of_corner_, polygons_.size());
         Patch patch(out, content_);
-        Eigen::Vector3f floats;
         for (std::size_t i = 0; i < normals.size(); ++i) {
             for (std::size_t k = 0; k < 4; ++k) {
                 const Eigen::Vector3d& vector = k == 0 ? normals[i] : positions[3 * i + k - 1];
                 if (k == 0 && vector.isZero(0)) continue;
-                patch.replace(triangle_bytes(i).substr(k * sizeof floats, sizeof floats),
-                              as_floats(vector, floats));
+                patch.replace(vector_bytes(i, k), as_bytes(Floats(vector.cast<float>())));
             }
         }
         patch.finish();
@@ -70,38 +64,37 @@ private:
     }
 
     /// Says what is wrong, or nothing.
-    static std::string problem_of_binary(std::string_view content) {
-        if (content.size() < kHeaderSize + kCountSize) {
-            return "it is neither a binary nor an ASCII STL file";
-        }
-        const auto count = number_from<std::uint32_t>(content.data() + kHeaderSize);
-        const std::size_t announced = kHeaderSize + kCountSize + kTriangleSize * count;
+    std::string problem_of_binary() const {
+        const std::size_t size = content_.size();
+        if (size < kBegin) return "it is neither a binary nor an ASCII STL file";
+        const auto count = number_from<std::uint32_t>(&content_[kHeaderSize]);
+        const std::size_t announced = kBegin + kTriangleSize * count;
         // Some programs append bytes, but whole triangles too many mean that the count is wrong.
-        const std::size_t more = std::max(content.size(), announced) - announced;
-        if (content.size() >= announced && (more == 0 || more % kTriangleSize != 0)) return {};
+        if (size == announced || (size > announced && (size - announced) % kTriangleSize != 0)) {
+            return {};
+        }
         return "it announces " + std::to_string(count) + " triangles, which take " +
-               std::to_string(announced) + " bytes, but it has " + std::to_string(content.size());
+               std::to_string(announced) + " bytes, but it has " + std::to_string(size);
     }
 
     void read_binary() {
-        const auto count = number_from<std::uint32_t>(content_.data() + kHeaderSize);
+        const auto count = number_from<std::uint32_t>(&content_[kHeaderSize]);
         for (std::size_t i = 0; i < count; ++i) {
-            const char* const triangle = triangle_bytes(i).data();
-            for (std::size_t k = 3; k < 12; k += 3) {
-                const auto number = [&](std::size_t axis) {
-                    return double{number_from<float>(triangle + (k + axis) * sizeof(float))};
-                };
+            for (std::size_t k = 1; k < 4; ++k) {
+                const auto corner = number_from<std::array<float, 3>>(vector_bytes(i, k).data());
                 add_corner(static_cast<std::int32_t>(i));
-                positions_.emplace_back(number(0), number(1), number(2));
+                positions_.emplace_back(corner[0], corner[1], corner[2]);
             }
             polygons_.close();
-            if (number_from<std::uint16_t>(triangle + kFloatsSize) != 0) has_colors_ = true;
+            const auto color = number_from<std::uint16_t>(vector_bytes(i, 4).data());
+            has_colors_ = has_colors_ || color != 0;
         }
     }
 
-    std::string_view triangle_bytes(std::size_t i) const {
-        return std::string_view(content_).substr(kHeaderSize + kCountSize + kTriangleSize * i,
-                                                 kTriangleSize);
+    /// Returns the bytes of a binary triangle's normal, k = 0, or corner, and what follows.
+    std::string_view vector_bytes(std::size_t i, std::size_t k) const {
+        const std::size_t begin = kBegin + kTriangleSize * i + sizeof(Floats) * k;
+        return std::string_view(content_).substr(begin, sizeof(Floats));
     }
 
     void read_text() {
@@ -159,15 +152,13 @@ void convert_to_stl(std::ostream& out, const FileDocument& source, const Points&
     std::string header = "binary STL by tracked_mcf";
     header.resize(kHeaderSize, ' ');
     out << header << as_bytes(static_cast<std::uint32_t>(triangles.size()));
-    Eigen::Vector3f floats;
     for (const Triangle& triangle : triangles) {
-        std::array<Eigen::Vector3d, 4> vectors;
-        for (std::size_t k = 0; k < 3; ++k) {
-            vectors[k + 1] = positions[static_cast<std::size_t>(triangle[k])];
-        }
-        const Eigen::Vector3d area = (vectors[2] - vectors[1]).cross(vectors[3] - vectors[1]);
-        vectors[0] = area.stableNormalized();
-        for (const Eigen::Vector3d& vector : vectors) out << as_floats(vector, floats);
+        const auto corner = [&](std::size_t k) -> const Eigen::Vector3d& {
+            return positions[static_cast<std::size_t>(triangle[k])];
+        };
+        const Eigen::Vector3d area = (corner(1) - corner(0)).cross(corner(2) - corner(0));
+        out << as_bytes(Floats(area.stableNormalized().cast<float>()));
+        for (std::size_t k = 0; k < 3; ++k) out << as_bytes(Floats(corner(k).cast<float>()));
         out << as_bytes(std::uint16_t{0});
     }
 }
