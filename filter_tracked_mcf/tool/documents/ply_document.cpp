@@ -260,8 +260,9 @@ void PlyDocument::write(std::ostream& out, const Points& positions) const {
             patch.replace(property.type_words, name_of(type));
         }
         if (!before_quality || &element != vertices_) continue;
-        const std::string end(element.line_end);
-        patch.replace(element.line_end, end + "property double quality" + end);
+        std::string line(element.line_end);
+        line.append("property double quality").append(element.line_end);
+        patch.replace(element.line_end, line);
     }
     table_.for_each_field([&](const PlyElement& element, std::size_t row,
                               const PlyProperty& property, const Words& words) {

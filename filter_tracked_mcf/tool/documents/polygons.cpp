@@ -36,15 +36,15 @@ bool other_diagonal_is_better(const Eigen::Vector3d& p, const Eigen::Vector3d& q
                                     std::min(shape_quality(q, r, s), shape_quality(q, s, p));
 }
 
-/// Returns the normal of a triangle, twice as long as its area; zero if the triangle is as thin as
-/// its coordinates are precise.
+/// Returns the normal of a triangle, twice as long as its area; zero if rounding its coordinates to
+/// this relative precision may flatten it.
 Eigen::Vector3d area_vector(const Eigen::Vector3d& p, const Eigen::Vector3d& q,
                             const Eigen::Vector3d& r, double precision) {
     const Eigen::Vector3d area = (q - p).cross(r - p);
     const double largest = p.cwiseAbs().cwiseMax(q.cwiseAbs()).cwiseMax(r.cwiseAbs()).maxCoeff();
     const double base =
         std::max({(q - p).stableNorm(), (r - p).stableNorm(), (r - q).stableNorm()});
-    // Each end of two edges is rounded.
+    // Rounding moves each end of two edges.
     return area.stableNorm() > 4 * precision * largest * base ? area : Eigen::Vector3d::Zero();
 }
 

@@ -46,9 +46,10 @@ void choose_diagonals(const Points& positions, Polygons& polygons);
 
 /// Returns `count` unit normals of the shape `after`. Corner c contributes the area vector of its
 /// polygon to normal normal_of_corner[c], or to none if that is -1. One normal per vertex gives
-/// area-weighted vertex normals; a vertex with several normals keeps its crease sharp. A normal is
-/// zero unless one of its polygons has an area and a vertex that has moved since `before`.
-/// Triangles that are as thin as coordinates of this relative precision are precise have no area.
+/// area-weighted vertex normals; a vertex with several normals keeps its crease sharp.
+///
+/// A normal is zero unless one of its polygons has an area and a vertex that has moved since
+/// `before`. A triangle has no area if rounding to this relative precision may flatten it.
 Points moved_normals(const Points& before, const Points& after, double precision,
                      const Polygons& polygons, const std::vector<std::int32_t>& normal_of_corner,
                      std::size_t count);

@@ -9,11 +9,10 @@
 namespace tracked_mcf {
 
 std::vector<Color> TextDocument::vertex_colors() const {
-    std::vector<Color> colors;
-    for (const auto& channels : channels_) {
-        colors.push_back(make_color(channels, largest_channel_ > 1 || are_bytes_ ? 255 : 1));
+    std::vector<Color> colors(has_colors() ? positions_.size() : 0, kWhite);
+    for (std::size_t i = 0; i < channels_.size(); ++i) {
+        colors[i] = make_color(channels_[i], largest_channel_ > 1 || are_bytes_ ? 255 : 1);
     }
-    if (has_colors()) colors.resize(positions_.size(), kWhite);
     return colors;
 }
 
