@@ -30,9 +30,9 @@ public:
             for (std::size_t i = 0; i < face_count; ++i) read_row(&OffDocument::read_face);
             if (!is_binary()) check_end();
         } catch (const UnreadableFile& error) {
-            reader_.fail(error.what() + ("; are there the " + std::to_string(vertex_count)) +
+            reader_.fail(error.what() + ("; it announces " + std::to_string(vertex_count)) +
                          " vertices and " + std::to_string(face_count) +
-                         " faces that the file announces?");
+                         " faces, but may have more or fewer");
         }
         if (has_normals_) normal_of_corner_ = polygons_.corners;
     }
