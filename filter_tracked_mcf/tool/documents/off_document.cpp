@@ -23,8 +23,10 @@ public:
             bytes_ = reader_.rest();
         }
         const std::size_t vertex_count = read_count(), face_count = read_count();
-        read_edge_count();
-        if (!is_binary()) find_rows(vertex_count + face_count);
+        if (is_binary())
+            integer();
+        else
+            find_rows(vertex_count + face_count);
         try {
             for (std::size_t i = 0; i < vertex_count; ++i) read_row(&OffDocument::read_vertex);
             for (std::size_t i = 0; i < face_count; ++i) read_row(&OffDocument::read_face);
@@ -78,16 +80,11 @@ private:
         return static_cast<std::size_t>(count);
     }
 
-    /// The number of edges is not used, and some files lack it.
-    void read_edge_count() {
-        if (is_binary() || reader_.words_left() > 0 ||
-            (reader_.find_line() && reader_.words_left() == 1)) {
-            integer();
-        }
-    }
-
-    /// Finds out how rows, vertices and faces, are divided into lines.
+    /// Finds out how rows, which are vertices and faces, are divided into lines. The number of
+    /// edges before them is not used, and some files lack it.
     void find_rows(std::size_t row_count) {
+        if (reader_.words_left() > 0 || (reader_.find_line() && reader_.words_left() == 1))
+            integer();
         if (row_count > 0 && reader_.words_left() == 0) reader_.advance();
         const std::size_t size = 3u + (has_normals_ ? 3u : 0u) + texture_size_;
         own_lines_ = reader_.words_left() >= size && reader_.count_lines() + 1 >= row_count;
