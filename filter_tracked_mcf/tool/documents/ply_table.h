@@ -90,7 +90,7 @@ private:
 
     void parse_header();
     Body body() const;
-    std::string_view next(Body& body, PlyType type) const;
+    void read_word(Body& body, PlyType type, Words& words) const;
     void read_field(Body& body, const PlyProperty& property, Words& words) const;
 
     std::string content_;
