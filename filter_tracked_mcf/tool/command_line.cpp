@@ -94,12 +94,12 @@ struct ProgramTexts<FairParameters> {
 
 const char* const kFooter =
     "\n"
-    "Files: PLY, OBJ, OFF and STL, by extension; PLY and STL are written as binary. If OUTPUT has\n"
-    "the format of INPUT, only positions and normals change. Another format gets the positions,\n"
-    "the faces and the colours of the vertices (STL: triangles without colours), and a warning\n"
-    "names everything that is left out. Only a PLY file can hold a quality: the property quality\n"
-    "of its vertices. INPUT and OUTPUT may be the same file: it is replaced only after everything\n"
-    "has succeeded.\n"
+    "Files: PLY, OBJ, OFF and STL, by extension. If OUTPUT has the format of INPUT, only the\n"
+    "positions and the normals around them change: text stays text, and binary stays binary.\n"
+    "Another format gets the positions, the faces and the colours of the vertices (PLY: binary;\n"
+    "STL: binary triangles without colours), and a warning names everything that is left out.\n"
+    "Only a PLY file can hold a quality: the property quality of its vertices. INPUT and OUTPUT\n"
+    "may be the same file: it is replaced only after everything has succeeded.\n"
     "\n"
     "Exit codes: 0 done; 1 the mesh cannot be read or smoothed; 2 wrong use of options; 3 a\n"
     "result cannot be written. An interrupt ends the program by its signal, which a shell shows\n"

@@ -52,14 +52,14 @@ Selection MeshFile::selection_by(const std::string& name) const {
     }
     const auto is_selected = [&](std::size_t polygon) {
         if (!of_faces.empty()) return is_selecting(name, of_faces[polygon]);
-        const std::int32_t* const corners = &polygons.corners[polygons.first[polygon]];
+        const std::int32_t* const corners = polygons.corners.data() + polygons.first[polygon];
         return std::all_of(corners, corners + polygons.corner_count(polygon), [&](auto vertex) {
             return is_selecting(name, of_vertices[static_cast<std::size_t>(vertex)]);
         });
     };
     Selection selection;
     for (std::size_t i = 0; i < polygons.size(); ++i) {
-        selection.insert(selection.end(), polygons.corner_count(i) - 2, is_selected(i) ? 1 : 0);
+        selection.insert(selection.end(), polygons.triangle_count(i), is_selected(i) ? 1 : 0);
     }
     if (std::count(selection.begin(), selection.end(), 1) == 0) {
         throw InvalidMesh("No face of " + path_.u8string() + " is selected by '" + name +
@@ -89,8 +89,8 @@ void MeshFile::write_doubles() {
 
 bool MeshFile::writes_floats(const fs::path& file) const {
     const Format* const format = format_of(file);
-    return format->convert == convert_to_stl ||
-           (format == format_of(path_) && document_->writes_floats());
+    return format == format_of(path_) ? document_->writes_floats()
+                                      : format->convert == convert_to_stl;
 }
 
 void MeshFile::write(const TriangleMesh& moved, std::ostream& out, const fs::path& file) const {
@@ -107,6 +107,10 @@ std::string MeshFile::conversion_warning(const fs::path& file) const {
     std::vector<std::string> losses = document_->extras();
     const bool has_colors = !document_->vertex_colors().empty();
     if (has_colors && !to->keeps_colors) losses.insert(losses.begin(), "colours of vertices");
+    const Polygons& polygons = document_->polygons();
+    if (polygons.size_with_triangles() < polygons.size()) {
+        losses.emplace_back("faces of fewer than 3 corners");
+    }
     if (losses.empty()) return {};
     std::string list;
     for (const std::string& loss : losses) list += (list.empty() ? "" : "; ") + loss;

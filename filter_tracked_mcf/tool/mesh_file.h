@@ -15,10 +15,9 @@ class FileDocument;
 
 /// A mesh that was read from a PLY, OBJ, OFF or STL file.
 ///
-/// Written in its own format, the file keeps everything but positions and normals: polygons, PLY
-/// properties and elements of any kind, OBJ groups and materials, comments. Another format gets the
-/// positions, the polygons and the colours of vertices. STL has triangles, in floats, and no
-/// colours of vertices.
+/// Written in its own format, the file keeps everything but positions and normals to the letter,
+/// as text or binary. Another format gets the positions, the polygons and the colours of vertices.
+/// STL has triangles, in floats, and no colours of vertices.
 class MeshFile {
 public:
     /// Reads a file in the format of its extension. Throws UnreadableFile.
@@ -49,7 +48,7 @@ public:
     bool writes_floats(const std::filesystem::path& file) const;
 
     /// Writes the mesh with the positions of `moved`, which triangle_mesh() made, in the format of
-    /// the extension of `file`; PLY and STL are binary.
+    /// the extension of `file`. PLY and STL files of another format's mesh are binary.
     void write(const TriangleMesh& moved, std::ostream& out,
                const std::filesystem::path& file) const;
 

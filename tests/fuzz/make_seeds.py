@@ -33,6 +33,10 @@ def ply_files():
     texture = ["property list uchar float texcoord", "property int flags"]
     yield (ply_header("ascii", colours, texture) + lines(*(p + " 255 0 7" for p in points))
            + lines(*(f + " 6 0 0 1 0 0 1 32" for f in faces)))
+    yield (ply_header("ascii").replace(b"element face 4", b"element tristrips 1") + lines(*points)
+           + b"9 0 1 2 3 -1 0 2 -1 1\n").replace(b"\n", b"\r")
+    yield (ply_header("ascii", ["property int64 s"]).upper()
+           + lines("", *(p + " 255.0 more" for p in points), *faces))
     for form, order in ("binary_little_endian", "<"), ("binary_big_endian", ">"):
         yield (ply_header(form) + b"".join(struct.pack(order + "3f", *p) for p in POINTS)
                + b"".join(struct.pack(order + "B3i", 3, *f) for f in FACES))
@@ -44,6 +48,8 @@ def obj_files():
     yield lines("# a tetrahedron", *points, *faces)
     yield lines("mtllib a.mtl", *(p + " 1 0 0.5" for p in points), "vt 0 0", "vn 0 0 1", "g part",
                 "usemtl red", "f 1/1/1 3/1/1 2/1/1", "f 1//1 2//1 4//1", "f -3 -2 -1", "l 1 2 3", "s off")
+    yield b"\xef\xbb\xbf" + lines("f 1//1 2//9 \\\r", "3 # a\r", "v 0 0\r", "v 1 0 # b\r", "v 0 1\r",
+                                  "vn -1.#IND 0 1 1\r", "f 1 2\r")
 
 
 def off_files():
@@ -52,15 +58,21 @@ def off_files():
     yield lines("OFF", "4 4 6", *points, *faces)
     yield lines("COFF", "4 2 0", *(p + " 255 0 0 255" for p in points), "4 0 1 2 3 0.5 0.5 0.5",
                 "3 0 1 2 9")
+    yield lines("# a", "4 2", *(p + " 1 # b" for p in points), "3 0 1 2 # c", "2 0 1")
+    yield lines("OFF 4 4 6 " + " ".join(points + faces))
+    yield (b"COFF BINARY\n" + struct.pack(">3i", 4, 4, 6)
+           + b"".join(struct.pack(">7f", *p, 1, 0, 0, 1) for p in POINTS)
+           + b"".join(struct.pack(">4iif", 3, *f, 1, 0.5) for f in FACES))
 
 
 def stl_files():
     facet = ["facet normal 0 0 1", "outer loop", "vertex 0 0 0", "vertex 1 0 0", "vertex 0 1 0",
              "endloop", "endfacet"]
     yield lines("solid a", *facet, *facet, "endsolid a")
+    yield lines("\t\r\n", "SOLID a", *facet, *facet, "solid b " + " ".join(facet)) + b"\0\0"
     facets = [[c for i in face for c in POINTS[i]] for face in FACES]
     yield (b"binary".ljust(80) + struct.pack("<I", len(facets))
-           + b"".join(struct.pack("<12fH", 0, 0, 0, *facet, 0) for facet in facets))
+           + b"".join(struct.pack("<12fH", 0, 0, 0, *facet, 0) for facet in facets) + b"more")
 
 
 def evolve_files():

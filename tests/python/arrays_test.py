@@ -166,7 +166,11 @@ def read_vertices(path):
         columns.append(line.split())
     types = {"double": "<f8", "float": "<f4"}
     kind = numpy.dtype([(name, types[type_name]) for _, type_name, name in columns])
-    rows = numpy.frombuffer(data, kind, count=int(lines[first].split()[2]))
+    count = int(lines[first].split()[2])
+    if "format ascii 1.0" in lines:
+        rows = numpy.array([tuple(line.split()) for line in data.splitlines()[:count]], kind)
+    else:
+        rows = numpy.frombuffer(data, kind, count)
     positions = numpy.stack([rows[axis] for axis in "xyz"], axis=1)
     return positions.tobytes(), rows["quality"] if "quality" in kind.names else None
 

@@ -87,25 +87,43 @@ std::string rgba(int r, int g, int b, int a = 255) {
     return packed(byte(r), byte(g), byte(b), byte(a));
 }
 
-TEST(Conversion, ReadsColoursOfObjFilesUpToOneOrUpTo255) {
-    EXPECT_EQ(colors("v 0 0 0 0.2 0.4 1\nv 1 0 0 51 102 255\nv 0 1 0 # no colour 1 2 3\nf 1 2 3\n",
-                     "obj"),
-              rgba(51, 102, 255) + rgba(51, 102, 255) + rgba(255, 255, 255));
+TEST(Conversion, ColoursOfAnObjFileHaveOneScale) {
+    EXPECT_EQ(
+        colors("v 0 0 0 0.2 0.4 1\nv 1 0 0 1 0 0\nv 0 1 0 # no colour 1 2 3\nf 1 2 3\n", "obj"),
+        rgba(51, 102, 255) + rgba(255, 0, 0) + rgba(255, 255, 255));
+    EXPECT_EQ(colors("v 0 0 0 1 1 0\nv 1 0 0 51 102 255\nv 0 1 0 0 0 1\nf 1 2 3\n", "obj"),
+              rgba(1, 1, 0) + rgba(51, 102, 255) + rgba(0, 0, 1));
+}
+
+TEST(Conversion, ColoursOfAnOffFileHaveOneScale) {
+    const auto off = [](const std::string& a, const std::string& b, const std::string& c) {
+        return colors("COFF\n3 1 0\n0 0 0 " + a + "\n1 0 0 " + b + "\n0 1 0 " + c + "\n3 0 1 2\n",
+                      "off");
+    };
+    EXPECT_EQ(off("1 0 0 1", "0.2 0.4 1.0 0.6", ""),
+              rgba(255, 0, 0) + rgba(51, 102, 255, 153) + rgba(255, 255, 255));
+    EXPECT_EQ(off("1 0 0 1", "0 1 1", "1 1 1"), rgba(1, 0, 0, 1) + rgba(0, 1, 1) + rgba(1, 1, 1));
+    EXPECT_EQ(off("1.0 0 0", "255.0 0 51", "0 0 1"),
+              rgba(1, 0, 0) + rgba(255, 0, 51) + rgba(0, 0, 1));
 }
 
 TEST(Conversion, ColoursOutOfRangeBecomeTheNearestInRange) {
     EXPECT_EQ(
-        colors("v 0 0 0 -500 1e9 nan\nv 1 0 0 -1 0.5 1\nv 0 1 0 inf 256 51\nf 1 2 3\n", "obj"),
-        rgba(0, 255, 0) + rgba(0, 128, 255) + rgba(255, 255, 51));
+        colors("v 0 0 0 -500 1e9 nan\nv 1 0 0 -1 51 255\nv 0 1 0 inf 256 51\nf 1 2 3\n", "obj"),
+        rgba(0, 255, 0) + rgba(0, 51, 255) + rgba(255, 255, 51));
     EXPECT_EQ(colors("COFF\n3 1 0\n0 0 0 -500 1000000000 nan\n1 0 0 -1 51 255\n"
                      "0 1 0 inf 256 51\n3 0 1 2\n",
                      "off"),
               rgba(0, 255, 0) + rgba(0, 51, 255) + rgba(255, 255, 51));
-}
-
-TEST(Conversion, ReadsColoursOfOffFilesAsFractionsIfTheyHaveAPoint) {
-    EXPECT_EQ(colors("COFF\n3 1 0\n0 0 0 0.2 0.4 1.0 0.6\n1 0 0 1 0 1\n0 1 0\n3 0 1 2\n", "off"),
-              rgba(51, 102, 255, 153) + rgba(1, 0, 1) + rgba(255, 255, 255));
+    std::string ply = "ply\nformat ascii 1.0\nelement vertex 3\n";
+    for (const char* name :
+         {"float x", "float y", "float z", "uchar red", "uchar green", "uchar blue"})
+        ply += "property " + std::string(name) + '\n';
+    ply +=
+        "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+        "0 0 0 -1 256 nan\n1 0 0 51.0 1e2 inf\n0 1 0 0.25 1.75 255\n3 0 1 2\n";
+    EXPECT_EQ(colors(converted(ply, "ply", "obj"), "obj"),
+              rgba(0, 255, 0) + rgba(51, 100, 255) + rgba(0, 2, 255));
 }
 
 TEST(Conversion, ToPlyKeepsPolygonsOfMoreThan255Corners) {
@@ -139,6 +157,9 @@ std::string left_out(const std::string& content, const std::string& from, const 
 }
 
 TEST(ConversionWarning, NamesEverythingThatIsLeftOut) {
+    const std::string facet =
+        "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n"
+        "vertex 0 1 0\nendloop\nendfacet\n";
     EXPECT_EQ(left_out(kPly, "ply", "obj"),
               "quality, flags of vertices; texcoord of faces; edge; textures");
     EXPECT_EQ(left_out(kPly, "ply", "stl"),
@@ -152,9 +173,20 @@ TEST(ConversionWarning, NamesEverythingThatIsLeftOut) {
                        "3 0 1 2 255 0 0\n",
                        "off", "obj"),
               "normals; texture coordinates; colours of faces; indices of colours");
+    EXPECT_EQ(left_out("solid a\n" + facet + "endsolid a\nsolid b\n" + facet, "stl", "ply"),
+              "solids");
     EXPECT_EQ(
         left_out(std::string(80, ' ') + packed(1u) + std::string(48, '\0') + "ab", "stl", "ply"),
         "colours of triangles");
+}
+
+TEST(ConversionWarning, NamesFacesWithoutTriangles) {
+    const std::string off = "OFF\n3 3 0\n0 0 0\n1 0 0\n0 1 0\n1 0\n3 0 1 2\n2 0 1\n";
+    const std::string obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    EXPECT_EQ(converted(off, "off", "obj"), obj);
+    EXPECT_EQ(converted(off, "off", "ply"), converted(obj, "obj", "ply"));
+    EXPECT_EQ(converted(obj + "f 1 2\n", "obj", "off"), converted(obj, "obj", "off"));
+    EXPECT_EQ(left_out(off, "off", "obj"), "faces of fewer than 3 corners");
 }
 
 TEST(ConversionWarning, IsEmptyIfNothingIsLeftOut) {

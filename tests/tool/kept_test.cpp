@@ -14,7 +14,8 @@
 #include <ostream>
 #include <sstream>
 
-#include "filter_tracked_mcf/tool/documents/ply_document.h"
+#include "filter_tracked_mcf/tool/documents/file_document.h"
+#include "filter_tracked_mcf/tool/documents/ply_table.h"
 #include "tests/tool/temporary_folder.h"
 
 namespace tracked_mcf {
@@ -22,12 +23,6 @@ namespace {
 
 using Marks = std::vector<bool>;
 using Location = std::array<double, 3>;
-
-std::unique_ptr<PlyDocument> open_ply(const std::filesystem::path& path) {
-    auto document = std::make_unique<PlyDocument>(parse_ply_table(read_file(path)));
-    EXPECT_FALSE(document->positions().empty());
-    return document;
-}
 
 /// Numbers the vertices; coincident vertices get the same number.
 std::vector<std::size_t> location_numbers(const Points& positions) {
@@ -51,7 +46,7 @@ void for_each_side(const Polygons& polygons, Visit visit) {
 }
 
 /// Returns for each vertex whether a boundary edge ends there.
-Marks boundary_vertices(const PlyDocument& document) {
+Marks boundary_vertices(const FileDocument& document) {
     const std::vector<std::size_t> number_of = location_numbers(document.positions());
     std::map<std::pair<std::size_t, std::size_t>, int> sides;
     for_each_side(document.polygons(), [&](std::size_t, std::size_t a, std::size_t b) {
@@ -78,7 +73,7 @@ Marks with_twins(const Marks& marks, const Points& positions) {
 }
 
 /// Returns for each vertex whether a face uses it.
-Marks used_vertices(const PlyDocument& document) {
+Marks used_vertices(const FileDocument& document) {
     Marks result(document.positions().size(), false);
     for (const std::int32_t corner : document.polygons().corners) {
         result[static_cast<std::size_t>(corner)] = true;
@@ -97,7 +92,7 @@ Marks unchanged(const Points& a, const Points& b) {
 }
 
 /// Expects that marked and unused vertices are unchanged and that nearly all others have moved.
-void expect_kept(const PlyDocument& before, const PlyDocument& after, const Marks& kept) {
+void expect_kept(const FileDocument& before, const FileDocument& after, const Marks& kept) {
     ASSERT_EQ(before.positions().size(), after.positions().size());
     const Marks same = unchanged(before.positions(), after.positions());
     const Marks used = used_vertices(before);
@@ -119,7 +114,7 @@ void expect_kept(const PlyDocument& before, const PlyDocument& after, const Mark
 
 /// Returns `document` with a property `chosen` of the faces: 1 in the lower half of the longest
 /// axis.
-std::string with_lower_half_chosen(const PlyDocument& document, Marks& kept) {
+std::string with_lower_half_chosen(const FileDocument& document, Marks& kept) {
     Eigen::AlignedBox<double, 3> box;
     const Marks used = used_vertices(document);
     for (std::size_t i = 0; i < used.size(); ++i) {
@@ -183,17 +178,17 @@ protected:
         std::filesystem::copy_file(path, folder_ / "in.ply");
     }
 
-    std::unique_ptr<PlyDocument> smoothed(const std::string& options) const {
+    std::unique_ptr<FileDocument> smoothed(const std::string& options) const {
         const ProgramRun run = run_program(folder_, "in.ply out.ply --quiet " + options);
         EXPECT_EQ(run.exit_code, 0) << run.errors;
-        return open_ply(folder_ / "out.ply");
+        return open_document(folder_ / "out.ply");
     }
 
     TemporaryFolder folder_;
 };
 
 TEST_P(Kept, ALockedBoundaryKeepsItsBits) {
-    const auto before = open_ply(folder_ / "in.ply");
+    const auto before = open_document(folder_ / "in.ply");
     for (const char* flow : {"mean-curvature", "conformalized"}) {
         const auto after = smoothed("--step-size 1e-4 --iterations 5 --flow " + std::string(flow));
         expect_kept(*before, *after, boundary_vertices(*before));
@@ -201,9 +196,10 @@ TEST_P(Kept, ALockedBoundaryKeepsItsBits) {
 }
 
 TEST_P(Kept, UnselectedVerticesKeepTheirBits) {
-    Marks kept = boundary_vertices(*open_ply(folder_ / "in.ply"));
-    write_file(folder_ / "in.ply", with_lower_half_chosen(*open_ply(folder_ / "in.ply"), kept));
-    const auto before = open_ply(folder_ / "in.ply");
+    Marks kept = boundary_vertices(*open_document(folder_ / "in.ply"));
+    write_file(folder_ / "in.ply",
+               with_lower_half_chosen(*open_document(folder_ / "in.ply"), kept));
+    const auto before = open_document(folder_ / "in.ply");
     expect_kept(*before, *smoothed("--step-size 1e-4 --iterations 5 --selected chosen"),
                 with_twins(kept, before->positions()));
 }
@@ -215,18 +211,17 @@ INSTANTIATE_TEST_SUITE_P(OpenMeshes, Kept,
                              return test.param.empty() ? "bumpy_square" : test.param;
                          });
 
-/// Returns the bytes of all fields of a PLY file but positions, and the number of these fields.
+/// Returns the words of all fields of a PLY file but positions, and the number of these fields.
 std::pair<std::string, std::size_t> all_but_positions(const std::filesystem::path& path) {
     std::pair<std::string, std::size_t> result;
-    for (const PlyElement& element : parse_ply_table(read_file(path)).elements) {
-        result.first += element.name + std::to_string(element.count);
-        element.for_each_field(
-            [&](std::size_t, const PlyProperty& property, std::string_view bytes) {
-                if (property.name == "x" || property.name == "y" || property.name == "z") return;
-                result.first.append(property.name).append(bytes);
-                ++result.second;
-            });
-    }
+    PlyTable(read_file(path))
+        .for_each_field([&](const PlyElement& element, std::size_t row, const PlyProperty& property,
+                            const Words& words) {
+            if (property.name == "x" || property.name == "y" || property.name == "z") return;
+            result.first += element.name + std::to_string(row) + property.name;
+            for (const std::string_view word : words) result.first.append(word) += ' ';
+            ++result.second;
+        });
     return result;
 }
 

@@ -7,8 +7,8 @@
 #include <regex>
 #include <sstream>
 
+#include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/mesh/measures.h"
-#include "filter_tracked_mcf/tool/documents/ply_table.h"
 #include "filter_tracked_mcf/tool/mesh_file.h"
 #include "tests/tool/program_fixture.h"
 
@@ -245,10 +245,9 @@ TEST_F(Program, WhatCannotBePreservedIsRefused) {
 TEST_F(Program, TheQualityIsAPropertyOfThePlyFile) {
     const auto quality = [&](const std::string& option) {
         EXPECT_EQ(run("a.off b.ply --depth 4 --step-size 1e-4 " + option).exit_code, 0);
-        const PlyTable table = parse_ply_table(read_file(folder_ / "b.ply"));
-        return table.find("vertex")->numbers("quality");
+        return MeshFile(folder_ / "b.ply").numbers_by("quality");
     };
-    EXPECT_TRUE(quality("").empty());
+    EXPECT_THROW(quality(""), InvalidParameter);
     // All corners of the tetrahedron stand out and move in.
     const auto displacement = quality("--quality displacement");
     const auto curvature = quality("--quality mean-curvature");

@@ -51,6 +51,16 @@ TEST(Selection, AFaceIsSelectedByItsNumberAndAPolygonWithAllItsTriangles) {
     EXPECT_EQ(selected(kPyramid, "of_faces"), (Selection{1, 1, 0, 0, 1, 0}));
 }
 
+TEST(Selection, FacesOfFewCornersHaveNumbersAndNoTriangles) {
+    const std::string content =
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+        "property float z\nproperty float v\nelement face 4\n"
+        "property list uchar int vertex_indices\nproperty float f\nend_header\n"
+        "0 0 0 1\n1 0 0 1\n0 1 0 0\n2 0 1 1\n3 0 1 2 0\n0 1\n3 2 1 0 1\n";
+    EXPECT_EQ(selected(content, "f"), (Selection{0, 1}));
+    EXPECT_THROW(selected(content, "v"), InvalidMesh) << "only the face of two corners is selected";
+}
+
 TEST(Selection, APropertyOfFacesPrecedesOneOfVertices) {
     EXPECT_EQ(selected(kPyramid, "both"), (Selection{0, 0, 1, 0, 0, 0}));
 }

@@ -29,35 +29,5 @@ TEST(Stl, TrianglesColoursAndOrderAreKept) {
               header + triangle_bytes(0, 0, 1, 2, red) + triangle_bytes(0, 0, 1, 8, blue));
 }
 
-TEST(Stl, AsciiIsReadAndBecomesBinary) {
-    const TemporaryFolder folder;
-    write_file(folder / "in.stl",
-               "solid thing\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1.5 0 0\n"
-               "vertex 0 1 0\nendloop\nendfacet\nendsolid thing\n");
-    MeshFile file(folder / "in.stl");
-    EXPECT_EQ(written(file, file.triangle_mesh(), "out.stl").substr(80),
-              packed(1u) + triangle_bytes(0, 0, 1, 1.5, 0));
-}
-
-TEST(Stl, SolidsWithNamesAndBlankLinesAreRead) {
-    const std::string facet =
-        "  facet normal 0 0 1\r\n    outer loop\r\n vertex 0 0 0\r\n  \r\n vertex 1 0 0\r\n"
-        " vertex 0 1e-1 0\r\n    endloop\r\n  endfacet\r\n";
-    const TemporaryFolder folder;
-    write_file(folder / "in.stl", "solid\r\n" + facet +
-                                      "endsolid\r\nsolid second vertex of two\r\n" + facet +
-                                      "endsolid second vertex of two");
-    const TriangleMesh mesh = MeshFile(folder / "in.stl").triangle_mesh();
-    EXPECT_EQ(mesh.triangles, (std::vector<Triangle>{{0, 1, 2}, {3, 4, 5}}));
-    EXPECT_EQ(mesh.positions[5], Eigen::Vector3d(0, double{0.1f}, 0)) << "floats";
-}
-
-TEST(Stl, BinaryFilesMayBeginWithSolid) {
-    const TemporaryFolder folder;
-    write_file(folder / "in.stl",
-               "solid" + std::string(75, ' ') + packed(1u) + triangle_bytes(0, 0, 1, 1, 0));
-    EXPECT_EQ(MeshFile(folder / "in.stl").triangle_mesh().triangles.size(), 1u);
-}
-
 }  // namespace
 }  // namespace tracked_mcf

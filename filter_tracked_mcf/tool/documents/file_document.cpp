@@ -8,6 +8,7 @@
 #include <fstream>
 #include <system_error>
 
+#include "filter_tracked_mcf/tool/documents/text.h"
 #include "filter_tracked_mcf/tool/file_error.h"
 
 namespace tracked_mcf {
@@ -52,19 +53,10 @@ std::string read_whole_file(const fs::path& path) {
     return content;
 }
 
-void check_corner_counts(const Polygons& polygons) {
-    for (std::size_t i = 0; i < polygons.size(); ++i) {
-        if (polygons.corner_count(i) >= 3) continue;
-        throw UnreadableFile("face " + std::to_string(i) + " (counted from 0) has " +
-                             std::to_string(polygons.corner_count(i)) +
-                             " corners, at least 3 are needed");
-    }
-}
-
 }  // namespace
 
-Color make_color(const std::vector<double>& channels, double full) {
-    Color color = kWhite;
+Color make_color(const std::array<double, 4>& channels, double full) {
+    Color color;
     for (std::size_t i = 0; i < channels.size(); ++i) {
         // A channel that is not a number becomes 0.
         const double share = channels[i] > 0 ? std::min(channels[i] / full, 1.0) : 0;
@@ -74,14 +66,24 @@ Color make_color(const std::vector<double>& channels, double full) {
 }
 
 const Format* format_of(const fs::path& path) {
-    std::string extension = path.extension().u8string();
-    for (char& c : extension) {
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    }
+    const std::string extension = lower_case(path.extension().u8string());
     for (const Format& format : kFormats) {
         if (extension == format.extension) return &format;
     }
     return nullptr;
+}
+
+std::unique_ptr<FileDocument> parse_document(const Format& format, std::string&& content) {
+    if (content.empty()) throw UnreadableFile("it is empty");
+    auto document = format.parse(std::move(content));
+    const Polygons& polygons = document->polygons();
+    if (document->positions().empty()) throw UnreadableFile("it has no vertices");
+    if (polygons.size() == 0) throw UnreadableFile("it has no faces; a surface is needed");
+    if (polygons.size_with_triangles() == 0) {
+        throw UnreadableFile("none of its " + std::to_string(polygons.size()) +
+                             " faces has 3 corners or more; a surface is needed");
+    }
+    return document;
 }
 
 std::unique_ptr<FileDocument> open_document(const fs::path& path) {
@@ -89,10 +91,7 @@ std::unique_ptr<FileDocument> open_document(const fs::path& path) {
     const Format* const format = format_of(path);
     try {
         if (!format) throw UnreadableFile("its extension is not .ply, .obj, .off or .stl");
-        if (content.empty()) throw UnreadableFile("it is empty");
-        auto document = format->parse(std::move(content));
-        check_corner_counts(document->polygons());
-        return document;
+        return parse_document(*format, std::move(content));
     } catch (const UnreadableFile& error) {
         throw UnreadableFile(path.u8string() + " cannot be used: " + error.what() +
                              ". Repair the file or export the mesh again.");

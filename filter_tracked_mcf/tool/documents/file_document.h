@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cfloat>
 #include <cstdint>
 #include <filesystem>
 #include <iosfwd>
@@ -20,12 +21,12 @@ using Color = std::array<std::uint8_t, 4>;
 
 inline constexpr Color kWhite = {255, 255, 255, 255};
 
-/// Returns the colour with these three or four channels. The value `full` becomes 255.
-Color make_color(const std::vector<double>& channels, double full);
+/// Returns the colour with these channels. The value `full` becomes 255.
+Color make_color(const std::array<double, 4>& channels, double full);
 
 /// A mesh file, kept whole so that it can be written again with new positions and nothing else
-/// changed. It has been checked: every number is a number, every index is in range, every polygon
-/// has at least three corners, and nothing is missing at the end.
+/// changed. It has been checked: every number is a number, every index of a vertex is in range, a
+/// polygon has three corners, and nothing is missing at the end.
 class FileDocument {
 public:
     FileDocument() = default;
@@ -65,19 +66,22 @@ public:
     /// types.
     void write_doubles() { doubles_ = true; }
 
-    /// Returns whether a PLY file keeps its coordinates as floats. Other formats have one type.
+    /// Returns whether write() writes coordinates as floats.
     virtual bool writes_floats() const { return false; }
 
     /// Names what the file has besides positions, polygons and colours of vertices: what other
     /// formats do not keep.
     virtual std::vector<std::string> extras() const = 0;
 
-    /// Writes the file with other positions. Its normals become those of the new shape; a normal
-    /// that no face with an area defines stays.
+    /// Writes the file with other positions. The normals of faces with a moved vertex become those
+    /// of the new shape, except where no face has an area.
     virtual void write(std::ostream& out, const Points& positions) const = 0;
 
 protected:
     bool doubles() const { return doubles_; }
+
+    /// Returns the relative precision of coordinates.
+    double precision() const { return writes_floats() ? FLT_EPSILON : DBL_EPSILON; }
 
     Points positions_;
     Polygons polygons_;
@@ -91,7 +95,7 @@ private:
 struct Format {
     const char* extension;  ///< lower case, such as ".ply"
 
-    /// Makes a document of a file's whole content. Throws UnreadableFile without the file's name.
+    /// Makes a document of a file's whole content, see parse_document().
     std::unique_ptr<FileDocument> (*parse)(std::string&& content);
 
     /// Writes `positions` with the polygons and the colours of vertices of `source`, which may have
@@ -104,6 +108,9 @@ struct Format {
 
 /// Returns the format of a path by its extension, in upper or lower case; null if it is unknown.
 const Format* format_of(const std::filesystem::path& path);
+
+/// Makes a document of a file's whole content. Throws UnreadableFile without the file's name.
+std::unique_ptr<FileDocument> parse_document(const Format& format, std::string&& content);
 
 /// Reads a file in the format of its extension. Throws UnreadableFile.
 std::unique_ptr<FileDocument> open_document(const std::filesystem::path& path);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <ostream>
 
-#include "filter_tracked_mcf/tool/documents/text.h"
+#include "filter_tracked_mcf/tool/documents/binary.h"
 #include "filter_tracked_mcf/tool/documents/text_document.h"
 #include "filter_tracked_mcf/tool/file_error.h"
 
@@ -9,47 +9,34 @@ namespace tracked_mcf {
 
 namespace {
 
-/// What a vertex has besides coordinates, as the header's keyword says.
-struct VertexLayout {
-    bool normal = false, color = false, texture = false;
-};
-
-/// Takes the letters in any order: MeshLab writes CST where the format has STC.
-VertexLayout parse_keyword(const WordReader& words, std::string_view keyword) {
-    const std::size_t end = keyword.rfind("OFF");
-    if (end == std::string_view::npos) {
-        words.fail("an OFF file begins with OFF, COFF, NOFF, STOFF or a combination of these");
-    }
-    VertexLayout layout;
-    for (std::string_view prefix = keyword.substr(0, end); !prefix.empty();) {
-        const bool texture = prefix.substr(0, 2) == "ST";
-        if (texture)
-            layout.texture = true;
-        else if (prefix.front() == 'C')
-            layout.color = true;
-        else if (prefix.front() == 'N')
-            layout.normal = true;
-        else
-            words.fail("only three dimensions can be read");
-        prefix.remove_prefix(texture ? 2 : 1);
-    }
-    return layout;
-}
-
 class OffDocument : public TextDocument {
 public:
-    explicit OffDocument(std::string content) : TextDocument(std::move(content)) {
-        WordReader words(content_);
-        layout_ = parse_keyword(words, words.word());
-        if (words.words_left() == 0) words.advance();
-        const std::size_t vertex_count = read_count(words), face_count = read_count(words);
-        read_count(words);  // the number of edges is not used
-        if (vertex_count == 0) throw UnreadableFile("it has no vertices");
-        if (face_count == 0) throw UnreadableFile("it has no faces; a surface is needed");
-        words.advance();
-        for (std::size_t i = 0; i < vertex_count; ++i) read_vertex(words);
-        for (std::size_t i = 0; i < face_count; ++i) read_face(words);
-        if (layout_.normal) normal_of_corner_ = polygons_.corners;
+    explicit OffDocument(std::string content)
+        : TextDocument(std::move(content)), reader_(content_, TextReader::Syntax::Comments) {
+        are_bytes_ = true;
+        reader_.advance();
+        if (reader_.next_word().find_first_not_of("0123456789") != std::string_view::npos) {
+            read_keyword(reader_.word());
+        }
+        if (reader_.words_left() == 1 && lower_case(reader_.next_word()) == "binary") {
+            numbers_ = Numbers::BigEndianFloats;
+            bytes_ = reader_.rest();
+        }
+        const std::size_t vertex_count = read_count(), face_count = read_count();
+        if (is_binary())
+            integer();
+        else
+            find_rows(vertex_count + face_count);
+        try {
+            for (std::size_t i = 0; i < vertex_count; ++i) read_row(&OffDocument::read_vertex);
+            for (std::size_t i = 0; i < face_count; ++i) read_row(&OffDocument::read_face);
+            if (!is_binary()) check_end();
+        } catch (const UnreadableFile& error) {
+            reader_.fail(error.what() + ("; it announces " + std::to_string(vertex_count)) +
+                         " vertices and " + std::to_string(face_count) +
+                         " faces, but may have more or fewer");
+        }
+        if (has_normals_) normal_of_corner_ = polygons_.corners;
     }
 
     std::vector<Triangle> triangles() const override {
@@ -60,68 +47,126 @@ public:
 
     std::vector<std::string> extras() const override {
         std::vector<std::string> extras;
-        if (layout_.normal) extras.emplace_back("normals");
-        if (layout_.texture) extras.emplace_back("texture coordinates");
+        if (has_normals_) extras.emplace_back("normals");
+        if (texture_size_ > 0) extras.emplace_back("texture coordinates");
         if (has_face_colors_) extras.emplace_back("colours of faces");
-        if (layout_.color && !has_colors()) extras.emplace_back("indices of colours");
+        if (has_vertex_colors_ && !has_colors()) extras.emplace_back("indices of colours");
         return extras;
     }
 
 private:
-    static std::size_t read_count(WordReader& words) {
-        if (words.words_left() == 0) words.fail("it should have 3 counts");
-        const std::int64_t count = parse_integer(words.word());
-        if (count < 0 || count > 2147483647) words.fail("a count is out of range");
+    bool is_binary() const { return numbers_ == Numbers::BigEndianFloats; }
+
+    /// The letters say what a vertex has, in any order: MeshLab writes CST where the format has
+    /// STC.
+    void read_keyword(std::string_view keyword) {
+        const std::size_t end = keyword == "off" ? 0 : keyword.rfind("OFF");
+        if (end == std::string_view::npos) {
+            reader_.fail(
+                "an OFF file begins with OFF, COFF, NOFF, STOFF or a combination of these");
+        }
+        const std::string_view letters = keyword.substr(0, end);
+        if (letters.find_first_not_of("CNST") != std::string_view::npos) {
+            reader_.fail("only three dimensions can be read");
+        }
+        has_normals_ = letters.find('N') != std::string_view::npos;
+        has_vertex_colors_ = letters.find('C') != std::string_view::npos;
+        texture_size_ = letters.find("ST") != std::string_view::npos ? 2 : 0;
+    }
+
+    std::size_t read_count() {
+        const std::int64_t count = integer();
+        if (count < 0 || count > 2147483647) reader_.fail("a count is out of range");
         return static_cast<std::size_t>(count);
     }
 
-    void read_vertex(WordReader& words) {
-        read_point({words.word(), words.word(), words.word()}, positions_);
-        if (layout_.normal) read_point({words.word(), words.word(), words.word()}, normals_);
-        if (layout_.color) read_vertex_color(words);
-        for (int i = 0; layout_.texture && i < 2; ++i) parse_number(words.word());
+    /// Finds out how rows, which are vertices and faces, are divided into lines. The number of
+    /// edges before them is not used, and some files lack it.
+    void find_rows(std::size_t row_count) {
+        if (reader_.words_left() > 0 || (reader_.find_line() && reader_.words_left() == 1))
+            integer();
+        if (row_count > 0 && reader_.words_left() == 0) reader_.advance();
+        const std::size_t size = 3u + (has_normals_ ? 3u : 0u) + texture_size_;
+        own_lines_ = reader_.words_left() >= size && reader_.count_lines() + 1 >= row_count;
+        whole_ = own_lines_ || reader_.words_left() == size;
     }
 
-    /// Reads a colour, whose length only the end of the line tells.
-    void read_vertex_color(WordReader& words) {
-        const std::size_t after = layout_.texture ? 2 : 0, left = words.words_left();
-        if (left < after || left - after > 4) words.fail("a colour has 0 to 4 numbers");
-        if (left - after < 3) return check_color(words, words.take(left - after));
-        bool has_point = false;
-        std::vector<double> channels;
-        for (const std::string_view word : words.take(left - after)) {
-            channels.push_back(parse_number(word));
-            has_point = has_point || word.find('.') != std::string_view::npos;
+    void read_row(void (OffDocument::*read)()) {
+        const bool has_begun_line = reader_.words_left() < reader_.words().size();
+        const bool is_next = own_lines_ ? has_begun_line : reader_.words_left() == 0;
+        if (is_next && !is_binary()) reader_.advance();
+        (this->*read)();
+    }
+
+    /// A vertex too many or missing must not have been taken for a face or made a face a vertex.
+    void check_end() {
+        const bool all_have_triangles = polygons_.size_with_triangles() == polygons_.size();
+        if (own_lines_ && all_have_triangles && !has_long_vertex_) return;
+        const bool has_more = (!own_lines_ && reader_.words_left() > 0) || reader_.find_line();
+        if (has_more || !(own_lines_ || all_have_triangles)) {
+            throw UnreadableFile("more numbers follow, or faces have fewer than 3 corners");
         }
-        set_color(make_color(channels, has_point ? 1 : 255));
     }
 
-    void read_face(WordReader& words) {
-        words.advance();
-        const std::int64_t length = parse_integer(words.word());
-        if (length < 0) words.fail("a face has a negative number of corners");
+    /// Returns the next word, or the next four bytes.
+    std::string_view next() {
+        if (is_binary()) return take_bytes(bytes_, 1, sizeof(float));
+        if (!whole_ || reader_.words_left() > 0) return reader_.word();
+        throw UnreadableFile("the line has too few numbers");
+    }
+
+    std::int64_t integer() {
+        const std::string_view word = next();
+        return is_binary() ? number_from<std::int32_t>(reversed(word).data()) : parse_integer(word);
+    }
+
+    PointWords point() { return {next(), next(), next()}; }
+
+    void read_vertex() {
+        read_point(point(), positions_);
+        if (has_normals_) read_point(point(), normals_);
+        if (has_vertex_colors_) read_vertex_color();
+        for (std::size_t i = 0; i < texture_size_; ++i) next();
+        has_long_vertex_ = has_long_vertex_ || reader_.words().size() > 3;
+        if (whole_ && !own_lines_ && reader_.words_left() > 0) {
+            throw UnreadableFile("the line of a vertex has too many numbers");
+        }
+    }
+
+    /// Only the end of the line tells the length of a colour. One number is an index.
+    void read_vertex_color() {
+        const std::size_t left = reader_.words_left() - texture_size_;
+        if (own_lines_ && left > 4) throw UnreadableFile("a colour has 0 to 4 numbers");
+        Words words(own_lines_ ? left : 4);
+        for (std::string_view& word : words) word = next();
+        if (words.size() >= 3) read_color(words.data(), words.size());
+    }
+
+    void read_face() {
+        const std::int64_t length = integer();
+        if (length < 0) throw UnreadableFile("a face has a negative number of corners");
         for (std::int64_t i = 0; i < length; ++i) {
-            const std::int64_t index = parse_integer(words.word());
+            const std::int64_t index = integer();
             if (index < 0 || index >= static_cast<std::int64_t>(positions_.size())) {
-                words.fail("a face refers to vertex " + std::to_string(index) + " of " +
-                           std::to_string(positions_.size()) + " (counted from 0)");
+                throw UnreadableFile("a face refers to vertex " + std::to_string(index) + " of " +
+                                     std::to_string(positions_.size()) + " (counted from 0)");
             }
             polygons_.corners.push_back(static_cast<std::int32_t>(index));
         }
         polygons_.close();
-        has_face_colors_ = has_face_colors_ || words.words_left() > 0;
-        check_color(words, words.take(words.words_left()));
+        const auto color_size = is_binary() ? static_cast<std::size_t>(integer())
+                                            : (own_lines_ ? reader_.words_left() : 0);
+        has_face_colors_ = has_face_colors_ || color_size > 0;
+        if (is_binary()) take_bytes(bytes_, color_size, sizeof(float));
     }
 
-    /// A single number is an index into the 148 colours of Geomview.
-    static void check_color(const WordReader& reader, const Words& words) {
-        if (words.size() != 1) return;
-        const std::int64_t index = parse_integer(words[0]);
-        if (index < 0 || index > 147) reader.fail("a colour index is not within 0 to 147");
-    }
-
-    VertexLayout layout_;
-    bool has_face_colors_ = false;
+    TextReader reader_;
+    std::string_view bytes_;  ///< of a binary file, not yet read
+    bool has_normals_ = false, has_vertex_colors_ = false;
+    std::size_t texture_size_ = 0;  ///< words of a vertex
+    bool own_lines_ = false;  ///< each row begins a line, and further words of the line are no row
+    bool whole_ = false;      ///< no row begins in one line and ends in another
+    bool has_face_colors_ = false, has_long_vertex_ = false;
 };
 
 }  // namespace
@@ -133,8 +178,8 @@ std::unique_ptr<FileDocument> parse_off(std::string&& content) {
 void convert_to_off(std::ostream& out, const FileDocument& source, const Points& positions) {
     const std::vector<Color> colors = source.vertex_colors();
     const Polygons& polygons = source.polygons();
-    out << (colors.empty() ? "OFF\n" : "COFF\n") << positions.size() << ' ' << polygons.size()
-        << " 0\n";
+    out << (colors.empty() ? "OFF\n" : "COFF\n") << positions.size() << ' '
+        << polygons.size_with_triangles() << " 0\n";
     for (std::size_t i = 0; i < positions.size(); ++i) {
         const Eigen::Vector3d& p = positions[i];
         out << format_number(p.x()) << ' ' << format_number(p.y()) << ' ' << format_number(p.z());
@@ -144,6 +189,7 @@ void convert_to_off(std::ostream& out, const FileDocument& source, const Points&
         out << '\n';
     }
     for (std::size_t i = 0; i < polygons.size(); ++i) {
+        if (polygons.triangle_count(i) == 0) continue;
         out << polygons.corner_count(i);
         for (std::size_t corner = polygons.first[i]; corner < polygons.first[i + 1]; ++corner) {
             out << ' ' << polygons.corners[corner];

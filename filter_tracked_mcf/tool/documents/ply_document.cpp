@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "filter_tracked_mcf/tool/documents/ply_document.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 #include <ostream>
 
 #include "filter_tracked_mcf/tool/documents/binary.h"
-#include "filter_tracked_mcf/tool/documents/text.h"
+#include "filter_tracked_mcf/tool/documents/file_document.h"
+#include "filter_tracked_mcf/tool/documents/ply_table.h"
 #include "filter_tracked_mcf/tool/file_error.h"
 
 namespace tracked_mcf {
@@ -19,260 +17,287 @@ constexpr std::array<std::string_view, 3> kCoordinates = {"x", "y", "z"};
 constexpr std::array<std::string_view, 3> kNormal = {"nx", "ny", "nz"};
 constexpr std::array<std::string_view, 4> kChannels = {"red", "green", "blue", "alpha"};
 constexpr std::string_view kQuality = "quality";
-constexpr std::string_view kTexture = "comment TextureFile ";
 
-/// Returns the index of a name among `names`, or -1.
-template <std::size_t count>
-int index_in(const std::array<std::string_view, count>& names, std::string_view name) {
-    const auto found = std::find(names.begin(), names.end(), name);
-    return found == names.end() ? -1 : static_cast<int>(found - names.begin());
-}
+/// What a property means. The axis is that of a point, or the channel of a colour.
+struct Role {
+    enum Kind { None, Coordinate, Normal, Channel, Corners, Strips } kind = None;
+    int axis = 0;
+};
 
 /// Returns the channel of a colour that a property is, or -1.
 int channel_of(const PlyProperty& property) {
-    if (property.type != PlyType::UInt8 || property.is_list()) return -1;
-    std::string_view name = property.name;
-    constexpr std::string_view prefix = "diffuse_";
-    if (name.substr(0, prefix.size()) == prefix) name.remove_prefix(prefix.size());
-    return index_in(kChannels, name);
+    if (property.type != PlyType::U8 || property.is_list()) return -1;
+    std::string name = lower_case(property.name);
+    if (name.rfind("diffuse_", 0) == 0) name.erase(0, 8);
+    const auto found = std::find(kChannels.begin(), kChannels.end(), name);
+    return found == kChannels.end() ? -1 : static_cast<int>(found - kChannels.begin());
 }
 
-bool has_normals(const PlyElement& element) {
-    return std::all_of(kNormal.begin(), kNormal.end(), [&](std::string_view name) {
-        const PlyProperty* const property = element.find(name);
-        return property && !property->is_list();
-    });
-}
-
-bool names_texture(const std::string& comment) {
-    return comment.compare(0, kTexture.size(), kTexture) == 0;
-}
-
-/// Appends to `extras` the names of the properties for which `is_known` is false, such as
-/// "quality, flags of vertices".
-template <class IsKnown>
-void append_properties(const PlyElement& element, const char* of, IsKnown is_known,
-                       std::vector<std::string>& extras) {
-    std::string names;
+/// Returns the list of vertices of faces or strips. It has one of the names that programs use, or
+/// is the only list of whole numbers.
+const PlyProperty& find_indices(const PlyElement& element) {
+    for (const char* const name : {"vertex_indices", "vertex_index", "vertex_indexes"}) {
+        const PlyProperty* const found = element.find(name);
+        if (found && found->is_list()) return *found;
+    }
+    const PlyProperty* only = nullptr;
+    std::size_t count = 0;
     for (const PlyProperty& property : element.properties) {
-        if (!is_known(property)) names += (names.empty() ? "" : ", ") + property.name;
+        if (!property.is_list() || property.type >= PlyType::Float) continue;
+        only = &property;
+        ++count;
     }
-    if (!names.empty()) extras.push_back(names + of);
+    if (count != 1) throw UnreadableFile("its " + element.name + "s lack vertex_indices");
+    return *only;
 }
 
-const PlyElement& element_with_rows(const PlyTable& table, const char* name, const char* plural) {
-    const PlyElement* const element = table.find(name);
-    if (!element || element->count == 0) {
-        throw UnreadableFile(std::string("it has no ") + plural);
+/// Appends the triangles of strips of vertices, which -1 separates. Every other triangle of a strip
+/// is turned over. Triangles without area only lead from one part of a strip to the next.
+void append_strips(const std::vector<std::int32_t>& vertices, Polygons& triangles) {
+    std::size_t length = 0;
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+        length = vertices[i] < 0 ? 0 : length + 1;
+        if (length < 3) continue;
+        std::array<std::int32_t, 3> corners = {vertices[i - 2], vertices[i - 1], vertices[i]};
+        if (length % 2 == 0) std::swap(corners[0], corners[1]);
+        if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0])
+            continue;
+        triangles.corners.insert(triangles.corners.end(), corners.begin(), corners.end());
+        triangles.close();
     }
-    return *element;
 }
 
-Points read_positions(const PlyElement& vertices) {
-    Points positions(vertices.count);
-    for (int axis = 0; axis < 3; ++axis) {
-        const auto numbers = vertices.numbers(kCoordinates[static_cast<std::size_t>(axis)]);
-        if (numbers.empty()) throw UnreadableFile("its vertices lack a number x, y or z");
-        for (std::size_t i = 0; i < numbers.size(); ++i) positions[i][axis] = numbers[i];
-    }
-    return positions;
-}
-
-std::int32_t checked_index(double index, std::size_t vertex_count, std::size_t face) {
-    if (index >= 0 && index < static_cast<double>(vertex_count) && index == std::floor(index)) {
-        return static_cast<std::int32_t>(index);
-    }
-    throw UnreadableFile("face " + std::to_string(face) + " refers to vertex " +
-                         format_number(index) + " of " + std::to_string(vertex_count) +
-                         " (counted from 0)");
-}
-
-/// Returns the property of the faces that lists their vertices, or null.
-const PlyProperty* find_indices(const PlyElement& faces) {
-    const PlyProperty* const indices = faces.find("vertex_indices");
-    return indices ? indices : faces.find("vertex_index");
-}
-
-Polygons read_polygons(const PlyElement& faces, std::size_t vertex_count) {
-    const PlyProperty* const indices = find_indices(faces);
-    if (!indices || !indices->is_list()) throw UnreadableFile("its faces lack vertex_indices");
-    Polygons polygons;
-    faces.for_each_field([&](std::size_t row, const PlyProperty& property, std::string_view bytes) {
-        if (&property != indices) return;
-        const std::size_t length = list_length(property, bytes.data());
-        const char* at = bytes.data() + size_of(property.count_type);
-        for (std::size_t i = 0; i < length; ++i, at += size_of(property.type)) {
-            const double index = number_at(at, property.type);
-            polygons.corners.push_back(checked_index(index, vertex_count, row));
+/// Vertices with x, y, z and faces or tristrips with vertex_indices. The triangles of strips follow
+/// the faces.
+class PlyDocument : public FileDocument {
+public:
+    explicit PlyDocument(std::string content)
+        : table_(std::move(content)),
+          vertices_(table_.find("vertex")),
+          faces_(table_.find("face")) {
+        const PlyElement* const strips = table_.find("tristrips");
+        if (!vertices_) throw UnreadableFile("it has no vertices");
+        if (!faces_ && !strips) throw UnreadableFile("it has no faces; a surface is needed");
+        roles_.resize(table_.property_count());
+        if (!set_roles(vertices_, Role::Coordinate, kCoordinates)) {
+            throw UnreadableFile("its vertices lack a number x, y or z");
         }
-        polygons.close();
-    });
-    return polygons;
-}
+        vertices_have_normals_ = set_roles(vertices_, Role::Normal, kNormal);
+        faces_have_normals_ = set_roles(faces_, Role::Normal, kNormal);
+        for (const PlyProperty& property : vertices_->properties) {
+            const int channel = channel_of(property);
+            if (channel >= 0) roles_[property.index] = {Role::Channel, channel};
+        }
+        if (faces_ && faces_->count > 0) roles_[find_indices(*faces_).index].kind = Role::Corners;
+        if (strips) roles_[find_indices(*strips).index].kind = Role::Strips;
+        read();
+    }
 
-/// Returns whether the property is a number that a flow changes.
-bool is_computed(const PlyElement& element, const PlyProperty& property) {
-    const bool is_vertex = element.name == "vertex", is_face = element.name == "face";
-    return !property.is_list() &&
-           ((is_vertex && index_in(kCoordinates, property.name) >= 0) ||
-            ((is_vertex || is_face) && index_in(kNormal, property.name) >= 0));
-}
+    bool writes_floats() const override {
+        const auto& properties = vertices_->properties;
+        return !doubles() && std::all_of(properties.begin(), properties.end(), [&](const auto& p) {
+            return roles_[p.index].kind != Role::Coordinate || p.type == PlyType::Float;
+        });
+    }
 
-/// Returns the file's own type, but double for computed numbers that are neither float nor double
-/// in the file, or for all of them if `doubles` is true.
-PlyType written_type(const PlyElement& element, const PlyProperty& property, bool doubles) {
-    if (!is_computed(element, property)) return property.type;
-    return doubles || property.type != PlyType::Float ? PlyType::Double : PlyType::Float;
-}
+    std::vector<Color> vertex_colors() const override {
+        std::vector<Color> colors;
+        const auto is_channel = [](const Role& role) { return role.kind == Role::Channel; };
+        if (std::none_of(roles_.begin(), roles_.end(), is_channel)) return colors;
+        colors.resize(positions_.size(), kWhite);
+        table_.for_each_field([&](const PlyElement&, std::size_t row, const PlyProperty& property,
+                                  const Words& words) {
+            const Role role = roles_[property.index];
+            if (!is_channel(role)) return;
+            const double number = table_.number(words[0], property.type);
+            colors[row][static_cast<std::size_t>(role.axis)] =
+                static_cast<std::uint8_t>(number > 0 ? std::lround(std::min(number, 255.0)) : 0);
+        });
+        return colors;
+    }
 
-void write_header(std::ostream& out, const PlyTable& table, bool doubles) {
-    out << "ply\nformat binary_little_endian 1.0\n";
-    for (const std::string& comment : table.comments) out << comment << '\n';
-    for (const PlyElement& element : table.elements) {
-        out << "element " << element.name << ' ' << element.count << '\n';
+    std::vector<double> numbers(NumbersOf items, const std::string& name) const override {
+        const PlyElement* const element = element_of(items);
+        const PlyProperty* const wanted = element ? element->find(name) : nullptr;
+        std::vector<double> numbers;
+        if (!wanted || wanted->is_list()) return numbers;
+        table_.for_each_field(
+            [&](const PlyElement&, std::size_t, const PlyProperty& property, const Words& words) {
+                if (&property == wanted) numbers.push_back(table_.number(words[0], property.type));
+            });
+        if (element == faces_) numbers.resize(polygons_.size());
+        return numbers;
+    }
+
+    std::vector<std::string> property_names(NumbersOf items) const override {
+        const PlyElement* const element = element_of(items);
+        std::vector<std::string> names;
+        for (std::size_t i = 0; element && i < element->properties.size(); ++i) {
+            if (!element->properties[i].is_list()) names.push_back(element->properties[i].name);
+        }
+        return names;
+    }
+
+    std::vector<std::string> extras() const override {
+        std::vector<std::string> extras;
+        for (const PlyElement& element : table_.elements()) {
+            std::string names;
+            bool is_converted = false;
+            for (const PlyProperty& property : element.properties) {
+                const Role::Kind kind = roles_[property.index].kind;
+                if (kind == Role::None || kind == Role::Normal)
+                    names += (names.empty() ? "" : ", ") + property.name;
+                else
+                    is_converted = true;
+            }
+            if (!is_converted && element.count > 0)
+                extras.push_back(element.name);
+            else if (!names.empty())
+                extras.push_back(names + (&element == vertices_ ? " of vertices" : " of faces"));
+        }
+        const std::size_t texture = table_.header().find("comment TextureFile ");
+        if (texture != std::string_view::npos) extras.emplace_back("textures");
+        return extras;
+    }
+
+    void write(std::ostream& out, const Points& positions) const override;
+
+private:
+    const PlyElement* element_of(NumbersOf items) const {
+        return items == NumbersOf::Faces ? faces_ : vertices_;
+    }
+
+    /// Sets the roles of the numbers of these names, if the element has all of them.
+    bool set_roles(const PlyElement* element, Role::Kind kind,
+                   const std::array<std::string_view, 3>& names) {
+        std::array<const PlyProperty*, 3> found;
+        for (std::size_t i = 0; i < 3; ++i) {
+            found[i] = element ? element->find(names[i]) : nullptr;
+            if (!found[i] || found[i]->is_list()) return false;
+        }
+        for (int i = 0; i < 3; ++i) roles_[found[static_cast<std::size_t>(i)]->index] = {kind, i};
+        return true;
+    }
+
+    void read() {
+        Polygons strips;
+        std::vector<std::int32_t> vertices;
+        positions_.reserve(std::min(vertices_->count, table_.content().size()));
+        table_.for_each_field([&](const PlyElement& element, std::size_t row,
+                                  const PlyProperty& property, const Words& words) {
+            const Role role = roles_[property.index];
+            if (&element == vertices_ && positions_.size() == row) {
+                positions_.emplace_back(Eigen::Vector3d::Zero());
+            }
+            if (role.kind == Role::Coordinate) {
+                positions_[row][role.axis] = table_.number(words[0], property.type);
+            } else if (role.kind == Role::Corners) {
+                for (std::size_t i = 1; i < words.size(); ++i) {
+                    polygons_.corners.push_back(vertex(words[i], element, row, property, 0));
+                }
+                polygons_.close();
+            } else if (role.kind == Role::Strips) {
+                vertices.clear();
+                for (std::size_t i = 1; i < words.size(); ++i) {
+                    vertices.push_back(vertex(words[i], element, row, property, -1));
+                }
+                append_strips(vertices, strips);
+            } else if (table_.is_text()) {
+                for (const std::string_view word : words) parse_number(word);
+            }
+        });
+        for (std::size_t i = 0; i < strips.corners.size(); ++i) {
+            polygons_.corners.push_back(strips.corners[i]);
+            if (i % 3 == 2) polygons_.close();
+        }
+    }
+
+    std::int32_t vertex(std::string_view word, const PlyElement& element, std::size_t row,
+                        const PlyProperty& property, int lowest) const {
+        const double vertex = table_.number(word, property.type);
+        const auto count = static_cast<double>(vertices_->count);
+        const auto index =
+            static_cast<std::int32_t>(vertex >= lowest && vertex < count ? vertex : -2);
+        if (index == vertex && index >= lowest) return index;
+        throw UnreadableFile(element.name + ' ' + std::to_string(row) + " refers to vertex " +
+                             format_number(vertex) + " of " + format_number(count) +
+                             " (counted from 0)");
+    }
+
+    PlyTable table_;
+    const PlyElement *vertices_, *faces_;  ///< faces_ is null if there are only strips
+    std::vector<Role> roles_;              ///< by PlyProperty::index
+    bool vertices_have_normals_ = false, faces_have_normals_ = false;
+};
+
+void PlyDocument::write(std::ostream& out, const Points& positions) const {
+    std::vector<std::int32_t> polygon_of_corner;
+    for (std::size_t i = 0; i < polygons_.size(); ++i) {
+        polygon_of_corner.resize(polygons_.first[i + 1], static_cast<std::int32_t>(i));
+    }
+    const auto normals = [&](const std::vector<std::int32_t>& of_corner, std::size_t count) {
+        return moved_normals(positions_, positions, precision(), polygons_, of_corner, count);
+    };
+    const Points vertex_normals =
+        normals(polygons_.corners, vertices_have_normals_ ? positions.size() : 0);
+    const Points face_normals =
+        normals(polygon_of_corner, faces_have_normals_ ? polygons_.size() : 0);
+    const PlyProperty* const old_quality = quality().empty() ? nullptr : vertices_->find(kQuality);
+    const PlyProperty* const before_quality =
+        quality().empty() || old_quality ? nullptr : &vertices_->properties.back();
+
+    Patch patch(out, table_.content());
+    std::vector<PlyType> types(roles_.size(), PlyType::None);  // of properties that may change
+    for (const PlyElement& element : table_.elements()) {
         for (const PlyProperty& property : element.properties) {
-            out << "property ";
-            if (property.is_list()) out << "list " << name_of(property.count_type) << ' ';
-            out << name_of(written_type(element, property, doubles)) << ' ' << property.name
-                << '\n';
+            const Role::Kind kind = roles_[property.index].kind;
+            const bool is_quality = &property == old_quality;
+            if (kind != Role::Coordinate && kind != Role::Normal && !is_quality) continue;
+            const bool keeps_floats = property.type == PlyType::Float && !doubles() && !is_quality;
+            const PlyType type = keeps_floats ? PlyType::Float : PlyType::Double;
+            types[property.index] = type;
+            if (type == property.type && !property.is_list()) continue;
+            patch.replace(property.type_words, name_of(type));
         }
+        if (!before_quality || &element != vertices_) continue;
+        std::string line(element.line_end);
+        line.append("property double quality").append(element.line_end);
+        patch.replace(element.line_end, line);
     }
-    out << "end_header\n";
-}
-
-Points face_normals(const Points& positions, const Polygons& polygons) {
-    Points normals;
-    for (std::size_t i = 0; i < polygons.size(); ++i) {
-        normals.push_back(area_vector(positions, polygons, i).stableNormalized());
-    }
-    return normals;
-}
-
-/// Writes the rows of an element with coordinates from `positions`, unless null, and normals from
-/// `normals`, unless empty; a zero normal keeps the old one.
-void write_rows(std::ostream& out, const PlyElement& element, const Points* positions,
-                const Points& normals, bool doubles) {
-    struct Source {
-        bool computed, is_double;
-        int coordinate, normal;  ///< or -1
-    };
-    std::vector<Source> sources;
-    sources.reserve(element.properties.size());
-    for (const PlyProperty& property : element.properties) {
-        sources.push_back({is_computed(element, property),
-                           written_type(element, property, doubles) == PlyType::Double,
-                           positions ? index_in(kCoordinates, property.name) : -1,
-                           normals.empty() ? -1 : index_in(kNormal, property.name)});
-    }
-    std::string block;  // a stream takes a few large blocks much faster than many small ones
-    constexpr std::size_t block_size = 1 << 16;
-    const auto write_field = [&](std::size_t row, const PlyProperty& property,
-                                 std::string_view bytes) {
-        const Source& source =
-            sources[static_cast<std::size_t>(&property - element.properties.data())];
-        if (source.computed) {
-            double number = number_at(bytes.data(), property.type);
-            if (source.coordinate >= 0) number = (*positions)[row][source.coordinate];
-            if (source.normal >= 0 && !normals[row].isZero(0)) number = normals[row][source.normal];
-            block += source.is_double ? as_bytes(number) : as_bytes(static_cast<float>(number));
-        } else {
-            block += bytes;
+    table_.for_each_field([&](const PlyElement& element, std::size_t row,
+                              const PlyProperty& property, const Words& words) {
+        const PlyType type = types[property.index];
+        const Role role = roles_[property.index];
+        const std::string_view last = words.back();
+        if (type != PlyType::None) {
+            const double before = table_.number(words[0], property.type);
+            double after = before;
+            if (&property == old_quality) {
+                after = quality()[row];
+            } else if (role.kind == Role::Coordinate) {
+                after = positions[row][role.axis];
+            } else {
+                const auto& normal = (&element == faces_ ? face_normals : vertex_normals)[row];
+                if (!normal.isZero(0)) after = normal[role.axis];
+            }
+            const bool has_changed = before != after && !std::isnan(after);
+            if (has_changed || type != property.type || property.is_list()) {
+                const char* const begin = words[0].data();
+                const std::string_view field(begin, last.data() + last.size() - begin);
+                patch.replace(field, table_.word(after, type));
+            }
         }
-        if (block.size() < block_size) return;
-        out << block;
-        block.clear();
-    };
-    element.for_each_field(write_field);
-    out << block;
+        if (&property != before_quality) return;
+        const std::string word = table_.word(quality()[row], PlyType::Double);
+        patch.replace(last.substr(last.size()), table_.is_text() ? ' ' + word : word);
+    });
+    patch.finish();
 }
 
 }  // namespace
 
-PlyDocument::PlyDocument(PlyTable table) : table_(std::move(table)) {
-    positions_ = read_positions(element_with_rows(table_, "vertex", "vertices"));
-    polygons_ = read_polygons(element_with_rows(table_, "face", "faces; a surface is needed"),
-                              positions_.size());
-}
-
-bool PlyDocument::writes_floats() const {
-    const auto& properties = vertices().properties;
-    return !doubles() && std::all_of(properties.begin(), properties.end(), [](const auto& p) {
-        return index_in(kCoordinates, p.name) < 0 || p.type == PlyType::Float;
-    });
-}
-
-std::vector<Color> PlyDocument::vertex_colors() const {
-    std::vector<Color> colors;
-    vertices().for_each_field(
-        [&](std::size_t row, const PlyProperty& property, std::string_view bytes) {
-            const int channel = channel_of(property);
-            if (channel < 0) return;
-            colors.resize(vertices().count, kWhite);
-            colors[row][static_cast<std::size_t>(channel)] =
-                static_cast<std::uint8_t>(number_at(bytes.data(), property.type));
-        });
-    return colors;
-}
-
-std::vector<double> PlyDocument::numbers(NumbersOf items, const std::string& name) const {
-    return element(items).numbers(name);
-}
-
-std::vector<std::string> PlyDocument::property_names(NumbersOf items) const {
-    std::vector<std::string> names;
-    for (const PlyProperty& property : element(items).properties) {
-        if (!property.is_list()) names.push_back(property.name);
-    }
-    return names;
-}
-
-std::vector<std::string> PlyDocument::extras() const {
-    std::vector<std::string> extras;
-    const auto is_position_or_color = [](const PlyProperty& property) {
-        return index_in(kCoordinates, property.name) >= 0 || channel_of(property) >= 0;
-    };
-    append_properties(vertices(), " of vertices", is_position_or_color, extras);
-    const auto is_list_of_corners = [indices = find_indices(faces())](const PlyProperty& property) {
-        return &property == indices;
-    };
-    append_properties(faces(), " of faces", is_list_of_corners, extras);
-    for (const PlyElement& element : table_.elements) {
-        if (element.name != "vertex" && element.name != "face") extras.push_back(element.name);
-    }
-    const auto& comments = table_.comments;
-    if (std::any_of(comments.begin(), comments.end(), names_texture))
-        extras.emplace_back("textures");
-    return extras;
-}
-
-void PlyDocument::write(std::ostream& out, const Points& positions) const {
-    std::optional<PlyTable> with_quality;
-    if (!quality().empty()) {
-        with_quality = table_;
-        for (PlyElement& element : with_quality->elements) {
-            if (element.name == "vertex") element.set_numbers(kQuality, quality());
-        }
-    }
-    const PlyTable& table = with_quality ? *with_quality : table_;
-    write_header(out, table, doubles());
-    for (const PlyElement& element : table.elements) {
-        Points normals;
-        if (element.name == "vertex") {
-            if (has_normals(element)) {
-                normals = corner_normals(positions, polygons_, polygons_.corners, positions.size());
-            }
-            write_rows(out, element, &positions, normals, doubles());
-        } else if (element.name == "face") {
-            if (has_normals(element)) normals = face_normals(positions, polygons_);
-            write_rows(out, element, nullptr, normals, doubles());
-        } else {
-            out << element.rows;
-        }
-    }
-}
-
 std::unique_ptr<FileDocument> parse_ply(std::string&& content) {
-    return std::make_unique<PlyDocument>(parse_ply_table(content));
+    return std::make_unique<PlyDocument>(std::move(content));
 }
 
 void convert_to_ply(std::ostream& out, const FileDocument& source, const Points& positions) {
@@ -291,7 +316,7 @@ void convert_to_ply(std::ostream& out, const FileDocument& source, const Points&
     }
     const std::vector<double>& quality = source.quality();
     if (!quality.empty()) out << "property double " << kQuality << '\n';
-    out << "element face " << polygons.size() << "\nproperty list "
+    out << "element face " << polygons.size_with_triangles() << "\nproperty list "
         << (short_lists ? "uchar" : "int") << " int vertex_indices\nend_header\n";
     for (std::size_t i = 0; i < positions.size(); ++i) {
         out << as_bytes(positions[i]);
@@ -299,6 +324,7 @@ void convert_to_ply(std::ostream& out, const FileDocument& source, const Points&
         if (!quality.empty()) out << as_bytes(quality[i]);
     }
     for (std::size_t i = 0; i < polygons.size(); ++i) {
+        if (polygons.triangle_count(i) == 0) continue;
         // In the little-endian order the first byte is the short length.
         const auto count = static_cast<std::int32_t>(polygons.corner_count(i));
         out << as_bytes(count).substr(0, short_lists ? 1 : sizeof count);

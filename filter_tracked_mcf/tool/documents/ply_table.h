@@ -6,78 +6,98 @@
 #include <string_view>
 #include <vector>
 
+#include "filter_tracked_mcf/tool/documents/text.h"
+
 namespace tracked_mcf {
 
-enum class PlyType { None, Int8, UInt8, Int16, UInt16, Int32, UInt32, Float, Double };
+enum class PlyType { None, I8, U8, I16, U16, I32, U32, I64, U64, Float, Double };
 
-std::size_t size_of(PlyType type);
 const char* name_of(PlyType type);
-
-/// Returns the number of type `type` at `bytes`, in this machine's byte order.
-double number_at(const char* bytes, PlyType type);
 
 struct PlyProperty {
     std::string name;
     PlyType type = PlyType::None;
     PlyType count_type = PlyType::None;  ///< of a list's length; None unless it is a list
+    std::string_view type_words;         ///< in the header
+    std::size_t index = 0;               ///< among the properties of all elements
 
     bool is_list() const { return count_type != PlyType::None; }
 };
 
-/// Returns the number of entries of the list at `field`.
-inline std::size_t list_length(const PlyProperty& list, const char* field) {
-    return static_cast<std::size_t>(number_at(field, list.count_type));
-}
-
-/// One kind of item in a PLY file, such as its vertices: `count` packed rows.
+/// One kind of item, such as vertices.
 struct PlyElement {
     std::string name;
     std::size_t count = 0;
     std::vector<PlyProperty> properties;
-    std::string rows;
+    std::string_view line_end;  ///< of its last line in the header
 
-    /// Returns the property of that name, or null.
+    /// Returns the property of that name, or else of that name in upper case; or null.
     const PlyProperty* find(std::string_view property_name) const;
+};
 
-    /// Returns the size of a row in bytes; 0 if lists make it vary.
-    std::size_t row_size() const;
+/// A PLY file, whatever its properties mean: its content, and how the header divides it.
+class PlyTable {
+public:
+    /// Parses the header. Throws UnreadableFile if it makes no sense.
+    explicit PlyTable(std::string content);
 
-    /// Returns one number per row: the property of that name. Empty if there is none or if it is a
-    /// list.
-    std::vector<double> numbers(std::string_view property_name) const;
+    // Elements have views into the content.
+    PlyTable(const PlyTable&) = delete;
+    PlyTable& operator=(const PlyTable&) = delete;
 
-    /// Gives each row a Double of that name, in place of a property that has the name, or else
-    /// after all others.
-    void set_numbers(std::string_view property_name, const std::vector<double>& numbers);
+    const std::string& content() const { return content_; }
+    std::string_view header() const { return std::string_view(content_).substr(0, body_); }
+    const std::vector<PlyElement>& elements() const { return elements_; }
+    std::size_t property_count() const { return property_count_; }  ///< of all elements
+    bool is_text() const { return encoding_ == Encoding::Text; }
 
-    /// Calls visit(row, property, bytes) for every field: a number, or a list with its length.
+    /// Returns the element of that name, or null; as PlyElement::find() does.
+    const PlyElement* find(std::string_view element_name) const;
+
+    /// Calls visit(element, row, property, words) for every field in the order of the file. A word
+    /// is a view into the content: the text or the bytes of a number. The length of a list is its
+    /// first word. Throws UnreadableFile unless everything that the header announces is there.
     template <class Visit>
     void for_each_field(Visit visit) const {
-        const char* at = rows.data();
-        for (std::size_t row = 0; row < count; ++row) {
-            for (const PlyProperty& property : properties) {
-                std::size_t size = size_of(property.type);
-                if (property.is_list()) {
-                    size = size_of(property.count_type) + size * list_length(property, at);
+        Body body = this->body();
+        Words words;
+        for (const PlyElement& element : elements_) {
+            if (element.properties.empty()) continue;
+            for (std::size_t row = 0; row < element.count; ++row) {
+                if (rows_are_lines_) body.text.advance();
+                for (const PlyProperty& property : element.properties) {
+                    read_field(body, property, words);
+                    visit(element, row, property, words);
                 }
-                visit(row, property, std::string_view(at, size));
-                at += size;
             }
         }
     }
+
+    /// Returns the number of a word. It is rounded to a float if that is its type.
+    double number(std::string_view word, PlyType type) const;
+
+    /// Returns the word for a number of type Float or Double.
+    std::string word(double number, PlyType type) const;
+
+private:
+    enum class Encoding { Text, LittleEndian, BigEndian };
+
+    /// What follows the header and has not been read.
+    struct Body {
+        TextReader text;
+        std::string_view bytes;
+    };
+
+    void parse_header();
+    Body body() const;
+    void read_word(Body& body, PlyType type, Words& words) const;
+    void read_field(Body& body, const PlyProperty& property, Words& words) const;
+
+    std::string content_;
+    std::vector<PlyElement> elements_;
+    Encoding encoding_ = Encoding::Text;
+    std::size_t property_count_ = 0, body_ = 0, header_lines_ = 0;
+    bool rows_are_lines_ = false;  ///< each row has a line, whose further words are ignored
 };
-
-/// A PLY file, whatever its properties mean. In memory it is binary in this machine's byte order,
-/// whatever its encoding was.
-struct PlyTable {
-    std::vector<std::string> comments;  ///< lines that begin with "comment" or "obj_info"
-    std::vector<PlyElement> elements;
-
-    /// Returns the element of that name, or null.
-    const PlyElement* find(std::string_view element_name) const;
-};
-
-/// Parses a file. Throws UnreadableFile unless everything that the header announces is there.
-PlyTable parse_ply_table(std::string_view text);
 
 }  // namespace tracked_mcf

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <ostream>
 
 #include "filter_tracked_mcf/tool/documents/binary.h"
-#include "filter_tracked_mcf/tool/documents/file_document.h"
-#include "filter_tracked_mcf/tool/documents/text.h"
+#include "filter_tracked_mcf/tool/documents/text_document.h"
 #include "filter_tracked_mcf/tool/file_error.h"
 
 namespace tracked_mcf {
@@ -13,135 +13,154 @@ namespace {
 
 /// A binary file has a header, the number of triangles in 4 bytes, and for each triangle 12 floats
 /// (the normal and three vertices) and 2 bytes, which some programs use for a colour.
-constexpr std::size_t kHeaderSize = 80, kCountSize = 4, kFloatsSize = 48, kTriangleSize = 50;
+constexpr std::size_t kHeaderSize = 80, kBegin = 84, kTriangleSize = 50;
 
-void write_floats(std::ostream& out, const Eigen::Vector3d& v) {
-    out << as_bytes(Eigen::Vector3f(v.cast<float>()));
-}
+using Floats = Eigen::Vector3f;
 
-/// Writes a binary file. `attributes` has the last two bytes of each triangle; empty is all zero.
-void write_binary(std::ostream& out, std::string header, const Points& positions,
-                  const std::vector<Triangle>& triangles,
-                  const std::vector<std::uint16_t>& attributes) {
-    header.resize(kHeaderSize, ' ');
-    out << header;
-    out << as_bytes(static_cast<std::uint32_t>(triangles.size()));
-    for (std::size_t i = 0; i < triangles.size(); ++i) {
-        std::array<Eigen::Vector3d, 3> corners;
-        for (std::size_t k = 0; k < 3; ++k) {
-            corners[k] = positions[static_cast<std::size_t>(triangles[i][k])];
-        }
-        const Eigen::Vector3d area = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
-        write_floats(out, area.stableNormalized());
-        for (const Eigen::Vector3d& corner : corners) write_floats(out, corner);
-        out << as_bytes(attributes.empty() ? std::uint16_t{0} : attributes[i]);
-    }
-}
-
-/// Triangles with three vertices of their own each. Coordinates are floats, as in binary files.
-class StlDocument : public FileDocument {
+/// Triangles with three vertices of their own each. Coordinates are floats, also in text.
+class StlDocument : public TextDocument {
 public:
-    explicit StlDocument(std::string_view content) {
-        const std::string problem = problem_of_binary(content);
-        const bool is_ascii =
-            content.substr(0, 5) == "solid" && content.find('\0') == std::string_view::npos;
+    explicit StlDocument(std::string content) : TextDocument(std::move(content)) {
+        numbers_ = Numbers::FloatWords;
+        const std::string problem = problem_of_binary();
         // The size decides first, because some binary files begin with "solid".
-        if (problem.empty())
-            read_binary(content);
-        else if (is_ascii)
-            read_ascii(content);
+        is_binary_ = problem.empty();
+        if (is_binary_)
+            read_binary();
+        else if (is_text())
+            read_text();
         else
             throw UnreadableFile(problem);
     }
 
     std::vector<std::string> extras() const override {
-        for (const std::uint16_t attribute : attributes_) {
-            if (attribute != 0) return {"colours of triangles"};
-        }
-        return {};
+        std::vector<std::string> extras;
+        if (has_colors_) extras.emplace_back("colours of triangles");
+        if (solid_count_ > 1) extras.emplace_back("solids");
+        return extras;
     }
 
-    /// Writes a binary file whatever the file was.
     void write(std::ostream& out, const Points& positions) const override {
-        write_binary(out, header_, positions, triangles(), attributes_);
+        if (!is_binary_) return TextDocument::write(out, positions);
+        const Points normals = moved_normals(positions_, positions, precision(), polygons_,
+                                             normal_of_corner_, polygons_.size());
+        Patch patch(out, content_);
+        for (std::size_t i = 0; i < normals.size(); ++i) {
+            for (std::size_t k = 0; k < 4; ++k) {
+                const Eigen::Vector3d& vector = k == 0 ? normals[i] : positions[3 * i + k - 1];
+                if (k == 0 && vector.isZero(0)) continue;
+                patch.replace(vector_bytes(i, k), as_bytes(Floats(vector.cast<float>())));
+            }
+        }
+        patch.finish();
     }
 
 private:
-    /// Says what is wrong, or nothing.
-    static std::string problem_of_binary(std::string_view content) {
-        if (content.size() < kHeaderSize + kCountSize) {
-            return "it is neither a binary nor an ASCII STL file";
-        }
-        const auto count = number_from<std::uint32_t>(content.data() + kHeaderSize);
-        if (count == 0) return "it has no triangles";
-        const std::size_t announced = kHeaderSize + kCountSize + kTriangleSize * count;
-        if (content.size() == announced) return {};
-        return "it announces " + std::to_string(count) + " triangles, which take " +
-               std::to_string(announced) + " bytes, but it has " + std::to_string(content.size());
+    /// Returns whether the beginning has no control characters but blanks and those at the end.
+    bool is_text() const {
+        const auto end = content_.find_last_not_of(std::string_view("\0\x1A", 2)) + 1;
+        return std::none_of(content_.begin(), content_.begin() + std::min<std::ptrdiff_t>(end, 999),
+                            [](char c) { return c >= 0 && c < '\t'; });
     }
 
-    void read_binary(std::string_view content) {
-        header_ = content.substr(0, kHeaderSize);
-        content.remove_prefix(kHeaderSize + kCountSize);
-        for (; !content.empty(); content.remove_prefix(kTriangleSize)) {
-            const auto number = [&](std::size_t i) {
-                return double{number_from<float>(content.data() + i * sizeof(float))};
-            };
-            for (std::size_t i = 3; i < 12; i += 3) {
-                add_corner({number(i), number(i + 1), number(i + 2)});
+    /// Says what is wrong, or nothing.
+    std::string problem_of_binary() const {
+        const std::size_t size = content_.size();
+        if (size < kBegin) return "it is neither a binary nor an ASCII STL file";
+        const auto count = number_from<std::uint32_t>(&content_[kHeaderSize]);
+        const std::size_t announced = kBegin + kTriangleSize * count;
+        // Some programs append bytes, but whole triangles too many mean that the count is wrong.
+        if (size == announced || (size > announced && (size - announced) % kTriangleSize != 0)) {
+            return {};
+        }
+        return "it announces " + std::to_string(count) + " triangles, which take " +
+               std::to_string(announced) + " bytes, but it has " + std::to_string(size);
+    }
+
+    void read_binary() {
+        const auto count = number_from<std::uint32_t>(&content_[kHeaderSize]);
+        for (std::size_t i = 0; i < count; ++i) {
+            for (std::size_t k = 1; k < 4; ++k) {
+                const auto corner = number_from<std::array<float, 3>>(vector_bytes(i, k).data());
+                add_corner(static_cast<std::int32_t>(i));
+                positions_.emplace_back(corner[0], corner[1], corner[2]);
             }
             polygons_.close();
-            attributes_.push_back(number_from<std::uint16_t>(content.data() + kFloatsSize));
+            const auto color = number_from<std::uint16_t>(vector_bytes(i, 4).data());
+            has_colors_ = has_colors_ || color != 0;
         }
     }
 
-    void read_ascii(std::string_view content) {
-        if (content.find('\n') == std::string_view::npos) {
-            throw UnreadableFile("it is a single line");
-        }
-        if (content.find("endsolid") == std::string_view::npos) {
-            throw UnreadableFile("it ends before 'endsolid'; it is truncated");
-        }
-        for (WordReader words(content); words.has_more();) {
-            const std::string_view word = words.word();
-            if (word == "vertex") {
-                Eigen::Vector3d corner;
-                for (int axis = 0; axis < 3; ++axis) {
-                    corner[axis] = static_cast<float>(parse_number(words.word()));
-                }
-                add_corner(corner);
+    /// Returns the bytes of a binary triangle's normal, k = 0, or corner, and what follows.
+    std::string_view vector_bytes(std::size_t i, std::size_t k) const {
+        const std::size_t begin = kBegin + kTriangleSize * i + sizeof(Floats) * k;
+        return std::string_view(content_).substr(begin, sizeof(Floats));
+    }
+
+    void read_text() {
+        TextReader reader(content_);
+        std::int32_t normal = -1;
+        std::string first;
+        while (reader.words_left() > 0 || reader.find_line()) {
+            const std::string word = lower_case(reader.word());
+            if (first.empty()) first = word;
+            if (first != "solid" && first != "facet") {
+                throw UnreadableFile("it is a text that does not begin with 'solid'");
+            }
+            if (word == "normal" && reader.words_left() >= 3) {
+                normal = static_cast<std::int32_t>(normals_.size());
+                read_point({reader.word(), reader.word(), reader.word()}, normals_);
+            } else if (word == "vertex") {
+                add_corner(normal);
+                read_point({reader.word(), reader.word(), reader.word()}, positions_);
             } else if (word == "endloop") {
                 polygons_.close();
+                normal = -1;
                 if (polygons_.corner_count(polygons_.size() - 1) != 3) {
-                    words.fail("a facet has not 3 vertices");
+                    reader.fail("a facet does not have 3 vertices");
                 }
             } else if (word == "solid" || word == "endsolid") {
-                words.take(words.words_left());  // the name may be any words
+                solid_count_ += word == "solid" ? 1 : 0;
+                // A name may be any words. It ends with its line, or before a facet.
+                while (reader.words_left() > 0 && lower_case(reader.next_word()) != "facet") {
+                    reader.word();
+                }
             }
         }
-        if (polygons_.size() == 0) throw UnreadableFile("it has no triangles");
         if (polygons_.corners.size() > polygons_.first.back()) {
             throw UnreadableFile("it ends within a facet; it is truncated");
         }
     }
 
-    void add_corner(const Eigen::Vector3d& position) {
-        polygons_.corners.push_back(static_cast<std::int32_t>(positions_.size()));
-        positions_.push_back(position);
+    void add_corner(std::int32_t normal) {
+        polygons_.corners.push_back(static_cast<std::int32_t>(polygons_.corners.size()));
+        normal_of_corner_.push_back(normal);
     }
 
-    std::string header_;  ///< of a binary file
-    std::vector<std::uint16_t> attributes_;
+    bool is_binary_ = false, has_colors_ = false;
+    std::size_t solid_count_ = 0;  ///< in text
 };
 
 }  // namespace
 
 std::unique_ptr<FileDocument> parse_stl(std::string&& content) {
-    return std::make_unique<StlDocument>(content);
+    return std::make_unique<StlDocument>(std::move(content));
 }
 
 void convert_to_stl(std::ostream& out, const FileDocument& source, const Points& positions) {
-    write_binary(out, "binary STL by tracked_mcf", positions, source.triangles(), {});
+    const std::vector<Triangle> triangles = source.triangles();
+    std::string header = "binary STL by tracked_mcf";
+    header.resize(kHeaderSize, ' ');
+    out << header << as_bytes(static_cast<std::uint32_t>(triangles.size()));
+    for (const Triangle& triangle : triangles) {
+        const auto corner = [&](std::size_t k) -> const Eigen::Vector3d& {
+            return positions[static_cast<std::size_t>(triangle[k])];
+        };
+        const Eigen::Vector3d area = (corner(1) - corner(0)).cross(corner(2) - corner(0));
+        out << as_bytes(Floats(area.stableNormalized().cast<float>()));
+        for (std::size_t k = 0; k < 3; ++k) out << as_bytes(Floats(corner(k).cast<float>()));
+        out << as_bytes(std::uint16_t{0});
+    }
 }
 
 }  // namespace tracked_mcf

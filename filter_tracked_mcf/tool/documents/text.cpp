@@ -2,9 +2,9 @@
 #include "filter_tracked_mcf/tool/documents/text.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
+#include <cmath>
 #include <cstdlib>
+#include <ostream>
 
 #include "filter_tracked_mcf/tool/file_error.h"
 
@@ -46,6 +46,15 @@ std::string quoted(std::string_view text) {
     return "'" + std::string(text.substr(0, longest)) + (text.size() > longest ? "...'" : "'");
 }
 
+bool ends_line(char c) {
+    return c == '\n' || c == '\r';
+}
+
+/// Zeros and Ctrl-Z end some files.
+bool is_blank(char c) {
+    return c == ' ' || c == '\t' || c == '\f' || c == '\v' || c == '\0' || c == '\x1A';
+}
+
 }  // namespace
 
 std::optional<double> read_double_by_strtod(std::string_view text) {
@@ -61,7 +70,11 @@ std::optional<double> read_double_by_strtod(std::string_view text) {
 }
 
 double parse_number(std::string_view text) {
-    if (const auto number = read_double(without_plus(text))) return *number;
+    const std::string_view digits = without_plus(text);
+    std::int32_t whole = 0;  // most are, and are read faster; -0 is none
+    if (digits.substr(0, 1) != "-" && read_all(digits, whole) == std::errc()) return whole;
+    if (const auto number = read_double(digits)) return *number;
+    if (digits.substr(digits.substr(0, 1) == "-" ? 1 : 0, 3) == "1.#") return std::nan("");
     throw UnreadableFile(quoted(text) + " stands where a number should");
 }
 
@@ -71,53 +84,98 @@ std::int64_t parse_integer(std::string_view text) {
     throw UnreadableFile(quoted(text) + " stands where a whole number should");
 }
 
-std::string format_number(double number) {
-    std::array<char, 32> text;
-    const auto end = std::to_chars(text.data(), text.data() + text.size(), number).ptr;
-    return {text.data(), end};
-}
-
-Words split_at_blanks(std::string_view line) {
-    constexpr std::string_view blanks = " \t\r";
-    Words words;
-    for (std::size_t begin = line.find_first_not_of(blanks); begin < line.size();) {
-        const std::size_t end = std::min(line.find_first_of(blanks, begin), line.size());
-        words.push_back(line.substr(begin, end - begin));
-        begin = line.find_first_not_of(blanks, end);
+std::string lower_case(std::string_view text) {
+    std::string lower(text);
+    for (char& c : lower) {
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
     }
-    return words;
+    return lower;
 }
 
-bool WordReader::find_line() {
+TextReader::TextReader(std::string_view text, Syntax syntax, std::size_t lines_before)
+    : text_(text), syntax_(syntax), line_number_(lines_before) {
+    constexpr std::string_view mark = "\xEF\xBB\xBF";
+    if (text_.substr(0, mark.size()) == mark) text_.remove_prefix(mark.size());
+}
+
+bool TextReader::is_comment(std::size_t at) const {
+    return text_[at] == '#' && syntax_ != Syntax::Plain && (at == 0 || text_[at - 1] != '.');
+}
+
+/// Appends the words up to the end of the line.
+void TextReader::read_words() {
+    const std::size_t size = text_.size();
+    for (;;) {
+        while (at_ < size && is_blank(text_[at_])) ++at_;
+        if (at_ == size || ends_line(text_[at_])) return;
+        const std::size_t begin = at_;
+        while (at_ < size && !is_blank(text_[at_]) && !ends_line(text_[at_]) && !is_comment(at_)) {
+            ++at_;
+        }
+        if (at_ > begin) words_.push_back(text_.substr(begin, at_ - begin));
+        if (at_ == size || !is_comment(at_)) continue;
+        while (at_ < size && !ends_line(text_[at_])) ++at_;
+    }
+}
+
+void TextReader::end_line() {
+    line_end_ = at_;
+    ++line_number_;
+    if (at_ == text_.size()) return;
+    const bool is_return = text_[at_++] == '\r';
+    const bool has_feed = is_return && at_ < text_.size() && text_[at_] == '\n';
+    // Binary data may follow a line that CR ends, and may begin with LF.
+    if (line_number_ == 1) only_returns_ = is_return && !has_feed;
+    if (has_feed && !only_returns_) ++at_;
+}
+
+bool TextReader::find_line() {
+    words_.clear();
     next_ = 0;
-    do {
-        words_.clear();
-        if (rest_.empty()) return false;
-        const std::size_t end = std::min(rest_.find('\n'), rest_.size());
-        words_ = split_at_blanks(rest_.substr(0, end));
-        rest_.remove_prefix(std::min(end + 1, rest_.size()));
-        ++line_number_;
-    } while (words_.empty() || words_.front().front() == '#');
-    return true;
+    bool goes_on = false;
+    while (at_ < text_.size() && (goes_on || words_.empty())) {
+        read_words();
+        goes_on = syntax_ == Syntax::CommentsAndContinuedLines && !words_.empty() &&
+                  words_.back().back() == '\\';
+        end_line();
+        if (goes_on) words_.back().remove_suffix(1);
+        if (goes_on && words_.back().empty()) words_.pop_back();
+    }
+    return !words_.empty();
 }
 
-void WordReader::advance() {
+void TextReader::advance() {
     if (!find_line()) throw UnreadableFile("it ends too early; it is truncated");
 }
 
-std::string_view WordReader::word() {
+std::string_view TextReader::word() {
     if (words_left() == 0) advance();
     return words_[next_++];
 }
 
-Words WordReader::take(std::size_t count) {
-    const auto begin = words_.begin() + static_cast<std::ptrdiff_t>(next_);
-    next_ += count;
-    return {begin, begin + static_cast<std::ptrdiff_t>(count)};
+std::size_t TextReader::count_lines() const {
+    std::size_t count = 0;
+    for (TextReader copy(*this); copy.find_line();) ++count;
+    return count;
 }
 
-void WordReader::fail(const std::string& what) const {
+void TextReader::fail(const std::string& what) const {
     throw UnreadableFile("line " + std::to_string(line_number_) + ": " + what);
+}
+
+void Patch::replace(std::string_view part, std::string_view replacement) {
+    const auto before = static_cast<std::size_t>(part.data() - rest_.data());
+    block_ += rest_.substr(0, before);
+    block_ += replacement;
+    rest_.remove_prefix(before + part.size());
+    constexpr std::size_t block_size = 1 << 16;
+    if (block_.size() < block_size) return;
+    out_ << block_;
+    block_.clear();
+}
+
+void Patch::finish() {
+    out_ << block_ << rest_;
 }
 
 }  // namespace tracked_mcf
