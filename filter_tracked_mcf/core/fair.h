@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "filter_tracked_mcf/core/change_report.h"
 #include "filter_tracked_mcf/core/crack_report.h"
 #include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/fair_parameters.h"
@@ -13,7 +14,7 @@
 namespace tracked_mcf {
 
 /// What fair() has measured and done.
-struct FairReport {
+struct FairReport : ChangeReport {
     std::int64_t vertices = 0;   ///< that may move, coincident ones once
     std::int64_t triangles = 0;  ///< that are selected
     CrackReport cracks;
@@ -32,9 +33,6 @@ struct FairReport {
     double height = 0;
     int iterations = 0;  ///< solves in a new metric, of the patch that took most
 
-    double rms_displacement = 0;  ///< of the vertices above, mesh units
-    double largest_displacement = 0;
-    double area_before = 0, area_after = 0;  ///< of the selected triangles, mesh units²
     /// Per vertex of the mesh, see NoiseReport::quality.
     std::vector<double> quality;
     double seconds = 0;

@@ -80,6 +80,12 @@ std::string bystanders(const Report& report) {
     return text;
 }
 
+/// Returns the radius of a curvature. What is flat but for rounding has none.
+std::string radius(double curvature, double area) {
+    constexpr double flat = 1e-6;
+    return curvature * std::sqrt(area) < flat ? "infinite" : digits(1 / curvature, 3);
+}
+
 double seconds_of(const FlowReport& report) {
     double seconds = report.setup_seconds;
     for (const StepReport& step : report.steps)
@@ -147,8 +153,8 @@ std::string summary(const NoiseParameters& parameters, const NoiseReport& report
 std::string summary(const FairParameters& /*parameters*/, const FairReport& report) {
     return "Faired " + vertices(report.vertices) + " of " +
            counted(report.patches, "patch", "patches") + " in " + digits(report.seconds, 2) +
-           " s.\nMean radius of curvature: " + digits(1 / report.patch_curvature, 3) +
-           " in the patches, " + digits(1 / report.seam_curvature, 3) +
+           " s.\nMean radius of curvature: " + radius(report.patch_curvature, report.area_before) +
+           " in the patches, " + radius(report.seam_curvature, report.area_before) +
            " around them.\nThe patches rise by up to " + digits(100 * report.height, 3) +
            " % of the size of their hole above its membrane." + movement(report) +
            closed_cracks(report.cracks);

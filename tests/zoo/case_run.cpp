@@ -15,38 +15,32 @@ namespace tracked_mcf::zoo {
 
 namespace {
 
-/// Returns another filter's report as far as a flow's report says the same.
-template <class Report>
-FlowReport as_flow_report(Report made) {
-    FlowReport report;
-    report.area_before = made.area_before;
-    report.area_after = made.area_after;
-    report.largest_displacement = made.largest_displacement;
-    report.rms_displacement = made.rms_displacement;
-    report.quality = std::move(made.quality);
-    return report;
+/// Keeps another filter's report, and what a flow's report says, too.
+template <class Parameters, class Report>
+void keep(const Parameters& parameters, Report made, Run& run) {
+    run.values = report_values(parameters, {}, made, {});
+    static_cast<ChangeReport&>(run.report) = made;
+    run.report.quality = std::move(made.quality);
 }
 
-FlowReport filtered(TriangleMesh& mesh, const Case& run_case, int threads, bool& is_loss_told) {
+void filter(const Case& run_case, int threads, Run& run) {
     if (run_case.noise) {
         NoiseParameters parameters = *run_case.noise;
         parameters.threads = threads;
-        const NoiseReport made = remove_noise(mesh, run_case.inputs, parameters);
-        is_loss_told = made.shrunken_parts > 0;
-        FlowReport report = as_flow_report(made);
-        report.detail_size = made.detail_size;
-        report.volume_change = made.volume_change;
-        report.volume_before = made.volume_before;
-        return report;
+        const NoiseReport made = remove_noise(run.mesh, run_case.inputs, parameters);
+        run.is_loss_told = made.shrunken_parts > 0;
+        run.report.detail_size = made.detail_size;
+        return keep(parameters, made, run);
     }
     if (run_case.fair) {
         FairParameters parameters = *run_case.fair;
         parameters.threads = threads;
-        return as_flow_report(fair(mesh, run_case.inputs.selection, parameters));
+        return keep(parameters, fair(run.mesh, run_case.inputs.selection, parameters), run);
     }
     FlowParameters parameters = run_case.parameters;
     parameters.threads = threads;
-    return evolve(mesh, run_case.inputs, parameters);
+    run.report = evolve(run.mesh, run_case.inputs, parameters);
+    run.values = report_values(parameters, {}, run.report, {});
 }
 
 }  // namespace
@@ -56,7 +50,7 @@ Run run(const Case& run_case, int threads) {
     made.mesh = run_case.mesh;
     const double start = cpu_seconds();
     try {
-        made.report = filtered(made.mesh, run_case, threads, made.is_loss_told);
+        filter(run_case, threads, made);
     } catch (const Error& error) {
         made.refusal = error.what();
     } catch (const std::exception& error) {

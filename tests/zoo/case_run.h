@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "filter_tracked_mcf/core/flow_report.h"
+#include "filter_tracked_mcf/parameters/report_values.h"
 #include "tests/zoo/zoo_case.h"
 
 namespace tracked_mcf::zoo {
@@ -13,7 +14,8 @@ namespace tracked_mcf::zoo {
 /// What running a case gave.
 struct Run {
     TriangleMesh mesh;
-    FlowReport report;
+    FlowReport report;  ///< for another filter, as far as it says the same
+    ReportObject values;
     std::string refusal;  ///< message of an exception of errors.h
     std::string foreign;  ///< message of any other exception
     double cpu_seconds = 0;

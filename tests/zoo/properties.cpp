@@ -17,6 +17,7 @@
 #include "tests/support/shapes.h"
 #include "tests/zoo/case_run.h"
 #include "tests/zoo/invariance.h"
+#include "tests/zoo/reports.h"
 
 namespace tracked_mcf::zoo {
 
@@ -183,6 +184,8 @@ void Checker::check_result() {
     check_box();
     check_area();
     check_loss();
+    const std::string wrong = wrong_number(case_, base_.mesh, base_.values);
+    if (!wrong.empty()) fail(Property::Report, wrong);
     check_unmoved();
 }
 

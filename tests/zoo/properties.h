@@ -17,6 +17,7 @@ enum class Property {
     Box,          ///< no vertex leaves the initial bounding box by more than its filter may
     Area,         ///< the area never exceeds the initial one if nothing is preserved
     Loss,         ///< the removal of noise takes no area or volume without a warning
+    Report,       ///< the numbers of the report are those of the meshes, in any order and unit
     Unmoved,      ///< vertices that do not flow keep their bits
     Time,         ///< the processor time is in proportion to the size
     Threads,      ///< the bits are those of 2, 3 and 8 threads, and of a second run
@@ -25,9 +26,9 @@ enum class Property {
     Translation,  ///< neither does the place in space
 };
 
-inline constexpr std::array<const char*, 11> kPropertyNames = {
-    "error", "finite",  "box",   "area",  "loss",       "unmoved",
-    "time",  "threads", "scale", "order", "translation"};
+inline constexpr std::array<const char*, 12> kPropertyNames = {
+    "error",   "finite", "box",     "area",  "loss",  "report",
+    "unmoved", "time",   "threads", "scale", "order", "translation"};
 
 struct Failure {
     Property property;

@@ -14,6 +14,7 @@
 #include "filter_tracked_mcf/core/fair/factorisation.h"
 #include "filter_tracked_mcf/core/fair/patches.h"
 #include "filter_tracked_mcf/core/memory/process_memory.h"
+#include "filter_tracked_mcf/core/mesh/change.h"
 #include "filter_tracked_mcf/core/mesh/domain.h"
 #include "filter_tracked_mcf/core/mesh/measures.h"
 #include "filter_tracked_mcf/core/parallel/progress_meter.h"
@@ -361,8 +362,8 @@ FairReport fair(TriangleMesh& mesh, const Selection& selection, const FairParame
     }
 
     std::vector<Eigen::Vector3d> after = mesh.positions;
+    std::vector<std::uint8_t> moves(after.size(), 0);
     Bending inside, around;
-    double squares = 0;
     std::int64_t done = 0;
     for (const Patch& patch : patches) {
         enter_phase(0.1 + 0.85 * static_cast<double>(done) / static_cast<double>(report.vertices),
@@ -374,8 +375,7 @@ FairReport fair(TriangleMesh& mesh, const Selection& selection, const FairParame
             const Eigen::Vector3d moved =
                 scale * (fairing.positions().row(i) - before.row(i)).transpose();
             after[patch.vertices[i]] += moved;
-            squares += moved.squaredNorm();
-            report.largest_displacement = std::max(report.largest_displacement, moved.norm());
+            moves[patch.vertices[i]] = 1;
         }
         const auto [patch_bending, seam_bending] = fairing.bending();
         if (wanted > 0 && fairing.is_rough(patch_bending, seam_bending)) ++report.rough_patches;
@@ -390,11 +390,9 @@ FairReport fair(TriangleMesh& mesh, const Selection& selection, const FairParame
         // Adding 0 to -0 would change its bits.
         if (welded[i] != static_cast<std::int32_t>(i) && !moved.isZero(0)) after[i] += moved;
     }
-    report.rms_displacement = std::sqrt(squares / static_cast<double>(report.vertices));
     report.patch_curvature = inside.curvature() / scale;
     report.seam_curvature = around.curvature() / scale;
-    report.area_before = surface_area(mesh, selection);
-    report.area_after = surface_area({after, mesh.triangles}, selection);
+    static_cast<ChangeReport&>(report) = change_of(mesh, after, moves, selection, false);
     if (parameters.quality == Quality::Displacement)
         report.quality = displacements_along_normals(mesh, after, selection);
     report.seconds = watch.seconds();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "filter_tracked_mcf/core/flow/surface_flow.h"
 
+#include <tuple>
+
 namespace tracked_mcf {
 
 SurfaceFlow::SurfaceFlow(const Plan& plan)
@@ -8,11 +10,7 @@ SurfaceFlow::SurfaceFlow(const Plan& plan)
       one_copies_(one_copy_of_each_vertex(plan.domain.topology())),
       encloses_volume_(plan.domain.encloses_volume()) {
     const Domain& domain = plan.domain;
-    const std::vector<std::uint8_t>& constrained = domain.constrained_vertices();
-    for (std::size_t i = 0; i < one_copies_.size(); ++i) {
-        report_.vertices += one_copies_[i];
-        if (one_copies_[i] != 0 && constrained[i] != 0) ++report_.constrained_vertices;
-    }
+    std::tie(report_.vertices, report_.constrained_vertices) = domain.vertex_counts();
     report_.triangles = static_cast<std::int64_t>(domain.surface().triangles.size());
     report_.has_strengths = domain.has_strengths();
     report_.zero_strength_triangles = domain.zero_strength_count();

@@ -181,4 +181,14 @@ bool Domain::has_constraints() const {
     return any_set(constrained_vertices_);
 }
 
+std::pair<std::int64_t, std::int64_t> Domain::vertex_counts() const {
+    const std::vector<std::uint8_t> one_copies = one_copy_of_each_vertex(topology_);
+    std::int64_t all = 0, constrained = 0;
+    for (std::size_t i = 0; i < one_copies.size(); ++i) {
+        all += one_copies[i];
+        if (one_copies[i] != 0 && constrained_vertices_[i] != 0) ++constrained;
+    }
+    return {all, constrained};
+}
+
 }  // namespace tracked_mcf

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "filter_tracked_mcf/core/flow_parameters.h"
@@ -58,6 +59,9 @@ public:
     /// Returns the number of sides of the surface's triangles on the boundary of the mesh.
     std::int64_t boundary_edge_count() const { return boundary_edge_count_; }
     bool has_constraints() const;
+    /// Returns how many vertices the surface has, and how many of these are constrained. Coincident
+    /// ones count once.
+    std::pair<std::int64_t, std::int64_t> vertex_counts() const;
     /// Returns whether all of the mesh flows, and is closed, with a well-defined volume inside.
     bool encloses_volume() const {
         return selection_.empty() && boundary_edge_count_ == 0 && topology_.bounds_volume();

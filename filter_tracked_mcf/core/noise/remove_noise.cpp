@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 
 #include "filter_tracked_mcf/core/memory/process_memory.h"
@@ -118,13 +119,10 @@ SurfaceOfMesh read_surface(const Domain& domain, NoiseReport& report) {
         throw InvalidMesh("All faces to be smoothed are degenerate: none has an area.");
     }
     SurfaceOfMesh result = surface_of(domain);
-    report.vertices = result.surface.stars.count();
+    std::tie(report.vertices, report.constrained_vertices) = domain.vertex_counts();
     report.boundary_edges = domain.boundary_edge_count();
     report.cracks = domain.topology().cracks;
     report.oriented_consistently = domain.topology().is_oriented_consistently();
-    for (const float fidelity : result.surface.fidelity) {
-        if (fidelity == 0) ++report.constrained_vertices;
-    }
     return result;
 }
 
@@ -152,9 +150,10 @@ NoiseReport remove_noise(TriangleMesh& mesh, const Inputs& inputs,
     SurfaceOfMesh from = read_surface(*domain, report);
     domain.reset();
     report.stop = NoiseStop::NothingMoves;
-    const Positions to = report.constrained_vertices < report.vertices
-                             ? treated(from.surface, from.edge, parameters, report)
-                             : from.surface.positions;
+    const std::vector<float>& fidelity = from.surface.fidelity;
+    const bool moves = std::any_of(fidelity.begin(), fidelity.end(), [](float f) { return f > 0; });
+    const Positions to =
+        moves ? treated(from.surface, from.edge, parameters, report) : from.surface.positions;
     enter_phase(0.95, "Moving the vertices");
     std::vector<Eigen::Vector3d> after =
         moved_positions(mesh, from, to, parameters.largest_movement, report);

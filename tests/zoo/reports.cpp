@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tests/zoo/reports.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+#include <sstream>
+
+#include "filter_tracked_mcf/core/mesh/mesh_topology.h"
+
+namespace tracked_mcf::zoo {
+
+namespace {
+
+/// The dimensions of numbers, as powers of a length; those of others are 0.
+const std::map<std::string, int> kDimensions = {
+    {"detail_size", 1},      {"step_size", 2},       {"cell_size", 1},
+    {"area_before", 2},      {"area_after", 2},      {"volume_before", 3},
+    {"volume_after", 3},     {"volume_change", 3},   {"largest_displacement", 1},
+    {"rms_displacement", 1}, {"noise", 1},           {"noise_size", 1},
+    {"stairs", 1},           {"lump_width", 1},      {"lump_height", 1},
+    {"seam_curvature", -1},  {"patch_curvature", -1}};
+
+/// Shares and counts that must be the same for the same mesh.
+const std::set<std::string> kShares = {"crease_share", "lost_area", "lost_volume", "height"};
+const std::set<std::string> kCounts = {"vertices",       "triangles",       "degenerate_triangles",
+                                       "boundary_edges", "joined_vertices", "constrained_vertices",
+                                       "unknowns",       "patches"};
+
+std::optional<double> number_of(const ReportValue& value) {
+    if (const auto* const number = std::get_if<double>(&value.value)) return *number;
+    if (const auto* const count = std::get_if<std::int64_t>(&value.value))
+        return static_cast<double>(*count);
+    return {};
+}
+
+double number_of(const ReportObject& report, const std::string& name) {
+    for (const auto& [key, value] : report) {
+        if (key == name) return number_of(value).value_or(0);
+    }
+    return 0;
+}
+
+bool is_near(double a, double b, double error) {
+    return !(std::abs(a - b) > error);
+}
+
+std::string difference(const std::string& name, double a, double b) {
+    std::ostringstream text;
+    text.precision(10);
+    text << name << ' ' << a << " instead of " << b;
+    return text.str();
+}
+
+}  // namespace
+
+std::string wrong_number(const Case& filtered, const TriangleMesh& after,
+                         const ReportObject& report) {
+    const TriangleMesh& before = filtered.mesh;
+    const Selection& selection = filtered.inputs.selection;
+    const MeshTopology topology = topology_of(before);
+    std::map<std::int32_t, double> moved;  // squared, by welded vertex of a selected triangle
+    double area_before = 0, area_after = 0, size = 0;
+    for (std::size_t i = 0; i < before.triangles.size(); ++i) {
+        if (!selection.empty() && selection[i] == 0) continue;
+        const Triangle& t = before.triangles[i];
+        const auto area = [&](const TriangleMesh& mesh) {
+            const Eigen::Vector3d& a = mesh.positions[t[0]];
+            return (mesh.positions[t[1]] - a).cross(mesh.positions[t[2]] - a).norm() / 2;
+        };
+        area_before += area(before);
+        area_after += area(after);
+        for (const std::int32_t vertex : t) {
+            moved[topology.welded[vertex]] =
+                (after.positions[vertex] - before.positions[vertex]).squaredNorm();
+            size = std::max(size, (before.positions[vertex] - before.positions[t[0]]).norm());
+        }
+    }
+    double largest = 0, squares = 0;
+    for (const auto& [vertex, square] : moved) {
+        largest = std::max(largest, std::sqrt(square));
+        squares += square;
+    }
+    const double vertices = number_of(report, "vertices");
+    // fair() counts the vertices that may move, and a strength of 0 leaves triangles out.
+    const bool counts_all = !filtered.fair && filtered.inputs.strength.empty();
+    if (counts_all && vertices != static_cast<double>(moved.size()))
+        return difference("vertices", vertices, static_cast<double>(moved.size()));
+    const double rms = std::sqrt(squares / vertices), given = number_of(report, "rms_displacement");
+    const double rounding = 1e-9 * (largest + size);
+    if (!is_near(given, rms, rounding)) return difference("rms_displacement", given, rms);
+    const double given_largest = number_of(report, "largest_displacement");
+    if (!is_near(given_largest, largest, rounding))
+        return difference("largest_displacement", given_largest, largest);
+    if (!filtered.inputs.strength.empty()) return {};
+    for (const auto& [name, area] :
+         {std::pair{"area_before", area_before}, std::pair{"area_after", area_after}}) {
+        const double reported = number_of(report, name);
+        if (!is_near(reported, area, 1e-9 * area_before)) return difference(name, reported, area);
+    }
+    return {};
+}
+
+std::string differing_number(const ReportObject& report, const ReportObject& other, double unit,
+                             double size, double tolerance) {
+    for (std::size_t i = 0; i < report.size(); ++i) {
+        const auto& [name, value] = report[i];
+        const auto found = kDimensions.find(name);
+        const bool is_measured = found != kDimensions.end();
+        if (const auto* const text = std::get_if<std::string>(&value.value)) {
+            const auto* const others = std::get_if<std::string>(&other[i].second.value);
+            if (!others || *text != *others) return name + ' ' + *text;
+        }
+        if (!is_measured && kShares.count(name) + kCounts.count(name) == 0) continue;
+        const double scale = is_measured ? std::pow(unit, found->second) : 1;
+        const std::optional<double> a = number_of(value), b = number_of(other[i].second);
+        if (a.has_value() != b.has_value()) return name + " is there in one of both";
+        if (!a) continue;
+        // What is small beside the mesh is compared with the mesh.
+        constexpr double small = 1e-3;
+        const double dimension = is_measured ? found->second : 0;
+        const double reference = std::max(std::abs(*a), small * std::pow(size, dimension));
+        const double error = kCounts.count(name) > 0 ? 0 : tolerance * reference;
+        if (!is_near(*b / scale, *a, error)) return difference(name, *b / scale, *a);
+    }
+    return {};
+}
+
+}  // namespace tracked_mcf::zoo

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+#include "filter_tracked_mcf/parameters/report_values.h"
+#include "tests/zoo/zoo_case.h"
+
+namespace tracked_mcf::zoo {
+
+/// Returns which number of a report is not what the meshes before and after a filter show, as
+/// measured here anew; empty if all are. The reports of all filters have these numbers.
+std::string wrong_number(const Case& filtered, const TriangleMesh& after,
+                         const ReportObject& report);
+
+/// Returns which number differs in the report of the same mesh, of which the lengths are `unit`
+/// times as many; empty if none does. `size` is that of the first mesh. Counts must be equal,
+/// lengths and the like up to `tolerance`. Numbers of the machine and of the solver's way may
+/// differ.
+std::string differing_number(const ReportObject& report, const ReportObject& other, double unit,
+                             double size, double tolerance);
+
+}  // namespace tracked_mcf::zoo
