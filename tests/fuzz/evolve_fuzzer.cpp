@@ -60,7 +60,6 @@ double coordinate(Bytes& bytes) {
 FlowParameters parameters_of(Bytes& bytes) {
     FlowParameters p;
     p.depth = bytes.integer(-1, kMaximumDepth + 1);
-    p.iterations = bytes.integer(0, 5);
     p.order = bytes.integer(0, kMaximumOrder + 1);
     p.absolute = bytes.flag();
     if (bytes.flag()) p.detail_size = bytes.number();
@@ -92,7 +91,6 @@ NoiseParameters noise_parameters_of(Bytes& bytes) {
 FairParameters fair_parameters_of(Bytes& bytes) {
     FairParameters p;
     p.continuity = bytes.pick({Continuity::Position, Continuity::Tangent, Continuity::Curvature});
-    p.iterations = bytes.integer(0, 5);
     p.quality = bytes.pick({Quality::None, Quality::Displacement});
     return p;
 }

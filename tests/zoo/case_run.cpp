@@ -20,6 +20,7 @@ template <class Parameters, class Report>
 void keep(const Parameters& parameters, Report made, Run& run) {
     run.values = report_values(parameters, {}, made, {});
     static_cast<ChangeReport&>(run.report) = made;
+    run.report.cracks = made.cracks;
     run.report.quality = std::move(made.quality);
 }
 

@@ -14,10 +14,11 @@ std::string wrong_number(const Case& filtered, const TriangleMesh& after,
                          const ReportObject& report);
 
 /// Returns which number differs in the report of the same mesh, of which the lengths are `unit`
-/// times as many; empty if none does. `size` is that of the first mesh. Counts must be equal,
+/// times as many; empty if none does. `size` is that of the first mesh. With another order of
+/// vertices, what a sample of them estimates may differ. Counts must be equal,
 /// lengths and the like up to `tolerance`. Numbers of the machine and of the solver's way may
 /// differ.
 std::string differing_number(const ReportObject& report, const ReportObject& other, double unit,
-                             double size, double tolerance);
+                             double size, double tolerance, bool is_reordered);
 
 }  // namespace tracked_mcf::zoo

@@ -48,6 +48,9 @@ constexpr double kSolved = 1e-5;
 /// 3: the condition number of the equation of curvature is that of L to the third power. With those
 /// of the pass before, these take less time than new factors of a large patch.
 constexpr int kSolves = 15;
+/// A vertex with a smaller mass than this, relative to the squared size of the hole, has no
+/// curvature but rounding.
+constexpr double kCollapsed = 1e-9;
 /// Surroundings are rough if their turn from vertex to vertex, over the radius of the hole, makes
 /// so many times the rise of the patch. With holes cut into scans, this told best where the
 /// membrane was closer.
@@ -131,7 +134,7 @@ public:
         const auto of = [&](Eigen::Index begin, Eigen::Index end) {
             Bending sum;
             for (Eigen::Index i = begin; i < end; ++i) {
-                if (weights_[i] > 0)
+                if (weights_[i] > 0 && masses_[i] > kCollapsed * size_ * size_)
                     sum += {weights_[i] * forces.row(i).squaredNorm() / 4, masses_[i], 1};
             }
             return sum;

@@ -17,6 +17,14 @@ constexpr double kTooMuch = 0.03;
 /// A part is closed if the sum of its triangles' normals is less than this, relative to its area.
 constexpr double kClosed = 1e-9;
 
+/// A part is flat if its volume is less than this, relative to its area to the power 3/2; 0.09 of a
+/// sphere.
+constexpr double kFlat = 1e-6;
+/// Parts smaller than this many roundings of a position are not measured.
+constexpr double kSmallest = 1e4;
+/// A triangle has collapsed if less than this share of its area is left. It has no direction then.
+constexpr double kCollapsed = 1e-3;
+
 /// The spread of points around their mean.
 struct Spread {
     double count = 0, squares = 0;
@@ -45,10 +53,18 @@ struct Part {
     double lost_area() const {
         const double lost = area_before > 0 ? 1 - area_after / area_before : 0;
         const double narrower = before.square() > 0 ? 1 - after.square() / before.square() : 0;
-        return std::max({0.0, lost, narrower});
+        return std::clamp(std::max(lost, narrower), 0.0, 1.0);
     }
 
-    bool is_closed() const { return !has_rim && normals.norm() <= kClosed * area; }
+    /// Returns whether the part has a size that positions can tell.
+    bool is_measurable(double rounding) const {
+        const double square = kSmallest * kSmallest * rounding * rounding;
+        return area > square && before.square() > square;
+    }
+    bool has_volume() const {
+        return !has_rim && normals.norm() <= kClosed * area &&
+               std::abs(volume_before) > kFlat * std::pow(area, 1.5);
+    }
 };
 
 std::vector<Part> parts_of(const NoisySurface& before, const Positions& after) {
@@ -76,7 +92,8 @@ std::vector<Part> parts_of(const NoisySurface& before, const Positions& after) {
         for (const Eigen::Vector3d& corner : {a, b, c}) part.before.add(corner);
         for (const Eigen::Vector3d& corner : {p, q, r}) part.after.add(corner);
         part.area += old.norm();
-        part.area_before += area > 0 ? old.dot(present) / area : old.norm();
+        const bool has_collapsed = !(area > kCollapsed * old.norm());
+        part.area_before += has_collapsed ? old.norm() : old.dot(present) / area;
         part.area_after += area;
         part.normals += old;
         part.volume_before += a.dot(old);
@@ -90,13 +107,13 @@ std::vector<Part> parts_of(const NoisySurface& before, const Positions& after) {
 
 }  // namespace
 
-Losses losses_of(const NoisySurface& before, const Positions& after) {
+Losses losses_of(const NoisySurface& before, const Positions& after, double rounding) {
     Losses losses;
     for (const Part& part : parts_of(before, after)) {
-        if (part.area == 0) continue;
+        if (!part.is_measurable(rounding)) continue;
         const double area = part.lost_area();
-        const bool has_volume = part.is_closed() && part.volume_before != 0;
-        const double volume = has_volume ? std::abs(part.volume_after / part.volume_before - 1) : 0;
+        const double volume =
+            part.has_volume() ? std::abs(part.volume_after / part.volume_before - 1) : 0;
         losses.area = std::max(losses.area, area);
         losses.volume = std::max(losses.volume, volume);
         if (std::max(area, volume) > kTooMuch) ++losses.parts;

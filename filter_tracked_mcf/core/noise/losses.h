@@ -18,7 +18,7 @@ struct Losses {
 ///
 /// Noise makes an area larger, and its removal is no loss. So the area before is that of the
 /// triangles seen along their normals afterwards. Noise hardly changes a volume, or how far a part
-/// spreads.
-Losses losses_of(const NoisySurface& before, const Positions& after);
+/// spreads. Parts whose size is near `rounding`, that of positions, are left out.
+Losses losses_of(const NoisySurface& before, const Positions& after, double rounding);
 
 }  // namespace tracked_mcf

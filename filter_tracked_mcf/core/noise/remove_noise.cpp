@@ -99,10 +99,17 @@ Positions movements(const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>
     return moved;
 }
 
-void report_losses(const SurfaceOfMesh& from, const Positions& moved, NoiseReport& report) {
+void report_losses(const TriangleMesh& mesh, const SurfaceOfMesh& from, const Positions& moved,
+                   NoiseReport& report) {
+    double farthest = 0;
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        if (from.vertices[i] >= 0)
+            farthest = std::max(farthest, mesh.positions[i].lpNorm<Eigen::Infinity>());
+    }
+    const double rounding = std::numeric_limits<double>::epsilon() * farthest / from.edge;
     Positions to = from.surface.positions;
     for (std::size_t i = 0; i < to.size(); ++i) to[i] += moved[i] / from.edge;
-    const Losses losses = losses_of(from.surface, to);
+    const Losses losses = losses_of(from.surface, to, rounding);
     report.shrunken_parts = losses.parts;
     report.lost_area = losses.area;
     report.lost_volume = losses.volume;
@@ -159,7 +166,8 @@ NoiseReport remove_noise(TriangleMesh& mesh, const Inputs& inputs,
         moved_positions(mesh, from, to, parameters.largest_movement, report);
     static_cast<ChangeReport&>(report) =
         change_of(mesh, after, one_copies, moving, encloses_volume);
-    if (report.largest_displacement > 0) report_losses(from, movements(mesh, after, from), report);
+    if (report.largest_displacement > 0)
+        report_losses(mesh, from, movements(mesh, after, from), report);
     if (parameters.quality == Quality::Displacement)
         report.quality = displacements_along_normals(mesh, after, moving);
     report.seconds = watch.seconds();
