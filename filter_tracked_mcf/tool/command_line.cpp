@@ -3,8 +3,10 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <iomanip>
 #include <numeric>
 #include <sstream>
+#include <type_traits>
 
 #include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/parameter_table.h"
@@ -41,8 +43,7 @@ struct ProgramTexts<FlowParameters> {
     static constexpr const char* kDescription =
         "Smooths a triangle mesh by mean-curvature flow: every point moves along the normal with "
         "the speed of the mean curvature, so that noise and small detail vanish first and large "
-        "shapes last. Closed surfaces shrink and thin parts pinch. To remove noise from scans and "
-        "parts, and to keep their creases, see tracked_mcf remove-noise --help.";
+        "shapes last. Closed surfaces shrink and thin parts pinch.";
     static constexpr const char* kExamples =
         "Examples:\n"
         "  tracked_mcf scan.ply smooth.ply\n"
@@ -124,6 +125,18 @@ std::string wrapped(const std::string& text, std::size_t columns) {
         result += word;
     }
     return result;
+}
+
+/// Returns the list of commands, which stands before the flow's help.
+template <class Parameters>
+std::string list_of_commands() {
+    if constexpr (!std::is_same_v<Parameters, FlowParameters>) return {};
+    std::ostringstream list;
+    list << "Commands, each of which has a --help of its own:\n" << std::left;
+    for (const Command& command : kCommands)
+        list << "  " << std::setw(kNameColumns - 2) << command.name << command.summary << '\n';
+    list << '\n';
+    return list.str();
 }
 
 std::string help_of(const std::string& text) {
@@ -313,25 +326,33 @@ std::size_t distance(const std::string& a, const std::string& b) {
 /// Returns a question for the option that is nearest to the first unknown one; empty if none is
 /// near.
 std::string suggestion(const CLI::App& app) {
+    std::vector<std::string> names;
+    for (const CLI::Option* const option : app.get_options()) names.push_back(option->get_name());
     for (const std::string& word : app.remaining()) {
         if (word.rfind("--", 0) != 0) continue;
-        const std::string unknown = word.substr(0, word.find('='));
-        std::string nearest;
-        std::size_t least = unknown.size() / 3 + 1;
-        for (const CLI::Option* const option : app.get_options()) {
-            const std::string name = option->get_name();
-            const bool is_begun = name.rfind(unknown, 0) == 0;
-            const std::size_t changes = is_begun ? 0 : distance(unknown, name);
-            if (changes >= least) continue;
-            nearest = name;
-            least = changes;
-        }
+        const std::string nearest = nearest_name(word.substr(0, word.find('=')), names);
         return nearest.empty() ? "" : " Do you mean " + nearest + "?";
     }
     return {};
 }
 
 }  // namespace
+
+std::string nearest_name(std::string word, const std::vector<std::string>& names) {
+    for (char& letter : word) {
+        if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter - 'A' + 'a');
+    }
+    std::string nearest;
+    std::size_t least = word.size() / 3 + 1;
+    for (const std::string& name : names) {
+        const bool is_begun = word.size() > 2 && name.rfind(word, 0) == 0;
+        const std::size_t changes = is_begun ? 0 : distance(word, name);
+        if (changes >= least) continue;
+        nearest = name;
+        least = changes;
+    }
+    return nearest;
+}
 
 std::string option_of(const std::string& parameter) {
     std::string option = "--" + parameter;
@@ -343,7 +364,9 @@ template <class Parameters>
 CommandLineOf<Parameters> parse_command_line(std::vector<std::string> arguments) {
     CommandLineOf<Parameters> line;
     using Texts = ProgramTexts<Parameters>;
-    CLI::App app(wrapped(Texts::kDescription, kNameColumns + kTextColumns) + "\n", Texts::kCommand);
+    CLI::App app(list_of_commands<Parameters>() +
+                     wrapped(Texts::kDescription, kNameColumns + kTextColumns) + "\n",
+                 Texts::kCommand);
     app.allow_windows_style_options(false);  // on Windows, "/scan.ply" would be an option
     app.get_formatter()->column_width(kNameColumns);
     app.footer(std::string(Texts::kExamples) + kFooter);

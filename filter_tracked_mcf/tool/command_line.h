@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -10,6 +11,20 @@
 #include "filter_tracked_mcf/parameters/length.h"
 
 namespace tracked_mcf {
+
+/// A command of the program, for one filter.
+struct Command {
+    const char *name, *summary;
+};
+
+/// Without a command, the program takes the first one.
+inline constexpr std::array<Command, 3> kCommands = {
+    {{"smooth", "smooths by mean-curvature flow, also without this word"},
+     {"remove-noise", "removes the noise of scans and parts, and keeps their creases"},
+     {"fair", "makes filled holes continue the surface around them"}}};
+
+/// Returns the name that is nearest to a misspelt word, whatever the case; empty if none is near.
+std::string nearest_name(std::string word, const std::vector<std::string>& names);
 
 /// What a call of the program asks for, whatever the filter.
 struct CommandLine {

@@ -15,6 +15,7 @@
 #include "filter_tracked_mcf/parameters/run.h"
 #include "filter_tracked_mcf/parameters/summary.h"
 #include "filter_tracked_mcf/tool/command_line.h"
+#include "filter_tracked_mcf/tool/documents/file_document.h"
 #include "filter_tracked_mcf/tool/file_error.h"
 #include "filter_tracked_mcf/tool/interrupts.h"
 #include "filter_tracked_mcf/tool/mesh_file.h"
@@ -130,14 +131,34 @@ void answer_or_smooth(std::vector<std::string> arguments) {
         std::cout << line.answer << std::flush;
 }
 
-/// Throws InvalidParameter if the first argument is a command of the program, but for its dashes.
-void refuse_misspelt_command(const std::string& argument) {
-    std::string letters;
-    for (const char c : argument) {
-        if (c != '-' && c != '_') letters += c;
+/// Throws InvalidParameter if a word is nearly a command, and is no mesh file.
+void refuse_misspelt_command(const std::string& word) {
+    if (word.front() == '-' || format_of(std::filesystem::u8path(word)) != nullptr) return;
+    std::vector<std::string> names;
+    for (const Command& command : kCommands) names.emplace_back(command.name);
+    const std::string nearest = nearest_name(word, names);
+    if (nearest.empty()) return;
+    throw InvalidParameter(word + " is no command; do you mean " + nearest + "?");
+}
+
+/// Does what the arguments ask.
+void run_command(std::vector<std::string> arguments) {
+    const std::string first = arguments.empty() ? "" : arguments.front();
+    const auto* const command =
+        std::find_if(kCommands.begin(), kCommands.end(),
+                     [&](const Command& each) { return each.name == first; });
+    if (command != kCommands.end()) {
+        arguments.erase(arguments.begin());
+    } else if (!first.empty()) {
+        refuse_misspelt_command(first);
     }
-    if (letters == "removenoise") {
-        throw InvalidParameter(argument + " is no command; do you mean remove-noise?");
+    switch (command - kCommands.begin()) {
+        case 1:
+            return answer_or_smooth<NoiseParameters>(std::move(arguments));
+        case 2:
+            return answer_or_smooth<FairParameters>(std::move(arguments));
+        default:
+            return answer_or_smooth<FlowParameters>(std::move(arguments));
     }
 }
 
@@ -152,17 +173,7 @@ int main(int argc, char** argv) {
     let_writes_fail_at_file_limits();
     handle_interrupts();
     try {
-        std::vector<std::string> arguments = utf8_arguments(argc, argv);
-        if (!arguments.empty() && arguments[0] == "remove-noise") {
-            arguments.erase(arguments.begin());
-            answer_or_smooth<NoiseParameters>(std::move(arguments));
-        } else if (!arguments.empty() && arguments[0] == "fair") {
-            arguments.erase(arguments.begin());
-            answer_or_smooth<FairParameters>(std::move(arguments));
-        } else {
-            if (!arguments.empty()) refuse_misspelt_command(arguments[0]);
-            answer_or_smooth<FlowParameters>(std::move(arguments));
-        }
+        run_command(utf8_arguments(argc, argv));
         if (!std::cout) {
             throw UnwritableFile("cannot write to the standard output; the disk may be full.");
         }

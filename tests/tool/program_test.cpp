@@ -53,11 +53,25 @@ TEST_F(Program, VerboseTellsTheNumbersOfTheSolver) {
                 AllOf(HasSubstr("\nGrid of depth 4: "), HasSubstr("\nStep size 0.0005, ")));
 }
 
+TEST_F(Program, TakesTheFlowWithAndWithoutItsCommand) {
+    EXPECT_EQ(run("a.off b.off --quiet").exit_code, 0);
+    EXPECT_EQ(run("smooth a.off c.off --quiet").exit_code, 0);
+    EXPECT_EQ(read_file(folder_ / "b.off"), read_file(folder_ / "c.off"));
+    for (const char* command : {"smooth", "remove-noise", "fair"})
+        EXPECT_THAT(run("--help").output, HasSubstr("\n  " + std::string(command) + " "));
+}
+
 TEST_F(Program, AMisspeltCommandIsNamed) {
-    const ProgramRun result = run("remove_noise a.off b.ply");
-    EXPECT_EQ(result.exit_code, 2);
-    EXPECT_EQ(result.errors,
-              "tracked_mcf: remove_noise is no command; do you mean remove-noise?\n");
+    for (const auto& [typed, meant] :
+         {std::pair{"remove_noise", "remove-noise"}, std::pair{"RemoveNoise", "remove-noise"},
+          std::pair{"Fair", "fair"}, std::pair{"smoth", "smooth"}}) {
+        const ProgramRun result = run(std::string(typed) + " a.off b.ply");
+        EXPECT_EQ(result.exit_code, 2);
+        EXPECT_EQ(result.errors, "tracked_mcf: " + std::string(typed) +
+                                     " is no command; do you mean " + meant + "?\n");
+    }
+    write_file(folder_ / "fair.off", kTetrahedron);
+    EXPECT_EQ(run("fair.off b.ply --quiet").exit_code, 0) << "a file may have the name";
 }
 
 TEST_F(Program, QuietSaysNothing) {

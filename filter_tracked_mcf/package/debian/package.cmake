@@ -13,14 +13,15 @@ if(DEFINED ENV{DEBFULLNAME} AND DEFINED ENV{DEBEMAIL})
   set(maintainer "$ENV{DEBFULLNAME} <$ENV{DEBEMAIL}>")
 endif()
 set(CPACK_DEBIAN_PACKAGE_MAINTAINER "${maintainer}")
-set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "MeshLab filter that smooths meshes by mean-curvature flow")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "MeshLab filters that smooth, denoise and repair meshes")
 set(CPACK_DEBIAN_PACKAGE_DESCRIPTION
     "The filter Mean Curvature Flow removes detail smaller than a given length
 from triangle meshes and keeps larger shapes. Each step is implicit, so it is
-stable at any size, and it is solved by multigrid on finite elements that are
-tracked with the moving surface.
+stable at any size. Remove Noise measures the noise of scans and parts, removes
+it, and keeps creases. Fair Selected Faces makes filled holes continue the
+surface around them.
 .
-This package has the filter for MeshLab ${MESHLAB_SDK_RELEASE}, and the program tracked_mcf,
+This package has the filters for MeshLab ${MESHLAB_SDK_RELEASE}, and the program tracked_mcf,
 which does the same to PLY, OBJ, OFF and STL files.")
 
 # MeshLab's library has no stable interface: a plugin is for one release. Debian's versions begin with
@@ -40,7 +41,7 @@ install(TARGETS filter_tracked_mcf LIBRARY DESTINATION ${plugins} ${component})
 if(TRACKED_MCF_TOOL)
   install(TARGETS tracked_mcf RUNTIME DESTINATION bin ${component})
   install(CODE "set(program \"$<TARGET_FILE:tracked_mcf>\")
-set(summary \"smooth triangle meshes by mean-curvature flow\")" ${component})
+set(summary \"smooth, denoise and repair triangle meshes\")" ${component})
   install(SCRIPT "${CMAKE_CURRENT_LIST_DIR}/write_man_page.cmake" ${component})
 endif()
 install(FILES "${CMAKE_CURRENT_LIST_DIR}/copyright" "${CMAKE_CURRENT_LIST_DIR}/../THIRD_PARTY.txt"

@@ -4,6 +4,18 @@
 
 set(folder "$ENV{DESTDIR}${CMAKE_INSTALL_PREFIX}/share/man/man1")
 file(MAKE_DIRECTORY "${folder}")
-execute_process(COMMAND help2man --no-info --name "${summary}" --output "${folder}/tracked_mcf.1" "${program}"
+# The other commands' help stands below that of the first one, as it is.
+set(others "")
+foreach(command IN ITEMS remove-noise fair)
+  execute_process(COMMAND "${program}" ${command} --help OUTPUT_VARIABLE help
+                  COMMAND_ERROR_IS_FATAL ANY)
+  string(REPLACE "\\" "\\\\" help "${help}")
+  string(REPLACE "-" "\\-" help "${help}")
+  string(APPEND others "[tracked_mcf ${command}]\n.nf\n${help}.fi\n\n")
+endforeach()
+set(sections "${folder}/sections")
+file(WRITE "${sections}" "${others}")
+execute_process(COMMAND help2man --no-info --name "${summary}" --include "${sections}" --output "${folder}/tracked_mcf.1" "${program}"
                 COMMAND_ERROR_IS_FATAL ANY)
+file(REMOVE "${sections}")
 execute_process(COMMAND gzip -9nf "${folder}/tracked_mcf.1" COMMAND_ERROR_IS_FATAL ANY)
