@@ -41,6 +41,19 @@ TEST(CrossValidation, SmoothsTheMoreTheMoreNoiseThereIs) {
     }
 }
 
+TEST(CrossValidation, FindsTheNoiseOfKnownShapes) {
+    for (const TriangleMesh& clean :
+         {shapes::square(60), shapes::geodesic_sphere(20), shapes::box(25, {1, 1, 1})}) {
+        for (const double deviation : {0.05, 0.2, 0.5}) {
+            const TriangleMesh mesh = with_noise(clean, deviation);
+            // Noise makes edges longer, in which it is measured.
+            const double expected = deviation * mean_edge_length(clean) / mean_edge_length(mesh);
+            const Choice choice = best_treatment(sample_of_mesh(mesh), automatic());
+            EXPECT_NEAR(choice.noise, expected, 0.05 * expected) << deviation;
+        }
+    }
+}
+
 TEST(CrossValidation, NamesOthersOnlyWithoutWishes) {
     const Sample sample = sample_of_mesh(with_noise(shapes::box(25, {1, 1, 1}), 0.2));
     const Choice choice = best_treatment(sample, automatic());
