@@ -5,6 +5,7 @@
 
 #include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/parameter_table.h"
+#include "filter_tracked_mcf/core/pi.h"
 
 namespace tracked_mcf {
 
@@ -17,7 +18,7 @@ double halved_waves(int iterations, int order) {
     return h / (1 - h);
 }
 
-const double kTwoPi = 2 * std::acos(-1.0);
+constexpr double kTwoPi = 2 * kPi;
 
 }  // namespace
 

@@ -567,7 +567,7 @@ class Fair(WithFolder):
 
     def test_rough_surroundings_are_a_warning(self):
         rough = VERTICES + numpy.random.default_rng(1).normal(scale=0.02, size=VERTICES.shape)
-        with self.assertWarnsRegex(tracked_mcf.FlowWarning, "Remove noise first"):
+        with self.assertWarnsRegex(tracked_mcf.MeshWarning, "Remove noise first"):
             tracked_mcf.fair(rough, FACES, selected=self.selected)
 
     def test_help_names_all_parameters(self):
@@ -602,13 +602,13 @@ class Errors(unittest.TestCase):
             _, report = smooth(detail_size=0.01)
         self.assertEqual([str(warning.message) for warning in caught], report["warnings"])
         self.assertIn(" mean edges; below 2 little changes", report["warnings"][0])
-        self.assertIs(caught[0].category, tracked_mcf.FlowWarning)
-        self.assertTrue(issubclass(tracked_mcf.FlowWarning, UserWarning))
+        self.assertIs(caught[0].category, tracked_mcf.MeshWarning)
+        self.assertTrue(issubclass(tracked_mcf.MeshWarning, UserWarning))
         self.assertEqual(caught[0].filename, __file__)
-        with self.assertWarnsRegex(tracked_mcf.FlowWarning, "all of the surface is constrained") as raised:
+        with self.assertWarnsRegex(tracked_mcf.MeshWarning, "all of the surface is constrained") as raised:
             remove_noise(faces=FACES[:1], boundary="locked")
         self.assertEqual(raised.filename, __file__)
-        with warnings.catch_warnings(), self.assertRaises(tracked_mcf.FlowWarning):
+        with warnings.catch_warnings(), self.assertRaises(tracked_mcf.MeshWarning):
             warnings.simplefilter("error")
             smooth(detail_size=0.01)
         with warnings.catch_warnings():
@@ -720,7 +720,7 @@ class Steps(unittest.TestCase):
             warnings.simplefilter("always")
             self.assertEqual(len(list(self.steps(detail_size=0.01))), 3)
         self.assertIn(" mean edges; below 2 little changes", str(caught[0].message))
-        self.assertIs(caught[0].category, tracked_mcf.FlowWarning)
+        self.assertIs(caught[0].category, tracked_mcf.MeshWarning)
         self.assertEqual(caught[0].filename, __file__)
 
     def test_interrupt(self):

@@ -66,7 +66,7 @@ WRONG = [
     (functools.partial(smooth, order=5), tracked_mcf.InvalidParameter, "order is 5; give 1 to 4"),
     (functools.partial(smooth, faces=FACES + 9), tracked_mcf.InvalidMesh, "faces refers to vertex 9, "),
     (functools.partial(smooth, progress=never), tracked_mcf.Cancelled, "Stopped as asked."),
-    (with_warnings_as_errors, tracked_mcf.FlowWarning, "The detail size is "),
+    (with_warnings_as_errors, tracked_mcf.MeshWarning, "The detail size is "),
     (with_little_memory, tracked_mcf.NotEnoughMemory, "Choose a smaller depth"),
     (functools.partial(smooth, oder=2), TypeError, "unexpected keyword argument 'oder'"),
 ]

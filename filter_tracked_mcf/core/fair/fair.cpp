@@ -19,6 +19,7 @@
 #include "filter_tracked_mcf/core/mesh/measures.h"
 #include "filter_tracked_mcf/core/parallel/progress_meter.h"
 #include "filter_tracked_mcf/core/parallel/stopwatch.h"
+#include "filter_tracked_mcf/core/pi.h"
 
 namespace tracked_mcf {
 
@@ -145,7 +146,7 @@ public:
     /// Returns whether the surroundings turn so much from vertex to vertex that chance alone may
     /// have made the patch rise from its membrane as it does.
     bool is_rough(const Bending& inside, const Bending& around) const {
-        const double radius = std::sqrt(inside.area / std::acos(-1.0));
+        const double radius = std::sqrt(inside.area / kPi);
         return around.turn() * radius > kRough * std::max(distance(membrane_), kDone * size_);
     }
 

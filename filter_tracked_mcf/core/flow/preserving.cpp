@@ -7,6 +7,7 @@
 #include "filter_tracked_mcf/core/flow/surface_flow.h"
 #include "filter_tracked_mcf/core/mesh/measures.h"
 #include "filter_tracked_mcf/core/parallel/parallel.h"
+#include "filter_tracked_mcf/core/pi.h"
 
 namespace tracked_mcf {
 
@@ -37,7 +38,7 @@ Preserver::Preserver(const FlowSurface& surface, Preserve kind, FlowKind flow)
     const double growth =
         flow == FlowKind::Conformalized ? kLargestConformalizedGrowth : kLargestGrowth;
     for (Measures& component : initial_) {
-        const double sphere = std::sqrt(component.area / std::acos(-1.0));
+        const double sphere = std::sqrt(component.area / kPi);
         const double half = growth / 2 * std::max(component.box.sizes().maxCoeff(), sphere);
         component.bounds = {component.box.center().array() - half,
                             component.box.center().array() + half};

@@ -69,8 +69,6 @@ constexpr double kMostDivergence = 0.5;
 constexpr double kBetweenStepSizes = 2;
 constexpr std::size_t kSharpeningOfOthers = 1;
 
-const double kTwoPi = 2 * std::acos(-1.0);
-
 double square_of(double number) {
     return number * number;
 }
@@ -375,10 +373,9 @@ private:
 
     /// Tries as many steps as reach the detail size that the user gives.
     void try_detail_size(double normal_length) {
-        const double wave = detail_size_ / kTwoPi;
         Treatment treatment;
         treatment.settings =
-            settings_for(normal_length, wave * wave * std::sqrt(halved_waves(kStepsToDetailSize)));
+            settings_for(normal_length, step_size_of_treatment(detail_size_, kStepsToDetailSize));
         Twins twins = untreated_;
         for (int i = 0; i < kStepsToDetailSize; ++i) {
             if (!make_step(treatment.settings, [&] { return step(treatment.settings, twins); }))

@@ -11,6 +11,7 @@
 #include "filter_tracked_mcf/core/noise/fidelities.h"
 #include "filter_tracked_mcf/core/noise/local_choice.h"
 #include "filter_tracked_mcf/core/noise/unevenness.h"
+#include "filter_tracked_mcf/core/pi.h"
 
 namespace tracked_mcf {
 
@@ -46,7 +47,7 @@ constexpr int kRounds = 3;
 /// The size of normals' smoothing along which residuals are measured.
 constexpr double kStepOfNormals = 2;
 
-const double kRadian = std::acos(-1.0) / 180;
+constexpr double kRadian = kPi / 180;
 
 /// Returns the angle of a difference of unit normals, in degrees: the inverse of crease_of().
 double angle_of(double chord) {

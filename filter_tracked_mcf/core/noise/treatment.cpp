@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "filter_tracked_mcf/core/noise/treatment.h"
+#include "filter_tracked_mcf/core/pi.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +12,11 @@ namespace {
 
 /// The share of the time that steps take.
 constexpr double kShareOfSteps = 0.8;
+
+/// Returns (δ k²)² for the waves whose amplitude `steps` steps halve.
+double square_of_halved_waves(int steps) {
+    return std::expm1(std::log(2.0) / steps);
+}
 
 /// Makes the steps of `treatments[first]` and of all that share them.
 void make_steps(const NoisySurface& surface, const std::vector<Treatment>& treatments,
@@ -55,15 +61,16 @@ bool share_steps(const Treatment& a, const Treatment& b) {
            a.settings.step_size == b.settings.step_size;
 }
 
-double halved_waves(int steps) {
-    return std::expm1(std::log(2.0) / steps);
+double step_size_of_treatment(double detail_size, int steps) {
+    const double wave = detail_size / (2 * kPi);
+    return wave * wave * std::sqrt(square_of_halved_waves(steps));
 }
 
 double detail_size_of(const Treatment& treatment) {
     if (treatment.steps == 0) return 0;
-    const double two_pi = 2 * std::acos(-1.0);
-    return two_pi *
-           std::sqrt(treatment.settings.step_size / std::sqrt(halved_waves(treatment.steps)));
+    return 2 * kPi *
+           std::sqrt(treatment.settings.step_size /
+                     std::sqrt(square_of_halved_waves(treatment.steps)));
 }
 
 Positions perturbed(const Positions& positions, const Perturbation& perturbation) {

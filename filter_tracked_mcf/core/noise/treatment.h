@@ -18,8 +18,8 @@ struct Treatment {
 /// Returns whether treatments have the same settings, so that they begin alike.
 bool share_steps(const Treatment& a, const Treatment& b);
 
-/// Returns (δ k²)² for the waves whose amplitude `steps` steps halve.
-double halved_waves(int steps);
+/// Returns the step size of `steps` steps that halve the amplitude of waves of this length.
+double step_size_of_treatment(double detail_size, int steps);
 
 /// Returns the length of the waves whose amplitude the steps of a treatment halve;
 /// 0 without steps.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "filter_tracked_mcf/core/kernels/kernels.h"
+#include "filter_tracked_mcf/core/pi.h"
 
 namespace tracked_mcf {
 
@@ -15,11 +16,10 @@ constexpr double kUsuallyLargest = 1.8, kLargestOfSheets = 4 * kUsuallyLargest;
 /// Returns the optimal factors of `count` steps x += factor * S r for a spectrum from `smallest` to
 /// `largest`: the reciprocals of the roots of the Chebyshev polynomial on that interval.
 std::vector<float> chebyshev_steps(int count, double smallest, double largest) {
-    const double pi = std::acos(-1.0);
     std::vector<float> steps;
     for (int i = 0; i < count; ++i) {
         const double root = 0.5 * (largest + smallest) +
-                            0.5 * (largest - smallest) * std::cos(pi * (i + 0.5) / count);
+                            0.5 * (largest - smallest) * std::cos(kPi * (i + 0.5) / count);
         steps.push_back(static_cast<float>(1 / root));
     }
     return steps;
