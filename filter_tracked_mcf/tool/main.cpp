@@ -29,7 +29,14 @@ namespace {
 
 using namespace tracked_mcf;
 
-enum ExitCode { Done = 0, BadMesh = 1, BadUsage = 2, Unwritable = 3 };
+enum ExitCode {
+    Done = 0,
+    BadMesh = 1,
+    BadUsage = 2,
+    Unwritable = 3,
+    TooLittleMemory = 4,
+    Unexpected = 5
+};
 
 /// Shows a progress bar on a terminal. An interrupt cancels the flow and wipes the bar.
 template <class Parameters>
@@ -185,14 +192,16 @@ int main(int argc, char** argv) {
         return fail(Unwritable, error.what());
     } catch (const UnreadableFile& error) {
         return fail(BadMesh, error.what());
+    } catch (const NotEnoughMemory& error) {
+        return fail(TooLittleMemory, error.what());
     } catch (const Error& error) {
         return fail(BadMesh, error.what());
     } catch (const std::bad_alloc&) {
         // If a smaller depth can help, NotEnoughMemory has said so.
-        return fail(BadMesh,
+        return fail(TooLittleMemory,
                     "there is not enough memory; simplify the mesh, free memory, or raise the "
                     "memory limit of this process.");
     } catch (const std::exception& error) {
-        return fail(BadMesh, std::string("unexpected error: ") + error.what() + ".");
+        return fail(Unexpected, std::string("unexpected error: ") + error.what() + ".");
     }
 }

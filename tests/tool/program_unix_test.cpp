@@ -87,12 +87,12 @@ TEST_F(ProgramOnUnix, FullDiskExitsWith3AndLeavesTheOldFile) {
     }
 }
 
-TEST_F(ProgramOnUnix, TooLittleMemoryExitsWith1BeforeTheWork) {
+TEST_F(ProgramOnUnix, TooLittleMemoryExitsWith4BeforeTheWork) {
     if (TRACKED_MCF_SANITIZED) GTEST_SKIP() << "sanitizers need the whole address space";
     write_file(folder_ / "b.ply", "before");
     const ProgramRun result = run_program(
         folder_, "a.off b.ply --method paper --depth 12 --report r.json", "ulimit -v 2000000;");
-    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_EQ(result.exit_code, 4);
     EXPECT_THAT(result.errors,
                 StartsWith("tracked_mcf: Depth 12 of the paper's method would need about "));
     EXPECT_THAT(result.errors, HasSubstr(" GB are free. Choose a smaller depth"));
@@ -105,7 +105,7 @@ TEST_F(ProgramOnUnix, TooLittleMemoryToReadDoesNotBlameTheDepth) {
     if (TRACKED_MCF_SANITIZED) GTEST_SKIP() << "sanitizers need the whole address space";
     write_file(folder_ / "grid.off", grid(500));
     const ProgramRun result = run_program(folder_, "grid.off b.ply", "ulimit -v 60000;");
-    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_EQ(result.exit_code, 4);
     EXPECT_EQ(result.errors,
               "tracked_mcf: there is not enough memory; simplify the mesh, free memory, or raise "
               "the memory limit of this process.\n");
