@@ -129,7 +129,7 @@ static HWY_INLINE Lanes area_of_mass(const Lanes (&moments)[kMomentRows]) {
 static HWY_INLINE void write_matrices(const IntegrationInput& input, const Lanes& mass,
                                       const Lanes (&moments)[kMomentRows], MatrixBlock& block,
                                       std::int64_t lane) {
-    const Lanes step_size = splat(input.step_size_in_cells);
+    const Lanes step_size = splat(input.step_size_in_squared_cells);
     HWY_UNROLL(8)
     for (int row = 0; row < 8; ++row) {
         HWY_UNROLL(8)
@@ -153,7 +153,7 @@ static HWY_INLINE void find_results(const IntegrationInput& input,
     for (int axis = 0; axis < 3; ++axis) {
         for (int row = 0; row < 8; ++row) {
             results[kRightSide + 8 * axis + row] =
-                splat(-input.step_size_in_cells) * flux_entry(moments, axis, row);
+                splat(-input.step_size_in_squared_cells) * flux_entry(moments, axis, row);
         }
     }
     results[kArea] = area_of_mass(moments);

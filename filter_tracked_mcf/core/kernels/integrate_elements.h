@@ -47,7 +47,8 @@ struct IntegrationInput {
     const std::int32_t* unknowns;  ///< eight for each element of the level
     const double* displacement;    ///< of the embedding X_t, three for each unknown, grid units
     SampleArrays samples;
-    float step_size_in_cells;  ///< δ, the weight of ∫ ∇B_I · ∇B_J; squared sides of a finest cell
+    float step_size_in_squared_cells;  ///< δ, the weight of ∫ ∇B_I · ∇B_J; squared sides of a
+                                       ///< finest cell
 };
 
 /// The output arrays, for all elements of the level. The kernel sets those from begin to end, and

@@ -18,7 +18,7 @@ namespace tracked_mcf {
 namespace {
 
 /// The sides of all triangles that join two vertices, grouped by their smaller vertex.
-struct Stars {
+struct SidesByVertex {
     RawVector<std::int64_t> begin;   ///< per vertex, its first side; at last the number of sides
     RawVector<std::uint64_t> sides;  ///< in a group sorted by the larger vertex, then by triangle
 };
@@ -47,8 +47,8 @@ void for_each_side(const RawVector<Triangle>& triangles, const Visit& visit) {
     });
 }
 
-/// Returns the stars, not sorted yet. Sets the edges of sides that join a vertex to itself.
-Stars gather_stars(MeshTopology& topology) {
+/// Returns the sides, not sorted yet. Sets the edges of sides that join a vertex to itself.
+SidesByVertex group_sides(MeshTopology& topology) {
     std::vector<std::atomic<std::int32_t>> counts(topology.welded.size());
     for_each_side(topology.triangles,
                   [&](std::int32_t a, std::int32_t b, std::int32_t triangle, int side) {
@@ -58,21 +58,21 @@ Stars gather_stars(MeshTopology& topology) {
                           counts[a].fetch_add(1, std::memory_order_relaxed);
                       }
                   });
-    Stars stars;
+    SidesByVertex groups;
     parallel_prefix_sum(
         static_cast<std::int64_t>(counts.size()),
-        [&](std::int64_t vertex) { return counts[vertex].load(); }, stars.begin);
-    stars.sides.resize(static_cast<std::size_t>(stars.begin.back()));
+        [&](std::int64_t vertex) { return counts[vertex].load(); }, groups.begin);
+    groups.sides.resize(static_cast<std::size_t>(groups.begin.back()));
     for_each_side(topology.triangles,
                   [&](std::int32_t a, std::int32_t b, std::int32_t triangle, int side) {
                       if (a == b) return;
                       // Threads place the sides of a star in any order.
                       const std::int32_t left = counts[a].fetch_sub(1, std::memory_order_relaxed);
-                      stars.sides[stars.begin[a] + left - 1] =
+                      groups.sides[groups.begin[a] + left - 1] =
                           static_cast<std::uint64_t>(b) << kSideBits |
                           static_cast<std::uint64_t>(4 * std::int64_t{triangle} + side);
                   });
-    return stars;
+    return groups;
 }
 
 /// The sides of one edge.
@@ -122,10 +122,10 @@ struct EdgeSides {
 
 /// Calls visit(sides) for every edge of a star, in order.
 template <class Visit>
-void for_each_edge_of(const Stars& stars, std::int64_t vertex, const RawVector<Triangle>& triangles,
-                      const Visit& visit) {
-    const std::uint64_t* const end = stars.sides.data() + stars.begin[vertex + 1];
-    for (const std::uint64_t* side = stars.sides.data() + stars.begin[vertex]; side < end;) {
+void for_each_edge_of(const SidesByVertex& groups, std::int64_t vertex,
+                      const RawVector<Triangle>& triangles, const Visit& visit) {
+    const std::uint64_t* const end = groups.sides.data() + groups.begin[vertex + 1];
+    for (const std::uint64_t* side = groups.sides.data() + groups.begin[vertex]; side < end;) {
         const std::uint64_t* const first = side;
         while (side < end && larger_vertex(*side) == larger_vertex(*first)) ++side;
         visit(EdgeSides{first, side, triangles});
@@ -134,11 +134,12 @@ void for_each_edge_of(const Stars& stars, std::int64_t vertex, const RawVector<T
 
 /// Sorts a star and returns the number of its edges. A comparison sort of each small star is faster
 /// than a radix sort of all sides.
-std::int64_t sort_star(Stars& stars, std::int64_t vertex, const RawVector<Triangle>& triangles) {
-    std::sort(stars.sides.begin() + stars.begin[vertex],
-              stars.sides.begin() + stars.begin[vertex + 1]);
+std::int64_t sort_group(SidesByVertex& groups, std::int64_t vertex,
+                        const RawVector<Triangle>& triangles) {
+    std::sort(groups.sides.begin() + groups.begin[vertex],
+              groups.sides.begin() + groups.begin[vertex + 1]);
     std::int64_t edges = 0;
-    for_each_edge_of(stars, vertex, triangles, [&](const EdgeSides&) { ++edges; });
+    for_each_edge_of(groups, vertex, triangles, [&](const EdgeSides&) { ++edges; });
     return edges;
 }
 
@@ -161,17 +162,17 @@ MeshTopology topology_of(const TriangleMesh& mesh) {
 
 void find_edges(MeshTopology& topology) {
     topology.edges.resize(topology.triangles.size());
-    Stars stars = gather_stars(topology);
+    SidesByVertex groups = group_sides(topology);
     std::vector<std::atomic<std::uint8_t>> boundary(topology.triangles.size());
     std::vector<std::int32_t> imbalances(
         static_cast<std::size_t>(chunk_count(static_cast<std::int64_t>(topology.welded.size()))));
     const auto edge_count = parallel_scan<std::int64_t>(
         static_cast<std::int64_t>(topology.welded.size()),
-        [&](std::int64_t vertex) { return sort_star(stars, vertex, topology.triangles); },
+        [&](std::int64_t vertex) { return sort_group(groups, vertex, topology.triangles); },
         [&](std::int64_t begin, std::int64_t end, std::int64_t next_edge) {
             std::int32_t imbalance_here = 0;
             for (std::int64_t vertex = begin; vertex < end; ++vertex) {
-                for_each_edge_of(stars, vertex, topology.triangles, [&](const EdgeSides& sides) {
+                for_each_edge_of(groups, vertex, topology.triangles, [&](const EdgeSides& sides) {
                     const auto edge = static_cast<std::int32_t>(next_edge++);
                     sides.for_each([&](std::int32_t triangle, int side) {
                         topology.edges[triangle][side] = edge;

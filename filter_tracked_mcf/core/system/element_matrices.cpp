@@ -22,7 +22,7 @@ IntegrationInput integration_input(const TrackedElements& elements,
     input.samples.fragments = elements.fragments.data();
     input.samples.sample_begin = elements.sample_begin.data();
     input.samples.fragment_begin = elements.fragment_begin.data();
-    input.step_size_in_cells = static_cast<float>(step_size);
+    input.step_size_in_squared_cells = static_cast<float>(step_size);
     return input;
 }
 

@@ -43,7 +43,7 @@ Results integrate(const Surface& surface, InstructionSet instructions,
     input.unknowns = surface.unknowns.data();
     input.displacement = displacement.data();
     input.samples = surface.arrays();
-    input.step_size_in_cells = kStiffnessWeight;
+    input.step_size_in_squared_cells = kStiffnessWeight;
     for (; input.begin < surface.element_count(); input.begin = input.end) {
         input.end = std::min(input.begin + kElementBatch, surface.element_count());
         results.collapsed +=
