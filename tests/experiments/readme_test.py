@@ -88,8 +88,7 @@ def of_whole_jobs():
 def of_benchmark():
     text = (HERE.parent / "benchmark" / "results.md").read_text(encoding="utf-8")
     targets = re.findall(r"^\|.*\| (met|\*\*not met\*\*) \|$", text, re.MULTILINE)
-    return (f"the benchmark, which still measures the flow on the octree's grid, misses {targets.count('**not met**')} of its "
-            f"{len(targets)} targets")
+    return f"the benchmark misses {targets.count('**not met**')} of its {len(targets)} targets"
 
 
 class ReadmeTest(unittest.TestCase):
