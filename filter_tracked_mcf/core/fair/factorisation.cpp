@@ -10,25 +10,25 @@ namespace tracked_mcf {
 
 namespace {
 
-using Matrix = Eigen::SparseMatrix<double>;
-using Entry = Matrix::InnerIterator;
+using ColumnMatrix = Eigen::SparseMatrix<double>;
+using Entry = ColumnMatrix::InnerIterator;
 
 }  // namespace
 
 /// Returns the upper triangle of P K Pᵀ.
-Matrix Factorisation::permuted(const Matrix& matrix) const {
-    Matrix upper(matrix.rows(), matrix.cols());
+ColumnMatrix Factorisation::permuted(const ColumnMatrix& matrix) const {
+    ColumnMatrix upper(matrix.rows(), matrix.cols());
     upper.selfadjointView<Eigen::Upper>() =
         matrix.selfadjointView<Eigen::Upper>().twistedBy(permutation_);
     return upper;
 }
 
-void Factorisation::analyse(const Matrix& matrix) {
+void Factorisation::analyse(const ColumnMatrix& matrix) {
     Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> inverse;
     Eigen::AMDOrdering<int>()(matrix, inverse);
     poll_progress();
     permutation_ = inverse.inverse();
-    const Matrix upper = permuted(matrix);
+    const ColumnMatrix upper = permuted(matrix);
     const auto count = static_cast<int>(matrix.cols());
     parents_.assign(count, -1);
     begin_.assign(count + std::size_t{1}, 0);
@@ -49,8 +49,8 @@ void Factorisation::analyse(const Matrix& matrix) {
 
 /// Finds L row by row: a row's entries are at the rows on the paths from the matrix's entries to
 /// the root of the elimination tree (T. A. Davis, Algorithm 849, ACM TOMS 31, 2005).
-bool Factorisation::factorise(const Matrix& matrix) {
-    const Matrix upper = permuted(matrix);
+bool Factorisation::factorise(const ColumnMatrix& matrix) {
+    const ColumnMatrix upper = permuted(matrix);
     const auto count = static_cast<int>(matrix.cols());
     rows_.resize(begin_.back());
     values_.resize(begin_.back());

@@ -378,9 +378,9 @@ private:
             settings_for(normal_length, step_size_of_treatment(detail_size_, kStepsToDetailSize));
         Twins twins = untreated_;
         for (int i = 0; i < kStepsToDetailSize; ++i) {
-            if (!make_step(treatment.settings, [&] { return step(treatment.settings, twins); }))
-                break;
-            ++treatment.steps;
+            const bool is_made =
+                make_step(treatment.settings, [&] { return step(treatment.settings, twins); });
+            treatment.steps += is_made ? 1 : 0;
         }
         if (treatment.steps > 0) keep(attempt_of(treatment, twins));
     }

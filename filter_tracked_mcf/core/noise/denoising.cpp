@@ -82,12 +82,9 @@ public:
     double median_angle() {
         std::sort(turns_.begin(), turns_.end(),
                   [](const Turn& a, const Turn& b) { return a.chord < b.chord; });
-        double sum = 0;
-        for (const Turn& turn : turns_) {
-            sum += turn.area;
-            if (sum >= area_ / 2) return angle_of(turn.chord);
-        }
-        return 0;
+        auto turn = turns_.begin();
+        for (double sum = turn->area; sum < area_ / 2; sum += turn->area) ++turn;
+        return angle_of(turn->chord);
     }
 
 private:
