@@ -142,6 +142,7 @@ void answer_or_smooth(std::vector<std::string> arguments) {
 void refuse_misspelt_command(const std::string& word) {
     if (word.front() == '-' || format_of(std::filesystem::u8path(word)) != nullptr) return;
     std::vector<std::string> names;
+    names.reserve(kCommands.size());
     for (const Command& command : kCommands) names.emplace_back(command.name);
     const std::string nearest = nearest_name(word, names);
     if (nearest.empty()) return;
