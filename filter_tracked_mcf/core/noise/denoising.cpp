@@ -83,7 +83,8 @@ public:
         std::sort(turns_.begin(), turns_.end(),
                   [](const Turn& a, const Turn& b) { return a.chord < b.chord; });
         auto turn = turns_.begin();
-        for (double sum = turn->area; sum < area_ / 2; sum += turn->area) ++turn;
+        double left = area_ / 2 - turn->area;
+        while (left > 0) left -= (++turn)->area;
         return angle_of(turn->chord);
     }
 
