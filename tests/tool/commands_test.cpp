@@ -139,23 +139,27 @@ TEST_P(EachCommand, QuietSaysNothing) {
 
 TEST_P(EachCommand, LeavesTheOutputIfSomethingIsWrong) {
     write_file(folder_ / "out.ply", "before");
-    const std::string name = GetParam().name, selected = name == "fair" ? " --selected inner" : "";
     write_file(folder_ / "cut.ply", wave().substr(0, 2000));
-    for (const auto& [arguments, code, message] :
-         {std::tuple{name + " none.ply out.ply" + selected, 1, "cannot read none.ply"},
-          std::tuple{name + " cut.ply out.ply" + selected, 1, "cut.ply cannot be used: "},
-          std::tuple{name + " wave.ply out.ply --tthreads 2" + selected, 2,
-                     "Do you mean --threads?"},
-          std::tuple{name + " wave.ply out.ply --threads -1" + selected, 2, "--threads "},
-          std::tuple{name + " wave.ply out.ply --selected outer", 2, "has no number 'outer'"},
-          std::tuple{name + " wave.ply no/out.ply" + selected, 3, "no/out.ply"}}) {
+    const std::string name = GetParam().name;
+    const auto expect_refused = [&](const std::string& arguments, int code, const char* message) {
         const ProgramRun result = run(arguments);
         EXPECT_EQ(result.exit_code, code) << arguments;
         EXPECT_THAT(result.errors, StartsWith("tracked_mcf: "));
         EXPECT_THAT(result.errors, HasSubstr(message));
         EXPECT_THAT(result.output, IsEmpty());
         EXPECT_EQ(read_file(folder_ / "out.ply"), "before") << arguments;
+    };
+    for (const auto& [files, code, message] :
+         {std::tuple{" none.ply out.ply", 1, "cannot read none.ply"},
+          std::tuple{" cut.ply out.ply", 1, "cut.ply cannot be used: "},
+          std::tuple{" wave.ply out.ply --tthreads 2", 2, "Do you mean --threads?"},
+          std::tuple{" wave.ply out.ply --threads -1", 2, "--threads "},
+          std::tuple{" wave.ply no/out.ply", 3, "no/out.ply"}}) {
+        std::string arguments = name + files;
+        if (name == "fair") arguments += " --selected inner";
+        expect_refused(arguments, code, message);
     }
+    expect_refused(name + " wave.ply out.ply --selected outer", 2, "has no number 'outer'");
 }
 
 }  // namespace
