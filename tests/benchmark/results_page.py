@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Makes the results page, tables and verdicts, from the measurements alone."""
 
+import os
+
 import machine
 from measurements import (BASELINE_INSTRUCTIONS, CGAL, IC, MIC, OTHER_BINARY, OURS, REBUILT, TRACKED, TRIAD,
                           JOBS_BY_SIZE, RELIEF, WHOLE_JOBS)
@@ -124,6 +126,10 @@ class Page:
         rows.append(["load average, this process included",
                      f"{min(loads):.1f} to {max(loads):.1f}" if loads else "not recorded"])
         self._table(["what", "is"], rows)
+        # Whole jobs run beside endless loops on purpose.
+        if self._of.values("load_average", peer=TRIAD) and max(loads) > os.cpu_count() + 0.5:
+            self._say("**The machine was busy with other work.** Processor times hold; wall times, and with them the "
+                      "speed-up of two threads, are those of a busy machine.\n")
 
     def _verdicts(self):
         self._title("Targets")
@@ -365,7 +371,8 @@ class Page:
                     rows)
 
     def _sizes(self):
-        self._title("By size", "Squares with waves, and with noise of 0.2 edges, alone on the machine.")
+        self._title("By size", "Squares with waves, and with noise of 0.2 edges. Wall seconds, then processor seconds; other work on the "
+                    "machine changes the first.")
         rows = []
         for job in JOBS_BY_SIZE:
             for mesh in [mesh for mesh in self._of.meshes(peer=job) if mesh.startswith(RELIEF)]:
