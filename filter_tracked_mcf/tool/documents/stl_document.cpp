@@ -60,7 +60,7 @@ private:
     bool is_text() const {
         const auto end = content_.find_last_not_of(std::string_view("\0\x1A", 2)) + 1;
         return std::none_of(content_.begin(), content_.begin() + std::min<std::ptrdiff_t>(end, 999),
-                            [](char c) { return c >= 0 && c < '\t'; });
+                            [](unsigned char c) { return c < '\t'; });
     }
 
     /// Says what is wrong, or nothing.
