@@ -10,7 +10,7 @@ folder=${1:?usage: python_package.sh FOLDER [BUILD_DIR]} build=${2:+$(realpath "
 here=$(dirname "$0")
 "$here/install_debian.sh" python
 [ -x "$folder/bin/python" ] || /usr/bin/python3 -m venv --system-site-packages "$folder"
-install=("$folder/bin/python" -m pip install -q) package=$here/../filter_tracked_mcf/python
+install=("$folder/bin/python" -m pip install -q) package=$here/../filter_tracked_mcf/hosts/python
 if [ -z "$build" ]; then
     "${install[@]}" "$package"
     exit

@@ -7,16 +7,16 @@
 #include <optional>
 #include <string>
 
-#include "filter_tracked_mcf/core/flow/mesh_flow.h"
-#include "filter_tracked_mcf/core/flow/paper_flow.h"
-#include "filter_tracked_mcf/core/kernels/kernels.h"
-#include "filter_tracked_mcf/core/memory/process_memory.h"
+#include "filter_tracked_mcf/core/flow/kernels/kernels.h"
+#include "filter_tracked_mcf/core/flow/stepping/mesh_flow.h"
+#include "filter_tracked_mcf/core/flow/stepping/paper_flow.h"
 #include "filter_tracked_mcf/core/mesh/change.h"
 #include "filter_tracked_mcf/core/mesh/measures.h"
 #include "filter_tracked_mcf/core/parallel/parallel.h"
 #include "filter_tracked_mcf/core/parallel/progress_meter.h"
 #include "filter_tracked_mcf/core/parallel/setup_phases.h"
 #include "filter_tracked_mcf/core/parallel/stopwatch.h"
+#include "filter_tracked_mcf/core/platform/process_memory.h"
 
 namespace tracked_mcf {
 

@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
-#include "filter_tracked_mcf/core/memory/process_memory.h"
 #include "filter_tracked_mcf/core/parallel/thread_team.h"
+#include "filter_tracked_mcf/core/platform/process_memory.h"
 #include "tests/benchmark/incomplete_cholesky_flow.h"
 #include "tests/benchmark/meshes.h"
 #include "tests/benchmark/rows.h"

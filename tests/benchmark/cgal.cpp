@@ -13,7 +13,7 @@
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
 
-#include "filter_tracked_mcf/core/memory/process_memory.h"
+#include "filter_tracked_mcf/core/platform/process_memory.h"
 #include "tests/benchmark/meshes.h"
 #include "tests/benchmark/rows.h"
 #include "tests/benchmark/sphere_error.h"

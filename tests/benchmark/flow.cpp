@@ -2,12 +2,12 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
-#include "filter_tracked_mcf/core/flow/paper_flow.h"
-#include "filter_tracked_mcf/core/memory/process_memory.h"
+#include "filter_tracked_mcf/core/flow/stepping/paper_flow.h"
+#include "filter_tracked_mcf/core/flow/system/element_matrices.h"
 #include "filter_tracked_mcf/core/parallel/parallel.h"
 #include "filter_tracked_mcf/core/parallel/progress_meter.h"
 #include "filter_tracked_mcf/core/parallel/setup_phases.h"
-#include "filter_tracked_mcf/core/system/element_matrices.h"
+#include "filter_tracked_mcf/core/platform/process_memory.h"
 #include "tests/benchmark/meshes.h"
 #include "tests/benchmark/rows.h"
 #include "tests/benchmark/setup_times.h"

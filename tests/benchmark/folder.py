@@ -21,7 +21,7 @@ import machine
 FILES, ROUNDS = 20, 3
 CORES = len(os.sched_getaffinity(0))
 RUNS = [(1, CORES), (1, 1), (2, 1), (4, 1)]  # workers, and threads of each
-SCRIPT = pathlib.Path(__file__).resolve().parents[2] / "filter_tracked_mcf" / "tool" / "smooth_folder.sh"
+SCRIPT = pathlib.Path(__file__).resolve().parents[2] / "filter_tracked_mcf/hosts/cli" / "smooth_folder.sh"
 
 
 def seconds(program, meshes, output, workers, threads):
@@ -35,7 +35,7 @@ def seconds(program, meshes, output, workers, threads):
 
 
 def main(build, *scans):
-    program = pathlib.Path(build).resolve() / "filter_tracked_mcf" / "tool" / "tracked_mcf"
+    program = pathlib.Path(build).resolve() / "filter_tracked_mcf/hosts/cli" / "tracked_mcf"
     times = {run: [] for run in RUNS}
     with tempfile.TemporaryDirectory() as folder:
         meshes = pathlib.Path(folder) / "scans"

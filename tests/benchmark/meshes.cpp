@@ -7,9 +7,9 @@
 #include <sstream>
 #include <vector>
 
-#include "filter_tracked_mcf/core/cells/grid.h"
+#include "filter_tracked_mcf/core/flow/cells/grid.h"
 #include "filter_tracked_mcf/core/mesh/mesh_topology.h"
-#include "filter_tracked_mcf/tool/mesh_file.h"
+#include "filter_tracked_mcf/hosts/cli/mesh_file.h"
 #include "tests/support/shapes.h"
 
 namespace tracked_mcf::benchmark {

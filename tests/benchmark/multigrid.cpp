@@ -18,8 +18,8 @@
 #include <cstdint>
 #include <numeric>
 
-#include "filter_tracked_mcf/core/memory/process_memory.h"
 #include "filter_tracked_mcf/core/mesh/measures.h"
+#include "filter_tracked_mcf/core/platform/process_memory.h"
 #include "tests/benchmark/cotangent_kernels.h"
 #include "tests/benchmark/cotangent_pattern.h"
 #include "tests/benchmark/meshes.h"

@@ -2,8 +2,8 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
-#include "filter_tracked_mcf/core/memory/process_memory.h"
 #include "filter_tracked_mcf/core/parallel/parallel.h"
+#include "filter_tracked_mcf/core/platform/process_memory.h"
 #include "tests/benchmark/meshes.h"
 #include "tests/benchmark/rows.h"
 #include "tests/benchmark/sphere_error.h"

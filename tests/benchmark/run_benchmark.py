@@ -198,7 +198,7 @@ class Benchmark:
     def _jobs(self, mesh, name, jobs, busy):
         """Returns the jobs of these names, but those of PyMeshLab only if it is there."""
         script = pathlib.Path(__file__).parent / "whole_job.py"
-        tool = self._arguments.build / "filter_tracked_mcf" / "tool" / "tracked_mcf"
+        tool = self._arguments.build / "filter_tracked_mcf/hosts/cli" / "tracked_mcf"
         python = self._arguments.build / "pymeshlab" / "bin" / "python"
         edge = mean_edge(tool, mesh, self._output)
         commands = [(sys.executable, (tool, *words))

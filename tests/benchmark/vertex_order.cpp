@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "filter_tracked_mcf/core/cells/grid.h"
+#include "filter_tracked_mcf/core/flow/cells/grid.h"
 
 namespace tracked_mcf::benchmark {
 

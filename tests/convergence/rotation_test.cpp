@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "filter_tracked_mcf/core/cells/grid.h"
 #include "filter_tracked_mcf/core/evolve.h"
+#include "filter_tracked_mcf/core/flow/cells/grid.h"
 #include "tests/support/shapes.h"
 #include "tests/support/surface_distance.h"
 

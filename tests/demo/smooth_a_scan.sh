@@ -26,7 +26,7 @@ cmake --build "$build" --parallel "$(nproc)"
 
 say "Smoothing in meshlabserver"
 mkdir -p "$demo"
-plugin=$build/filter_tracked_mcf/plugin/libfilter_tracked_mcf.so
+plugin=$build/filter_tracked_mcf/hosts/meshlab/libfilter_tracked_mcf.so
 libraries=$(sed -n 's/^MESHLAB_LIBRARY_DIR:INTERNAL=//p' "$build/CMakeCache.txt")
 "$hosts/private_prefix.sh" "$demo/meshlab" "$libraries/plugins" "$plugin"
 "$hosts/flow_script.sh" detail_size=0.08 > "$demo/smooth.mlx" # 5 % of the diagonal
@@ -50,5 +50,5 @@ smoothed:                 $demo/smooth.ply
 before and after:         $demo/before_and_after.png
 the MeshLab script:       $demo/smooth.mlx
 MeshLab with the plugin:  $demo/meshlab/bin/meshlab
-the command-line program: $build/filter_tracked_mcf/tool/tracked_mcf
+the command-line program: $build/filter_tracked_mcf/hosts/cli/tracked_mcf
 TEXT

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "filter_tracked_mcf/core/flow/paper_flow.h"
-#include "filter_tracked_mcf/tool/mesh_file.h"
+#include "filter_tracked_mcf/core/flow/stepping/paper_flow.h"
+#include "filter_tracked_mcf/hosts/cli/mesh_file.h"
 #include "tests/experiments/csv.h"
 #include "tests/experiments/experiments.h"
 #include "tests/experiments/options.h"

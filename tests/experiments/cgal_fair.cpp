@@ -16,8 +16,8 @@
 #include <string>
 #include <vector>
 
-#include "filter_tracked_mcf/core/memory/process_memory.h"
-#include "filter_tracked_mcf/tool/mesh_file.h"
+#include "filter_tracked_mcf/core/platform/process_memory.h"
+#include "filter_tracked_mcf/hosts/cli/mesh_file.h"
 #include "tests/support/process_time.h"
 
 namespace {

@@ -5,9 +5,9 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "filter_tracked_mcf/core/flow/mesh_flow.h"
-#include "filter_tracked_mcf/core/flow/paper_flow.h"
-#include "filter_tracked_mcf/core/plan/plan.h"
+#include "filter_tracked_mcf/core/flow/plan/plan.h"
+#include "filter_tracked_mcf/core/flow/stepping/mesh_flow.h"
+#include "filter_tracked_mcf/core/flow/stepping/paper_flow.h"
 
 namespace tracked_mcf::experiments {
 

@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "filter_tracked_mcf/core/flow/surface_flow.h"
+#include "filter_tracked_mcf/core/flow/stepping/surface_flow.h"
 #include "filter_tracked_mcf/core/flow_parameters.h"
 #include "filter_tracked_mcf/core/triangle_mesh.h"
 

@@ -64,7 +64,7 @@ class Experiment:
         add_options(parser)
         self.name = name
         self.options = parser.parse_args()
-        self.program = self.options.program or self.options.build / "filter_tracked_mcf" / "tool" / "tracked_mcf"
+        self.program = self.options.program or self.options.build / "filter_tracked_mcf/hosts/cli" / "tracked_mcf"
         self._pyplot = pyplot()  # before the measurements, in case it is missing
         self.output = self.options.output or self.options.build / "experiments"
         self.output.mkdir(parents=True, exist_ok=True)

@@ -7,11 +7,11 @@
 #include <stdexcept>
 #include <vector>
 
-#include "filter_tracked_mcf/core/cells/grid.h"
-#include "filter_tracked_mcf/core/flow/paper_flow.h"
+#include "filter_tracked_mcf/core/flow/cells/grid.h"
+#include "filter_tracked_mcf/core/flow/stepping/paper_flow.h"
+#include "filter_tracked_mcf/core/flow/system/constrained_cells.h"
 #include "filter_tracked_mcf/core/mesh/domain.h"
 #include "filter_tracked_mcf/core/mesh/measures.h"
-#include "filter_tracked_mcf/core/system/constrained_cells.h"
 #include "tests/experiments/configuration.h"
 #include "tests/support/cotangent_flow.h"
 #include "tests/support/elements.h"

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "filter_tracked_mcf/core/memory/process_memory.h"
 #include "filter_tracked_mcf/core/mesh/measures.h"
 #include "filter_tracked_mcf/core/mesh/mesh_topology.h"
-#include "filter_tracked_mcf/tool/mesh_file.h"
+#include "filter_tracked_mcf/core/platform/process_memory.h"
+#include "filter_tracked_mcf/hosts/cli/mesh_file.h"
 #include "tests/experiments/csv.h"
 #include "tests/experiments/experiments.h"
 #include "tests/experiments/method.h"

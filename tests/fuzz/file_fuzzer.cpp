@@ -13,8 +13,8 @@
 #include <utility>
 #include <vector>
 
-#include "filter_tracked_mcf/tool/documents/file_document.h"
-#include "filter_tracked_mcf/tool/file_error.h"
+#include "filter_tracked_mcf/hosts/cli/documents/file_document.h"
+#include "filter_tracked_mcf/hosts/cli/file_error.h"
 
 namespace tracked_mcf {
 namespace {

@@ -11,10 +11,10 @@
 
 #include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/parameter_table.h"
-#include "filter_tracked_mcf/parameters/flow_warnings.h"
-#include "filter_tracked_mcf/parameters/noise_warnings.h"
-#include "filter_tracked_mcf/parameters/summary.h"
-#include "filter_tracked_mcf/plugin/run_filter.h"
+#include "filter_tracked_mcf/hosts/meshlab/run_filter.h"
+#include "filter_tracked_mcf/presentation/flow_warnings.h"
+#include "filter_tracked_mcf/presentation/noise_warnings.h"
+#include "filter_tracked_mcf/presentation/summary.h"
 
 namespace tracked_mcf {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "filter_tracked_mcf/mesh_bridge/mesh_bridge.h"
+#include "filter_tracked_mcf/hosts/bridge/mesh_bridge.h"
 
 #include <gtest/gtest.h>
 #include <vcg/complex/complex.h>

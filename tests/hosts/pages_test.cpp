@@ -9,7 +9,7 @@
 #include <sstream>
 
 #include "filter_tracked_mcf/core/parameter_table.h"
-#include "filter_tracked_mcf/parameters/filter_names.h"
+#include "filter_tracked_mcf/presentation/filter_names.h"
 
 namespace tracked_mcf {
 
@@ -71,11 +71,11 @@ void expect_table(const std::string& file, const std::string& heading, const std
 
 TEST(Pages, TablesHaveTheNamesAndDefaultsOfAllParameters) {
     const char* const in_dialogs = "\n\\| `([a-z_]+)` \\| ([^|]*) \\|";
-    const char* const file = "filter_tracked_mcf/parameters/README.md";
+    const char* const file = "filter_tracked_mcf/presentation/README.md";
     expect_table<FlowParameters>(file, "\n## Mean Curvature Flow", in_dialogs, true);
     expect_table<NoiseParameters>(file, "\n## Remove Noise", in_dialogs, true);
     expect_table<FairParameters>(file, "\n## Fair Selected Faces", in_dialogs, true);
-    expect_table<FlowParameters>("filter_tracked_mcf/tool/README.md", "\nFurther options",
+    expect_table<FlowParameters>("filter_tracked_mcf/hosts/cli/README.md", "\nFurther options",
                                  "\n\\| `--([a-z-]+) [^`]*` \\| ([^| ]+) \\|", false);
 }
 
@@ -95,7 +95,7 @@ void expect_script() {
     for (const Input& input : input_table<Parameters>()) {
         if (!input.label.empty()) expected.emplace_back(input.name, "false");
     }
-    const std::string text = page("filter_tracked_mcf/plugin/README.md");
+    const std::string text = page("filter_tracked_mcf/hosts/meshlab/README.md");
     const std::size_t begin =
         text.find("<filter name=\"" + std::string(kNames<Parameters>.name) + "\">");
     ASSERT_LT(begin, text.size());

@@ -9,7 +9,7 @@
 #include <random>
 
 #include "filter_tracked_mcf/core/parameter_table.h"
-#include "filter_tracked_mcf/parameters/filter_names.h"
+#include "filter_tracked_mcf/presentation/filter_names.h"
 #include "tests/hosts/plugin_fixture.h"
 
 namespace tracked_mcf {

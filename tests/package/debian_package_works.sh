@@ -64,7 +64,7 @@ done
 echo "== Any processor"
 # Only the kernels, which the program chooses for its processor at run time, may have AVX instructions,
 # whose names begin with v. The files of the build, unlike the packed ones, still have symbols.
-for file in "$build/filter_tracked_mcf/plugin/$plugin" ${tool:+"$build/filter_tracked_mcf/tool/$tool"}; do
+for file in "$build/filter_tracked_mcf/hosts/meshlab/$plugin" ${tool:+"$build/filter_tracked_mcf/hosts/cli/$tool"}; do
     objdump -d --no-show-raw-insn "$file" | awk -v file="$file" '
         /^[0-9a-f]+ <.*>:$/ { name = $2; any = name !~ /N_AVX[23]/ }
         $2 ~ /^v[a-z]/ { vectors++; if (any) others[name] = 1 }

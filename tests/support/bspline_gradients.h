@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "filter_tracked_mcf/core/cells/bspline.h"
+#include "filter_tracked_mcf/core/flow/cells/bspline.h"
 
 namespace tracked_mcf {
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "filter_tracked_mcf/core/cells/grid.h"
+#include "filter_tracked_mcf/core/flow/cells/grid.h"
 #include "filter_tracked_mcf/core/mesh/mesh_topology.h"
 
 namespace tracked_mcf {

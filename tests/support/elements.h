@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "filter_tracked_mcf/core/cells/fragments.h"
-#include "filter_tracked_mcf/core/cells/grid.h"
-#include "filter_tracked_mcf/core/elements/tracked_elements.h"
+#include "filter_tracked_mcf/core/flow/cells/fragments.h"
+#include "filter_tracked_mcf/core/flow/cells/grid.h"
+#include "filter_tracked_mcf/core/flow/elements/tracked_elements.h"
 
 namespace tracked_mcf {
 

@@ -10,8 +10,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include "filter_tracked_mcf/core/cells/grid.h"
 #include "filter_tracked_mcf/core/errors.h"
+#include "filter_tracked_mcf/core/flow/cells/grid.h"
 #include "filter_tracked_mcf/core/mesh/measures.h"
 #include "filter_tracked_mcf/core/parallel/progress_meter.h"
 #include "tests/support/not_finite.h"

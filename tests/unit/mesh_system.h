@@ -4,9 +4,9 @@
 #include <Eigen/Core>
 #include <random>
 
-#include "filter_tracked_mcf/core/flow/flow_surface.h"
-#include "filter_tracked_mcf/core/solver/field.h"
-#include "filter_tracked_mcf/core/surface/triangle_elements.h"
+#include "filter_tracked_mcf/core/flow/solver/field.h"
+#include "filter_tracked_mcf/core/flow/stepping/flow_surface.h"
+#include "filter_tracked_mcf/core/mesh/triangle_elements.h"
 
 namespace tracked_mcf {
 

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <vector>
 
-#include "filter_tracked_mcf/core/solver/paper/multigrid.h"
-#include "filter_tracked_mcf/core/solver/vertex_octree.h"
-#include "filter_tracked_mcf/core/system/constrained_cells.h"
-#include "filter_tracked_mcf/core/system/element_matrices.h"
+#include "filter_tracked_mcf/core/flow/solver/paper/multigrid.h"
+#include "filter_tracked_mcf/core/flow/solver/vertex_octree.h"
+#include "filter_tracked_mcf/core/flow/system/constrained_cells.h"
+#include "filter_tracked_mcf/core/flow/system/element_matrices.h"
 #include "tests/support/elements.h"
 #include "tests/support/shapes.h"
 #include "tests/unit/mesh_system.h"

@@ -10,7 +10,7 @@
 #include <string>
 #include <utility>
 
-#include "filter_tracked_mcf/core/flow/preserving.h"
+#include "filter_tracked_mcf/core/flow/stepping/preserving.h"
 #include "filter_tracked_mcf/core/mesh/measures.h"
 #include "filter_tracked_mcf/core/mesh/mesh_topology.h"
 #include "filter_tracked_mcf/core/mesh/weld.h"

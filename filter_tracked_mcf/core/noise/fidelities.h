@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "filter_tracked_mcf/core/surface/stars.h"
+#include "filter_tracked_mcf/core/mesh/stars.h"
 
 namespace tracked_mcf {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "filter_tracked_mcf/core/mesh/domain.h"
-#include "filter_tracked_mcf/core/surface/stars.h"
+#include "filter_tracked_mcf/core/mesh/stars.h"
 
 namespace tracked_mcf {
 

@@ -8,8 +8,8 @@
 #include <system_error>
 #include <utility>
 
-#include "filter_tracked_mcf/core/parallel/processors.h"
 #include "filter_tracked_mcf/core/parallel/progress_meter.h"
+#include "filter_tracked_mcf/core/platform/processors.h"
 
 namespace tracked_mcf {
 

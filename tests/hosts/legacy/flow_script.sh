@@ -6,7 +6,7 @@
 # 'fnz > 0'.
 set -euo pipefail
 
-page=$(dirname "$(realpath "$0")")/../../../filter_tracked_mcf/plugin/README.md
+page=$(dirname "$(realpath "$0")")/../../../filter_tracked_mcf/hosts/meshlab/README.md
 filter=$(sed -n '/^ <filter name="Mean Curvature Flow">$/,/^ <\/filter>$/p' "$page")
 condition=
 set_value() { # NAME VALUE

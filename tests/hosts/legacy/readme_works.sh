@@ -7,7 +7,7 @@ set -euo pipefail
 
 here=$(dirname "$(realpath "$0")")
 prefix=$1 tool=$2 readme=$3 meshes=$4 work=$5
-pages=("$readme" "$(dirname "$readme")"/filter_tracked_mcf/{plugin,tool}/README.md)
+pages=("$readme" "$(dirname "$readme")"/filter_tracked_mcf/hosts/{meshlab,cli}/README.md)
 rm -rf "$work"
 mkdir -p "$work"
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "filter_tracked_mcf/core/cells/grid.h"
+#include "filter_tracked_mcf/core/flow/cells/grid.h"
 #include "tests/benchmark/incomplete_cholesky_flow.h"
 #include "tests/support/cotangent_flow.h"
 #include "tests/support/shapes.h"

@@ -14,9 +14,9 @@
 #include <thread>
 
 #include "filter_tracked_mcf/core/parallel/parallel.h"
-#include "filter_tracked_mcf/core/parallel/processors.h"
+#include "filter_tracked_mcf/core/platform/processors.h"
 #include "tests/support/environment_variable.h"
-#include "tests/unit/memory/address_space_limit.h"
+#include "tests/unit/platform/address_space_limit.h"
 #include "tests/unit/system_files.h"
 
 namespace tracked_mcf {

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "filter_tracked_mcf/core/flow/octree/octree.h"
+#include "filter_tracked_mcf/core/flow/solver/field.h"
+#include "filter_tracked_mcf/core/flow/solver/paper/sparse_matrix.h"
+#include "filter_tracked_mcf/core/flow/system/element_matrices.h"
+#include "filter_tracked_mcf/core/flow/system/matrix_blocks.h"
+#include "filter_tracked_mcf/core/parallel/sorting.h"
+
+namespace tracked_mcf {
+
+/// A level's system matrix. The pattern follows from the octree and is made once; each step sets
+/// the values from element matrices. Each row is summed in a fixed order: the bits are the same at
+/// any number of threads.
+class LevelMatrix {
+public:
+    /// Makes the pattern of `level`, which must outlive this. The values are not set.
+    explicit LevelMatrix(const Level& level);
+
+    /// Sums the level's element matrices. The inverse diagonal becomes 0 for unknowns that are not
+    /// free, so that no smoother changes them: constrained ones, and those to whose diagonal no
+    /// sample contributes.
+    void assemble(const MatrixBlocks& elements, const std::vector<std::uint8_t>& constrained);
+
+    const SparseMatrix& matrix() const { return matrix_; }
+    const std::vector<float>& inverse_diagonal() const { return inverse_diagonal_; }
+
+    /// Sums element vectors.
+    void assemble(const std::vector<ElementVector>& elements, Field& vector) const;
+
+    /// Computes residual = right_side - A x, zero for unknowns that are not free.
+    void residual(const Field& right_side, const Field& x, Field& residual) const;
+
+private:
+    void make_pattern();
+    void assemble_row(std::int32_t row, const MatrixBlocks& elements,
+                      std::vector<float>& sums) const;
+    void store_row(std::int32_t row, std::vector<float>& sums);
+
+    const Level& level_;
+    Groups occurrences_;  ///< corner indices of each unknown
+    SparseMatrix matrix_;
+    std::vector<float> inverse_diagonal_;
+};
+
+}  // namespace tracked_mcf

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "filter_tracked_mcf/core/flow/cells/grid.h"
+#include "filter_tracked_mcf/core/flow/octree/octree.h"
+#include "filter_tracked_mcf/core/flow/solver/field.h"
+#include "filter_tracked_mcf/core/flow/solver/mesh_system.h"
+#include "filter_tracked_mcf/core/flow/system/matrix_blocks.h"
+#include "filter_tracked_mcf/core/mesh/stars.h"
+#include "filter_tracked_mcf/core/parallel/raw_vector.h"
+#include "filter_tracked_mcf/core/parallel/sorting.h"
+
+namespace tracked_mcf {
+
+/// The tracked octree of a surface's vertices: trilinear functions of the cells in which the
+/// vertices were when it was built, as coarser functions of a mesh. An element is the set of a
+/// cell's vertices that sides inside the cell connect, so that close sheets have functions of their
+/// own.
+///
+/// P, the values of the finest level's functions at the vertices, never changes: the functions move
+/// with the vertices.
+class VertexOctree {
+public:
+    /// Puts the vertices into the cells of a grid that encloses them.
+    VertexOctree(const Stars& stars, const std::vector<Eigen::Vector3d>& positions,
+                 const Grid& grid);
+
+    const std::vector<Level>& levels() const { return levels_; }
+    const Level& finest() const { return levels_.back(); }
+    double cell_size() const { return cell_size_; }  ///< of the finest level
+
+    /// Sets the matrices of the finest elements to those of the system, as seen by the element's
+    /// functions. Their sum is nearly PᵀAP: a triangle across cells counts in each by the share of
+    /// its corners, with the cell's functions continued to the corners outside, and masses are
+    /// lumped. So elements stay apart, and coarser levels follow from them as in the paper
+    /// (section 5.2).
+    void assemble(const MeshSystem& system, const TriangleElements& elements,
+                  MatrixBlocks& matrices) const;
+
+    /// Computes coarse = Pᵀ r; r is 0 at vertices that stay.
+    void restrict(const Field& r, Field& coarse);
+    /// Computes x += P coarse, except for vertices that stay.
+    void add_prolongated(const MeshSystem& system, const Field& coarse, Field& x) const;
+
+private:
+    using Values = Eigen::Matrix<float, 8, 1>;
+
+    void find_elements(const Stars& stars, const std::vector<MortonCode>& cells, int depth);
+    /// Returns the values at a vertex of the functions of its own element.
+    Values values_at(std::int32_t vertex) const;
+    /// Returns the values at a vertex of the functions of an element, continued from its cell.
+    Values values_at(std::int32_t vertex, std::int32_t element) const;
+
+    double cell_size_;
+    std::vector<Level> levels_;
+    std::vector<std::int32_t> element_of_;        ///< per vertex
+    RawVector<Eigen::Vector3f> local_;            ///< per vertex, in the cell of its element
+    Groups vertices_;                             ///< by element
+    Groups corners_;                              ///< 8 × element + corner, by unknown
+    RawVector<Eigen::Matrix<float, 4, 8>> sums_;  ///< workspace, per element
+};
+
+}  // namespace tracked_mcf

@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "filter_tracked_mcf/core/flow/stepping/mesh_flow.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+
+#include "filter_tracked_mcf/core/flow/stepping/mean_curvature.h"
+#include "filter_tracked_mcf/core/mesh/measures.h"
+#include "filter_tracked_mcf/core/mesh/mesh_topology.h"
+#include "filter_tracked_mcf/core/mesh/triangle_elements.h"
+#include "filter_tracked_mcf/core/parallel/parallel.h"
+#include "filter_tracked_mcf/core/parallel/progress_meter.h"
+#include "filter_tracked_mcf/core/parallel/setup_phases.h"
+#include "filter_tracked_mcf/core/parallel/stopwatch.h"
+
+namespace tracked_mcf {
+
+namespace {
+
+/// The fraction of a step's time before the solver begins.
+constexpr double kShareOfAssembly = 0.2;
+
+/// The area after a step may be so many times that before it.
+constexpr double kMostGrowth = 1.001;
+
+/// What rounding adds to a triangle's area, in squared edges: a strip may be so narrow that its own
+/// area is less.
+constexpr double kRoundedArea = 1e-6;
+
+/// A solve whose error is more than this part of its solution has failed.
+constexpr double kUseless = 0.5;
+
+/// The tolerance where components are scaled after the step, relative to the usual one.
+constexpr double kToleranceOfScaled = 0.1;
+
+/// A step of order 2 or more overshoots at corners. It may leave the box of the surface by this
+/// part of the length of the waves that it halves and of the box's diagonal.
+constexpr double kOvershootInDetail = 0.1, kOvershootInDiagonals = 0.02;
+
+/// Where waves are shorter than this, in edges, coarser functions than the mesh's cost more than
+/// they save.
+constexpr double kShortWaves = 16;
+
+/// An octree is used from a step on whose solves take more iterations than this.
+constexpr int kManyIterations = 40;
+
+/// The side of the octree's cells is at least this, in edges.
+constexpr double kSmallestCell = 3;
+
+/// The octree is built anew if the first step leaves less than this part of the area. Vertices that
+/// were apart, as those of noise, have come together then, and its functions jump between them.
+constexpr double kSameShape = 0.95;
+
+/// Not if the new one would have less than this part of the first one's elements: parts that shrink
+/// to a point need the functions that they had.
+constexpr double kFewerElements = 0.25;
+
+/// The octree has at most this share of the vertices as elements.
+constexpr double kMostElements = 0.25;
+
+using Positions = std::vector<Eigen::Vector3d>;
+using Boxes = std::vector<Eigen::AlignedBox3d>;
+
+/// Returns the box of each component.
+Boxes boxes_of(const FlowSurface& surface, const Positions& positions) {
+    Boxes boxes(static_cast<std::size_t>(surface.component_count));
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+        boxes[surface.components[i]].extend(positions[i]);
+    }
+    return boxes;
+}
+
+/// Returns the box of all components.
+Eigen::AlignedBox3d box_of(const Boxes& boxes) {
+    Eigen::AlignedBox3d all;
+    for (const Eigen::AlignedBox3d& box : boxes) all.extend(box);
+    return all;
+}
+
+/// Returns an octree for the vertices at these positions. A depth of 0 chooses it. Returns none if
+/// the surface consists of parts of so few vertices that an octree is of no use.
+std::unique_ptr<VertexOctree> octree_of(const FlowSurface& surface, const Positions& positions,
+                                        int depth) {
+    const Grid cube = cube_around(box_of(boxes_of(surface, positions)));
+    if (depth > 0) {
+        return std::make_unique<VertexOctree>(surface.stars, positions, with_depth(cube, depth));
+    }
+    const double finest = std::floor(std::log2(cube.cell_size / kSmallestCell));
+    for (int l = static_cast<int>(std::min(finest, double{kMaximumDepth})); l >= 1; --l) {
+        auto octree = std::make_unique<VertexOctree>(surface.stars, positions, with_depth(cube, l));
+        if (octree->finest().element_count() <= kMostElements * surface.stars.count())
+            return octree;
+    }
+    return nullptr;
+}
+
+}  // namespace
+
+MeshFlow::MeshFlow(MeshPlan plan)
+    : SurfaceFlow(plan),
+      surface_(flow_surface_of(plan.domain, plan.densities)),
+      steps_(plan.steps),
+      step_size_(plan.step_size / (surface_.edge * surface_.edge)),
+      depth_(plan.depth),
+      initial_(surface_.positions),
+      solver_(surface_.stars, surface_.fixed, surface_.components) {
+    first_area_ = area_ = area_of(surface_.positions);
+    enter_setup_phase(kBuildOctree);
+    if (plan.depth > 0 || detail_size_for(step_size_, 1, steps_.order) >= kShortWaves) {
+        use_octree();
+    }
+    enter_setup_phase(kPrepareSolver);
+    const double diagonal = box_of(boxes_of(surface_, initial_)).diagonal().norm();
+    const double halved = detail_size_for(step_size_, 1, steps_.order);
+    margin_ = kOvershootInDetail * std::min(halved, diagonal) + kOvershootInDiagonals * diagonal;
+    if (plan.preserve != Preserve::None)
+        preserver_.emplace(surface_, plan.preserve, plan.steps.flow);
+    report_.degenerate_triangles = surface_.degenerate_count;
+    if (steps_.flow == FlowKind::Conformalized) report_.genus = genus_of(plan.domain.topology());
+    report_.unknowns = surface_.stars.count();
+}
+
+void MeshFlow::use_octree() {
+    std::unique_ptr<VertexOctree> octree = octree_of(surface_, surface_.positions, depth_);
+    if (!octree) return;
+    const auto elements = octree->finest().element_count();
+    if (!solver_.octree()) {
+        report_.depth = octree->finest().depth;
+        report_.cell_size = octree->cell_size() * surface_.edge;
+        report_.cells = count_cells(octree->finest());
+        report_.elements = elements;
+    }
+    if (elements < kFewerElements * static_cast<double>(report_.elements)) return;
+    solver_.use(std::move(octree));
+}
+
+void MeshFlow::renew_octree() {
+    if (report_.steps.empty() || octree_harms_) return;
+    // A surface that has shrunk has longer waves, in its edges.
+    const bool needs_one = report_.steps.back().solver_iterations > kManyIterations * steps_.order;
+    // A conformalized flow keeps its stiffness, which the functions of the start suit.
+    const bool is_rough = report_.steps.size() == 1 && area_ < kSameShape * first_area_ &&
+                          steps_.flow == FlowKind::MeanCurvature;
+    if (solver_.octree() ? is_rough : needs_one) use_octree();
+}
+
+double MeshFlow::area_of(const Positions& positions) const {
+    const RawVector<Triangle>& triangles = surface_.stars.triangles;
+    return parallel_sum(static_cast<std::int64_t>(triangles.size()), 0.0,
+                        [&](std::int64_t begin, std::int64_t end) {
+                            double sum = 0;
+                            for (std::int64_t i = begin; i < end; ++i) {
+                                const auto [a, b, c] = corners_of(positions, triangles[i]);
+                                sum += twice_vector_area(a, b, c).norm() / 2;
+                            }
+                            return sum;
+                        });
+}
+
+void MeshFlow::solve(StepReport& report, Positions* response) {
+    // Once components have been scaled, most of a step is given back, but not its errors.
+    const bool scales = preserver_ && !preserver_->pushes() && !report_.steps.empty();
+    const double tolerance = (scales ? kToleranceOfScaled : 1) * steps_.tolerance;
+    const int solves = steps_.order + (response != nullptr ? 1 : 0);
+    const bool had_octree = solver_.octree() != nullptr;
+    const auto solve_one = [&](int number, Positions& x) {
+        const ProgressSpan span(1.0 * number / solves, (number + 1.0) / solves);
+        const MeshConvergence result = solver_.solve(right_side_, tolerance, x);
+        report.solver_iterations += result.iterations;
+        report.residual_before = std::hypot(report.residual_before, result.residual_before);
+        report.residual_after = std::hypot(report.residual_after, result.residual_after);
+        // Written so that a NaN is kept.
+        if (!(result.error_estimate <= report.error_estimate)) {
+            report.error_estimate = result.error_estimate;
+        }
+    };
+    solver_.system().multiply_stiffness(surface_.positions, -1, right_side_);
+    for (int i = 0; i < steps_.order; ++i) {
+        // A d = δ L d', where d' is the displacement of a step of one order less
+        if (i > 0) solver_.system().multiply_stiffness(d_, 1, right_side_);
+        solve_one(i, d_);
+    }
+    if (response != nullptr) {
+        preserver_->pressure(surface_.positions, right_side_);
+        solve_one(steps_.order, *response);
+    }
+    report.reached_tolerance = report.error_estimate <= steps_.tolerance;
+    octree_harms_ = octree_harms_ || (had_octree && !solver_.octree());
+}
+
+std::vector<Eigen::Vector3d> MeshFlow::displaced() const {
+    Positions to(surface_.positions.size());
+    parallel_for_rows(static_cast<std::int64_t>(to.size()),
+                      [&](std::int32_t i) { to[i] = surface_.positions[i] + d_[i]; });
+    if (steps_.order > 1) return to;
+    // Order 1 obeys a maximum principle for each coordinate, but for the tolerance.
+    const Boxes boxes = boxes_of(surface_, surface_.positions);
+    parallel_for_rows(static_cast<std::int64_t>(to.size()), [&](std::int32_t i) {
+        const Eigen::AlignedBox3d& box = boxes[surface_.components[i]];
+        Eigen::AlignedBox3d wide(box.min().array() - margin_, box.max().array() + margin_);
+        if (wide.contains(to[i])) to[i] = to[i].cwiseMax(box.min()).cwiseMin(box.max());
+    });
+    return to;
+}
+
+Stop MeshFlow::advance(Positions& to, StepReport& report) {
+    const Stopwatch assembling;
+    report.area = area_ * surface_.edge * surface_.edge;
+    if (area_ < kVanishedArea * first_area_) return Stop::Vanished;
+    if (surface_.constrained_count == report_.vertices) return Stop::NothingMoves;
+    renew_octree();
+    const bool takes_stiffness = steps_.flow == FlowKind::MeanCurvature || report_.steps.empty();
+    solver_.take(elements_in_own_metric(surface_.stars, surface_.positions, surface_.densities),
+                 step_size_, takes_stiffness);
+    report.assemble_seconds = assembling.seconds();
+    const ProgressSpan solving(kShareOfAssembly, 1);
+    const Stopwatch stopwatch;
+    Positions response;
+    solve(report, preserver_ && preserver_->pushes() ? &response : nullptr);
+    poll_progress();
+    report.solve_seconds = stopwatch.seconds();
+    if (!report.reached_tolerance && !(report.error_estimate <= kUseless)) return Stop::StepFailed;
+    to = displaced();
+    const Boxes boxes = boxes_of(surface_, surface_.positions);
+    const auto is_outside = [&](std::int64_t i) {
+        const Eigen::AlignedBox3d& box = boxes[surface_.components[i]];
+        return !Eigen::AlignedBox3d(box.min().array() - margin_, box.max().array() + margin_)
+                    .contains(to[i]);
+    };
+    if (parallel_count(static_cast<std::int64_t>(to.size()), is_outside) > 0)
+        return Stop::StepFailed;
+    const Stop restored = preserver_ ? preserver_->restore(response, to) : Stop::None;
+    const double area_before = std::exchange(area_, area_of(to));
+    if (preserver_) return restored;
+    // A step lowers the energy of the metric that it takes, which bounds the area. Only triangles
+    // that are longer in that metric can make it larger. A conformalized flow keeps its metric.
+    const double most = steps_.flow == FlowKind::MeanCurvature ? area_before : first_area_;
+    const auto triangles = static_cast<double>(surface_.stars.triangles.size());
+    const bool grew = area_ > kMostGrowth * most + kRoundedArea * triangles;
+    return grew ? Stop::Grew : Stop::None;
+}
+
+bool MeshFlow::step() {
+    StepReport report;
+    Positions to;
+    const Stop stop = advance(to, report);
+    if (stop == Stop::Vanished && to.empty()) {
+        end_before_last_step(Stop::Vanished);
+        return false;
+    }
+    if (stop != Stop::None) {
+        report_.stop = stop;
+        return false;
+    }
+    before_ = std::exchange(surface_.positions, std::move(to));
+    report_.steps.push_back(report);
+    return true;
+}
+
+void MeshFlow::take_last_step_back() {
+    surface_.positions = std::move(before_);
+}
+
+void MeshFlow::move_vertices(Positions& positions) const {
+    parallel_for_rows(static_cast<std::int64_t>(positions.size()), [&](std::int32_t i) {
+        const std::int32_t vertex = surface_.vertices[i];
+        if (vertex < 0 || surface_.fixed[vertex] != 0) return;
+        const Eigen::Vector3d moved = surface_.positions[vertex] - initial_[vertex];
+        if (!moved.isZero(0)) positions[i] += surface_.edge * moved;
+    });
+}
+
+std::vector<double> MeshFlow::mean_curvatures(const SurfaceView& /*after*/) {
+    return mean_curvatures_of(surface_);
+}
+
+}  // namespace tracked_mcf

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "filter_tracked_mcf/presentation/surface_warnings.h"
+
+#include <cmath>
+#include <sstream>
+
+namespace tracked_mcf {
+
+std::vector<std::string> open_cracks(const CrackReport& cracks) {
+    if (cracks.open_pairs == 0) return {};
+    const bool one = cracks.open_pairs == 1;
+    std::ostringstream text;
+    text.precision(2);
+    text << cracks.open_pairs
+         << (one ? " pair of rim vertices is " : " pairs of rim vertices are up to ")
+         << cracks.open_width
+         << " apart, so the surface may open there. If it is a crack, merge close vertices first.";
+    return {text.str()};
+}
+
+std::vector<std::string> inside_out(double volume, double area) {
+    // A flat surface encloses nothing but rounding. A ball encloses 0.094 of this power.
+    if (volume >= -1e-6 * std::pow(area, 1.5)) return {};
+    return {
+        "The mesh is inside out: its faces point inwards. MeshLab's Invert Faces Orientation turns "
+        "them."};
+}
+
+}  // namespace tracked_mcf

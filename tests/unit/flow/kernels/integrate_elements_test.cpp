@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "filter_tracked_mcf/core/flow/kernels/integrate_elements.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "filter_tracked_mcf/core/flow/cells/bspline.h"
+#include "filter_tracked_mcf/core/flow/kernels/kernels.h"
+#include "filter_tracked_mcf/core/flow/system/matrix_blocks.h"
+#include "tests/support/bspline_gradients.h"
+#include "tests/unit/flow/kernels/random_surface.h"
+
+namespace tracked_mcf {
+namespace {
+
+using Matrix8 = Eigen::Matrix<double, 8, 8>;
+using Vector8 = Eigen::Matrix<double, 8, 1>;
+
+constexpr double kStiffnessWeight = 0.75;
+
+struct Results {
+    MatrixBlocks matrices;
+    MatrixBlocks stiffnesses;  ///< if they were asked for
+    std::vector<ElementVector> right_sides;
+    std::vector<float> areas;
+    std::int64_t collapsed = 0;  ///< samples
+};
+
+Results integrate(const Surface& surface, InstructionSet instructions,
+                  bool keep_stiffness = false) {
+    const std::vector<double> displacement = displacement_array(surface);
+    const auto count = static_cast<std::size_t>(surface.element_count());
+    Results results = {MatrixBlocks(surface.element_count()),
+                       MatrixBlocks(keep_stiffness ? surface.element_count() : 0),
+                       std::vector<ElementVector>(count), std::vector<float>(count), 0};
+    IntegrationInput input = {};
+    input.unknowns = surface.unknowns.data();
+    input.displacement = displacement.data();
+    input.samples = surface.arrays();
+    input.step_size_in_squared_cells = kStiffnessWeight;
+    for (; input.begin < surface.element_count(); input.begin = input.end) {
+        input.end = std::min(input.begin + kElementBatch, surface.element_count());
+        results.collapsed +=
+            kernels_for(instructions)
+                .integrate_elements(input, {results.matrices.blocks(),
+                                            keep_stiffness ? results.stiffnesses.blocks() : nullptr,
+                                            results.right_sides.data(), results.areas.data()});
+    }
+    return results;
+}
+
+/// Equation 4 in double with the paper's two tangents.
+struct Reference {
+    Matrix8 mass = Matrix8::Zero();
+    Matrix8 stiffness = Matrix8::Zero();
+    Matrix83 right_side = Matrix83::Zero();
+    double area = 0;
+    int collapsed = 0;
+};
+
+void add_sample(const Eigen::Vector3d& normal, const Eigen::Vector3d& local, double weight,
+                const Matrix83& x, Reference& reference) {
+    Eigen::Matrix<double, 3, 2> tangents;
+    tangents.col(0) = normal.unitOrthogonal();
+    tangents.col(1) = normal.cross(tangents.col(0));
+    const Vector8 values = bspline_values(local);
+    const Eigen::Matrix<double, 8, 2> slopes = bspline_gradients(local) * tangents;
+    const Eigen::Matrix<double, 3, 2> dx = x.transpose() * slopes;
+    const Eigen::Matrix2d g = dx.transpose() * dx;
+    const double area = dx.col(0).cross(dx.col(1)).norm();
+    if (area <= 1e-4) {
+        ++reference.collapsed;
+        return;
+    }
+    const Matrix8 stiffness = weight * area * slopes * g.inverse() * slopes.transpose();
+    reference.mass += area * weight * values * values.transpose();
+    reference.stiffness += stiffness;
+    reference.right_side -= kStiffnessWeight * stiffness * x;
+    reference.area += area * weight;
+}
+
+Reference reference_for(const Surface& surface, std::size_t element) {
+    const Matrix83 x = embedding_of(surface, element);
+    Reference reference;
+    for_each_sample(surface, element,
+                    [&](const Eigen::Vector3d& normal, const Eigen::Vector3d& local,
+                        double weight) { add_sample(normal, local, weight, x, reference); });
+    return reference;
+}
+
+Matrix83 right_side_of(const Results& results, std::size_t element) {
+    return Eigen::Map<const Eigen::Matrix<float, 8, 3>>(results.right_sides[element].entry[0])
+        .cast<double>();
+}
+
+void expect_reference(const Surface& surface, const Results& results) {
+    std::int64_t collapsed = 0;
+    for (std::size_t element = 0; element < results.right_sides.size(); ++element) {
+        SCOPED_TRACE("element " + std::to_string(element));
+        const Reference expected = reference_for(surface, element);
+        const Matrix8 matrix = expected.mass + kStiffnessWeight * expected.stiffness;
+        const ElementMatrix whole = results.matrices.of(static_cast<std::int64_t>(element));
+        const Matrix8 actual =
+            Eigen::Map<const Eigen::Matrix<float, 8, 8>>(whole.entry[0]).cast<double>();
+        const Matrix83 right_side = right_side_of(results, element);
+        EXPECT_LE((actual - matrix).norm(), 2e-6 * matrix.norm());
+        EXPECT_LE((right_side - expected.right_side).norm(), 2e-6 * matrix.norm());
+        // With edges, the area is the difference of two sums.
+        EXPECT_NEAR(results.areas[element], expected.area, 1e-6 * expected.mass.sum());
+        collapsed += expected.collapsed;
+    }
+    EXPECT_EQ(results.collapsed, collapsed);
+}
+
+class IntegrateElements : public testing::TestWithParam<InstructionSet> {
+protected:
+    void check(const Surface& surface) {
+        expect_reference(surface, integrate(surface, GetParam()));
+    }
+};
+
+TEST_P(IntegrateElements, EqualTheIntegralsInDouble) {
+    check(SurfaceMaker().make());
+}
+
+TEST_P(IntegrateElements, EqualTheIntegralsInDoubleAtRest) {
+    Surface surface = SurfaceMaker().make();
+    for (Matrix83& displacement : surface.displacement) displacement.setConstant(-7);
+    check(surface);
+}
+
+TEST_P(IntegrateElements, ReportCollapsedSamples) {
+    // Every other element is flat or a point. Samples of a flat element whose normal is in its
+    // plane have nearly no area.
+    Surface surface = SurfaceMaker().make();
+    for (std::size_t element = 0; element < surface.displacement.size(); ++element) {
+        for (int corner = 0; corner < 8; ++corner) {
+            for (int axis = 0; axis < 3; ++axis) {
+                const bool squeezed = element % 4 == 0 || (element % 2 == 0 && axis == 2);
+                const double length = squeezed ? 0 : 1;
+                surface.displacement[element](corner, axis) =
+                    50 + (length - 1) * corner_bit(corner, axis);
+            }
+        }
+    }
+    for (std::size_t f = 0; f < surface.fragments.size(); f += 3) {
+        surface.fragments[f] = {{0.6F, -0.8F, 0}, surface.fragments[f].sample_count};
+    }
+    check(surface);
+}
+
+TEST_P(IntegrateElements, KeepTheRightHandSideAccurateWhereTheSurfaceIsCompressed) {
+    // The matrix is large there, and the right-hand side is not.
+    Surface surface = SurfaceMaker().make();
+    for (Matrix83& displacement : surface.displacement) {
+        for (int corner = 0; corner < 8; ++corner) {
+            displacement.row(corner) << -0.999 * corner_bit(corner, 0), 0, 0;
+        }
+    }
+    for (Fragment& fragment : surface.fragments) {
+        fragment = {{0, 0.6F, 0.8F}, fragment.sample_count};
+    }
+    const Results results = integrate(surface, GetParam());
+    for (std::size_t element = 0; element < results.right_sides.size(); ++element) {
+        const Matrix83 expected = reference_for(surface, element).right_side;
+        EXPECT_LE((right_side_of(results, element) - expected).norm(), 2e-6 * expected.norm());
+    }
+}
+
+TEST_P(IntegrateElements, WriteTheStiffnessesAlone) {
+    const Surface surface = SurfaceMaker().make();
+    const Results plain = integrate(surface, GetParam());
+    const Results with = integrate(surface, GetParam(), true);
+    for (std::size_t element = 0; element < with.areas.size(); ++element) {
+        const ElementMatrix whole = with.stiffnesses.of(static_cast<std::int64_t>(element));
+        const Matrix8 stiffness =
+            Eigen::Map<const Eigen::Matrix<float, 8, 8>>(whole.entry[0]).cast<double>();
+        const Matrix8 expected = kStiffnessWeight * reference_for(surface, element).stiffness;
+        EXPECT_LE((stiffness - expected).norm(), 2e-6 * expected.norm());
+        for (int entry = 0; entry < 64; ++entry) {
+            const auto index = static_cast<std::int64_t>(element);
+            EXPECT_EQ(with.matrices.at(index, entry / 8, entry % 8),
+                      plain.matrices.at(index, entry / 8, entry % 8));
+        }
+        EXPECT_EQ(right_side_of(with, element), right_side_of(plain, element));
+        EXPECT_EQ(with.areas[element], plain.areas[element]);
+    }
+}
+
+TEST(InstructionSetsOfFourLanes, GiveTheSameBits) {
+    const std::vector<InstructionSet> available = available_instruction_sets();
+    if (std::count(available.begin(), available.end(), InstructionSet::Ssse3) == 0) {
+        GTEST_SKIP() << "This machine has one alone.";
+    }
+    const Surface surface = SurfaceMaker().make();
+    const Results a = integrate(surface, InstructionSet::Baseline);
+    const Results b = integrate(surface, InstructionSet::Ssse3);
+    EXPECT_EQ(a.areas, b.areas);
+    for (std::size_t element = 0; element < a.areas.size(); ++element) {
+        EXPECT_EQ(right_side_of(a, element), right_side_of(b, element));
+        for (int entry = 0; entry < 64; ++entry) {
+            const auto index = static_cast<std::int64_t>(element);
+            EXPECT_EQ(a.matrices.at(index, entry / 8, entry % 8),
+                      b.matrices.at(index, entry / 8, entry % 8));
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(InstructionSets, IntegrateElements,
+                         testing::ValuesIn(available_instruction_sets()),
+                         [](const auto& instance) { return std::string(name_of(instance.param)); });
+
+}  // namespace
+}  // namespace tracked_mcf

@@ -1,0 +1,446 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "filter_tracked_mcf/core/flow/stepping/preserving.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <utility>
+
+#include "filter_tracked_mcf/core/flow/cells/grid.h"
+#include "filter_tracked_mcf/core/flow/solver/mesh_solver.h"
+#include "filter_tracked_mcf/core/mesh/measures.h"
+#include "tests/support/shapes.h"
+#include "tests/unit/flows.h"
+#include "tests/unit/mesh_system.h"
+
+namespace tracked_mcf {
+namespace {
+
+/// The volume is restored to the rounding of doubles after every step: Newton's method stops at a
+/// relative correction of 1e-13. The volumes' own sums lose a few digits more.
+constexpr double kRestored = 1e-10;
+
+/// Returns the volume between two states of a surface.
+double volume_between(const TriangleMesh& before, const TriangleMesh& after) {
+    double sum = 0;
+    for (const Triangle& t : before.triangles) {
+        sum += swept_volume(corners_of(before.positions, t), corners_of(after.positions, t));
+    }
+    return sum;
+}
+
+/// Returns the same volume without signs, a measure of how much the surface moved.
+double absolute_volume_between(const TriangleMesh& before, const TriangleMesh& after) {
+    double sum = 0;
+    for (const Triangle& t : before.triangles) {
+        sum +=
+            std::abs(swept_volume(corners_of(before.positions, t), corners_of(after.positions, t)));
+    }
+    return sum;
+}
+
+double box_volume(const TriangleMesh& mesh) {
+    Eigen::AlignedBox3d box;
+    for (const Triangle& t : mesh.triangles) {
+        for (const std::int32_t vertex : t) box.extend(mesh.positions[vertex]);
+    }
+    return box.volume();
+}
+
+/// Returns the first or the second of two meshes of the same number of vertices that were merged.
+TriangleMesh half_of(const TriangleMesh& mesh, int half) {
+    TriangleMesh part{mesh.positions, {}};
+    const auto middle = static_cast<std::int32_t>(mesh.positions.size() / 2);
+    for (const Triangle& t : mesh.triangles) {
+        if ((t[0] < middle) == (half == 0)) part.triangles.push_back(t);
+    }
+    return part;
+}
+
+TriangleMesh beside(const TriangleMesh& mesh, double scale) {
+    const Eigen::Affine3d place =
+        Eigen::Affine3d(Eigen::Translation3d(2.5, 0.3, -0.2)) * Eigen::Scaling(scale);
+    return shapes::merged(mesh, shapes::transformed(mesh, place));
+}
+
+TEST(PreservingVolume, KeepsItOverFiftySteps) {
+    for (const FlowKind flow : {FlowKind::MeanCurvature, FlowKind::Conformalized}) {
+        const TriangleMesh mesh = shapes::bumpy_sphere(20);
+        FlowParameters p = preserving(Preserve::Volume, 1e-3, 50);
+        p.flow = flow;
+        const double volume = enclosed_volume(mesh);
+        EXPECT_NEAR(enclosed_volume(evolved(mesh, p)), volume, kRestored * volume);
+    }
+}
+
+TEST(PreservingVolume, EndsBeforeAStepThatIsTooLargeForIt) {
+    const TriangleMesh mesh = shapes::bumpy_sphere(12);
+    TriangleMesh flowing = mesh;
+    const FlowReport report = evolve(flowing, preserving(Preserve::Volume, 1, 10));
+    EXPECT_EQ(report.stop, Stop::NotPreserved);
+    EXPECT_EQ(report.steps.size(), 0U);
+    EXPECT_EQ(flowing.positions, mesh.positions);
+}
+
+TEST(PreservingArea, KeepsItOverFiftySteps) {
+    for (const FlowKind flow : {FlowKind::MeanCurvature, FlowKind::Conformalized}) {
+        const TriangleMesh mesh = shapes::bumpy_sphere(20);
+        FlowParameters p = preserving(Preserve::Area, 1e-3, 50);
+        p.flow = flow;
+        const double area = surface_area(mesh);
+        EXPECT_NEAR(surface_area(evolved(mesh, p)), area, kRestored * area);
+    }
+}
+
+TEST(Preserving, SphereStaysAsItIs) {
+    const Eigen::Affine3d shift(Eigen::Translation3d(5, -7, 11));
+    const TriangleMesh sphere = shapes::transformed(shapes::geodesic_sphere(20), shift);
+    for (const Preserve preserve : {Preserve::Volume, Preserve::Area}) {
+        EXPECT_LT(distance(evolved(sphere, preserving(preserve, 1e-2, 50)), sphere), 2e-3);
+    }
+}
+
+TEST(PreservingVolume, OfSpheresOfUnequalSizeKeepsEachInItsPlace) {
+    // Without pressures of their own, the smaller one would vanish.
+    const TriangleMesh spheres = beside(shapes::geodesic_sphere(16), 0.4);
+    FlowParameters p = preserving(Preserve::Volume, 1e-3, 100);
+    p.tolerance = 1e-5;
+    const TriangleMesh after = evolved(spheres, p);
+    const double radii[] = {1, 0.4};
+    for (int half = 0; half < 2; ++half) {
+        const TriangleMesh one = half_of(spheres, half), one_after = half_of(after, half);
+        const double volume = enclosed_volume(one);
+        EXPECT_NEAR(enclosed_volume(one_after), volume, 1e-6 * volume);
+        EXPECT_LT((shapes::surface_centroid(one_after) - shapes::surface_centroid(one)).norm(),
+                  p.tolerance * radii[half]);
+    }
+}
+
+TEST(PreservingVolume, OfCloseShellsKeepsEach) {
+    // Both are in the same cells, and the inner one is turned inside out.
+    const TriangleMesh sphere = shapes::bumpy_sphere(20);
+    const TriangleMesh shells = shapes::merged(
+        sphere,
+        shapes::inside_out(shapes::transformed(sphere, Eigen::Affine3d(Eigen::Scaling(0.97)))));
+    const TriangleMesh after = evolved(shells, preserving(Preserve::Volume, 1e-4, 10));
+    for (int half = 0; half < 2; ++half) {
+        const double volume = enclosed_volume(half_of(shells, half));
+        EXPECT_NEAR(enclosed_volume(half_of(after, half)), volume, kRestored * std::abs(volume));
+    }
+    EXPECT_GT(distance(after, shells), 1e-3);
+}
+
+TEST(PreservingVolume, OfAnOpenSurfaceWithALockedRim) {
+    const TriangleMesh cap = bumpy_cap(20);
+    TriangleMesh after = cap;
+    const FlowReport report = evolve(after, preserving(Preserve::Volume, 1e-3, 100));
+    EXPECT_EQ(report.stop, Stop::None);
+    EXPECT_LT(std::abs(volume_between(cap, after)), 1e-6 * box_volume(cap));
+    EXPECT_NEAR(report.volume_change, volume_between(cap, after), 1e-14);  // rounding
+    EXPECT_GT(absolute_volume_between(cap, after), 1e-2 * box_volume(cap));
+    // Without preserving, the cap sinks.
+    EXPECT_LT(volume_between(cap, evolved(cap, preserving(Preserve::None, 1e-3, 100))),
+              -0.1 * box_volume(cap));
+}
+
+TEST(PreservingVolume, OfASurfaceWithAFreeRim) {
+    const TriangleMesh cap = bumpy_cap(20);
+    for (const int order : {1, 2}) {
+        FlowParameters p = preserving(Preserve::Volume, 1e-4, 20);
+        p.boundary = BoundaryCondition::Free;
+        p.order = order;
+        const TriangleMesh after = evolved(cap, p);
+        EXPECT_LT(std::abs(volume_between(cap, after)), kRestored * box_volume(cap));
+        EXPECT_GT(distance(after, cap), 1e-3);
+    }
+}
+
+TEST(PreservingVolume, OfASelectionLeavesTheRest) {
+    const TriangleMesh mesh = shapes::bumpy_sphere(20);
+    const Selection top = above(mesh, 0.3);
+    TriangleMesh after = mesh;
+    evolve(after, top, preserving(Preserve::Volume, 1e-3, 100));
+    const TriangleMesh part = part_of(mesh, top);
+    EXPECT_LT(std::abs(volume_between(part, after)), 1e-6 * box_volume(part));
+    EXPECT_GT(absolute_volume_between(part, after), 1e-2 * box_volume(part));
+    for (std::size_t i = 0; i < top.size(); ++i) {
+        if (top[i] != 0) continue;
+        for (const std::int32_t vertex : mesh.triangles[i]) {
+            EXPECT_TRUE(same_bits(after.positions[vertex], mesh.positions[vertex]));
+        }
+    }
+}
+
+/// A mesh over the unit disk with a lopsided hump. Its rim is the unit circle, and its elements map
+/// a square's to the disk.
+TriangleMesh lopsided_hump(double height) {
+    TriangleMesh mesh = shapes::square(40);
+    for (Eigen::Vector3d& p : mesh.positions) {
+        const double x = 2 * p[0] - 1, y = 2 * p[1] - 1;
+        const double u = x * std::sqrt(1 - y * y / 2), v = y * std::sqrt(1 - x * x / 2);
+        p = {u, v, height * (1 - u * u - v * v) * (1 + 0.6 * u)};
+    }
+    return mesh;
+}
+
+TEST(PreservingVolume, MakesAHumpOverACircleASphericalCap) {
+    // A soap film over a circle that holds a volume has constant mean curvature: a cap of height H
+    // with V = π H (3 + H²) / 6 over a unit circle.
+    const TriangleMesh hump = lopsided_hump(0.6);
+    TriangleMesh flat = hump;
+    for (Eigen::Vector3d& p : flat.positions) p[2] = 0;
+    const double volume = volume_between(flat, hump);
+    const double pi = std::acos(-1.0);
+    double height = 0.5;
+    for (int i = 0; i < 20; ++i) {
+        height -=
+            (pi * height * (3 + height * height) / 6 - volume) / (pi * (1 + height * height) / 2);
+    }
+    const double radius = (1 + height * height) / (2 * height);
+    const Eigen::Vector3d centre(0, 0, height - radius);
+
+    const auto distance_from_cap = [&](const TriangleMesh& mesh) {
+        double largest = 0;
+        for (const Eigen::Vector3d& position : mesh.positions) {
+            largest = std::max(largest, std::abs((position - centre).norm() - radius));
+        }
+        return largest;
+    };
+    FlowParameters p = parameters(6, 0.02, 60);
+    p.preserve = Preserve::Volume;
+    const TriangleMesh cap = evolved(hump, p);
+    EXPECT_NEAR(volume_between(flat, cap), volume, kRestored * volume);
+    // The square's edges are 1/20 of the radius, so that chords are up to 1/20² / 2 = 1.25e-3 away
+    // from a surface of curvature radius 1 or more. The grid's cells are smaller.
+    EXPECT_LT(distance_from_cap(cap), 1.25e-3);
+    EXPECT_GT(distance_from_cap(hump), 0.05);
+}
+
+TEST(PreservingVolume, MovesWithThePressureOfTheSameStep) {
+    // The step without preserving and the restored step differ by one factor times the pressure's
+    // response.
+    const TriangleMesh mesh = shapes::bumpy_sphere(20);
+    FlowParameters p = preserving(Preserve::Volume, 1e-3, 1);
+    p.tolerance = 1e-8;
+    TriangleMesh restored = mesh, plain = mesh;
+    const double step_size = evolve(restored, p).step_size;
+    p.preserve = Preserve::None;
+    evolve(plain, p);
+
+    const FlowSurface surface = flow_surface(mesh);
+    MeshSolver solver(surface.stars, surface.fixed, surface.components);
+    solver.take(elements_of(surface), step_size / (surface.edge * surface.edge), true);
+    Field pull;
+    Preserver(surface, Preserve::Volume, FlowKind::MeanCurvature).pressure(surface.positions, pull);
+    std::vector<Eigen::Vector3d> response;
+    solver.solve(pull, p.tolerance, response);
+    Eigen::MatrixXd difference(mesh.positions.size(), 3), expected = difference;
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        const auto row = static_cast<Eigen::Index>(i);
+        difference.row(row) = restored.positions[i] - plain.positions[i];
+        expected.row(row) = response[static_cast<std::size_t>(surface.vertices[i])];
+    }
+    const double factor = difference.cwiseProduct(expected).sum() / expected.squaredNorm();
+    EXPECT_GT(factor, 0);
+    EXPECT_LT((difference - factor * expected).norm(), 1e-5 * difference.norm());
+}
+
+TEST(PreservingVolume, TurningASurfaceInsideOutChangesNothing) {
+    // The order of the corners changes the rounding of single precision and, within its tolerance,
+    // the solver's result.
+    for (const TriangleMesh& mesh : {shapes::bumpy_sphere(15), bumpy_cap(15)}) {
+        const FlowParameters p = preserving(Preserve::Volume);
+        const TriangleMesh expected = evolved(mesh, p);
+        EXPECT_LT(distance(evolved(shapes::inside_out(mesh), p), expected), 1e-5);
+        EXPECT_GT(distance(expected, mesh), 1e-3);
+    }
+}
+
+TEST(Preserving, HasTheSameBitsForAnyNumberOfThreads) {
+    const TriangleMesh closed = beside(shapes::bumpy_sphere(30), 0.5);
+    const TriangleMesh open = bumpy_cap(40);
+    const auto expect_same = [](const TriangleMesh& mesh, const Selection& selection,
+                                FlowParameters p) {
+        TriangleMesh one = mesh;
+        p.threads = 1;
+        evolve(one, selection, p);
+        EXPECT_FALSE(same_bits(one, mesh));
+        for (const int threads : {2, 3}) {
+            TriangleMesh more = mesh;
+            p.threads = threads;
+            evolve(more, selection, p);
+            EXPECT_TRUE(same_bits(more, one)) << threads;
+        }
+    };
+    FlowParameters p = parameters(6, 1e-4, 3);
+    for (const Preserve preserve : {Preserve::Volume, Preserve::Area}) {
+        p.preserve = preserve;
+        for (p.order = 1; p.order <= 2; ++p.order) expect_same(closed, {}, p);
+    }
+    p.preserve = Preserve::Volume;
+    expect_same(open, {}, p);
+    expect_same(closed, above(closed, 0.2), p);
+}
+
+TEST(PreservingVolume, OfAConformalizedFlowIsAStepThenAScaling) {
+    const TriangleMesh mesh = shapes::bumpy_sphere(20);
+    const TriangleMesh plain = evolved(mesh, parameters(5, 1e-3, 1));
+    const double factor = std::cbrt(enclosed_volume(mesh) / enclosed_volume(plain));
+    const Eigen::Vector3d centre = shapes::surface_centroid(plain);
+    TriangleMesh scaled = plain;
+    for (auto& p : scaled.positions) p = centre + factor * (p - centre);
+    FlowParameters p = preserving(Preserve::Volume, 1e-3, 1);
+    p.flow = FlowKind::Conformalized;
+    EXPECT_LT(distance(evolved(mesh, p), scaled), 1e-5);
+}
+
+TEST(PreservingArea, IsAStepThenAScaling) {
+    const TriangleMesh mesh = shapes::bumpy_sphere(20);
+    const TriangleMesh plain = evolved(mesh, parameters(5, 1e-3, 1));
+    const double factor = std::sqrt(surface_area(mesh) / surface_area(plain));
+    const Eigen::Vector3d centre = shapes::surface_centroid(plain);
+    TriangleMesh scaled = plain;
+    for (auto& p : scaled.positions) p = centre + factor * (p - centre);
+    EXPECT_LT(distance(evolved(mesh, preserving(Preserve::Area, 1e-3, 1)), scaled), 1e-12);
+}
+
+TEST(PreservingArea, OfEachOrderTurnsAnEllipsoidIntoASphere) {
+    TriangleMesh mesh = shapes::geodesic_sphere(16);
+    for (auto& p : mesh.positions) p = p.cwiseProduct(Eigen::Vector3d(1, 0.6, 0.4));
+    for (int order = 1; order <= kMaximumOrder; ++order) {
+        FlowParameters p = preserving(Preserve::Area, 0.1, 40);
+        p.flow = FlowKind::Conformalized;
+        p.order = order;
+        const TriangleMesh after = evolved(mesh, p);
+        const Eigen::Vector3d centre = shapes::surface_centroid(after);
+        const double radius = std::sqrt(surface_area(mesh) / (4 * std::acos(-1.0)));
+        for (const Eigen::Vector3d& position : after.positions) {
+            EXPECT_NEAR((position - centre).norm(), radius, 0.02 * radius) << order;
+        }
+    }
+}
+
+TEST(PreservingArea, OfTwoComponentsKeepsEachAreaAndCentroid) {
+    for (const int order : {1, 2}) {
+        const TriangleMesh mesh = beside(shapes::bumpy_sphere(16), 0.4);
+        FlowParameters p = preserving(Preserve::Area, 1e-4, 1);
+        p.order = order;
+        const TriangleMesh plain = evolved(mesh, [&] {
+            FlowParameters unscaled = p;
+            unscaled.preserve = Preserve::None;
+            return unscaled;
+        }());
+        const TriangleMesh after = evolved(mesh, p);
+        for (int half = 0; half < 2; ++half) {
+            const double area = surface_area(half_of(mesh, half));
+            EXPECT_NEAR(surface_area(half_of(after, half)), area, kRestored * area);
+            // The scaling is about the centroid after the step.
+            EXPECT_LT((shapes::surface_centroid(half_of(after, half)) -
+                       shapes::surface_centroid(half_of(plain, half)))
+                          .norm(),
+                      kRestored);
+        }
+        EXPECT_GT(distance(after, mesh), 1e-3);
+        p.iterations = 50;
+        const TriangleMesh late = evolved(mesh, p);
+        for (int half = 0; half < 2; ++half) {
+            const double area = surface_area(half_of(mesh, half));
+            EXPECT_NEAR(surface_area(half_of(late, half)), area, kRestored * area);
+        }
+    }
+}
+
+TEST(PreservingArea, OfAFreeOpenSurface) {
+    const TriangleMesh cap = bumpy_cap(20);
+    FlowParameters p = preserving(Preserve::Area);
+    p.boundary = BoundaryCondition::Free;
+    const double area = surface_area(cap);
+    EXPECT_NEAR(surface_area(evolved(cap, p)), area, kRestored * area);
+}
+
+TEST(PreservingArea, EndsBeforeAStripThatHasBecomeALineIsInflated) {
+    // The step makes the strip a hundred times narrower, but hardly shorter.
+    TriangleMesh strip =
+        shapes::transformed(shapes::square(20), Eigen::Affine3d(Eigen::Scaling(1.0, 0.02, 1.0)));
+    const TriangleMesh before = strip;
+    FlowParameters p = preserving(Preserve::Area, 4e-3, 1);
+    p.boundary = BoundaryCondition::Free;
+    EXPECT_EQ(evolve(strip, p).stop, Stop::Pinched);
+    EXPECT_TRUE(same_bits(strip, before));
+}
+
+/// A dumbbell, whose bar pinches to a thread.
+TriangleMesh dumbbell_of_threads() {
+    TriangleMesh dumbbell = shapes::geodesic_sphere(30);
+    for (auto& p : dumbbell.positions) {
+        const double waist = 0.1 + 0.9 * p[0] * p[0];
+        p = Eigen::Vector3d(2 * p[0], waist * p[1], waist * p[2]);
+    }
+    return dumbbell;
+}
+
+TEST(PreservingArea, KeepsAPinchingDumbbellWithinBounds) {
+    const TriangleMesh dumbbell = dumbbell_of_threads();
+    TriangleMesh after = dumbbell;
+    const FlowReport report = evolve(after, preserving(Preserve::Area, 5e-3, 100));
+    EXPECT_EQ(report.stop, Stop::None);
+    EXPECT_LE(longest_side(after), 4 * longest_side(dumbbell));
+}
+
+TEST(PreservingVolume, KeepsAPinchingDumbbellWithinBounds) {
+    const TriangleMesh dumbbell = dumbbell_of_threads();
+    TriangleMesh after = dumbbell;
+    const double volume = enclosed_volume(dumbbell);
+    const FlowReport report = evolve(after, preserving(Preserve::Volume, 5e-3, 100));
+    EXPECT_GT(report.steps.size(), 2U);
+    EXPECT_LE(longest_side(after), 4 * longest_side(dumbbell));
+    EXPECT_NEAR(enclosed_volume(after), volume, 1e-6 * volume);
+}
+
+TEST(PreservingVolume, VolumesThatCancelDoNotEnlargeTheMesh) {
+    const TriangleMesh sphere = shapes::geodesic_sphere(10);
+    const TriangleMesh both = shapes::merged(
+        sphere, shapes::inside_out(shapes::transformed(
+                    sphere, Eigen::Affine3d(Eigen::Translation3d(3, 0, 0)) * Eigen::Scaling(0.9))));
+    for (const FlowKind flow : {FlowKind::MeanCurvature, FlowKind::Conformalized}) {
+        FlowParameters p = preserving(Preserve::Volume, 5e-3, 50);
+        p.flow = flow;
+        const TriangleMesh after = evolved(both, p);
+        for (int half = 0; half < 2; ++half) {
+            const double volume = enclosed_volume(half_of(both, half));
+            EXPECT_NEAR(enclosed_volume(half_of(after, half)), volume,
+                        kRestored * std::abs(volume));
+        }
+    }
+}
+
+TEST(PreservingVolume, OfBodiesThatTouchInAnEdge) {
+    // Two welded boxes share an edge. Four triangles have this edge, two in each direction.
+    const TriangleMesh two =
+        shapes::merged(shapes::box(2, {1, 1, 1}),
+                       shapes::transformed(shapes::box(2, {1, 1, 1}),
+                                           Eigen::Affine3d(Eigen::Translation3d(1, 1, 0))));
+    for (const FlowKind flow : {FlowKind::MeanCurvature, FlowKind::Conformalized}) {
+        FlowParameters p = preserving(Preserve::Volume, 1e-4, 2);
+        p.flow = flow;
+        EXPECT_NEAR(enclosed_volume(evolved(two, p)), 2, kRestored);
+    }
+}
+
+TEST(Preserving, IgnoresDegenerateTrianglesAndUnusedVertices) {
+    // The last triangle's vertices are those of no other triangle.
+    TriangleMesh mesh = shapes::bumpy_sphere(10);
+    const double volume = enclosed_volume(mesh), area = surface_area(mesh);
+    const auto first = static_cast<std::int32_t>(mesh.positions.size());
+    for (const double x : {0.1, 0.2, 0.3}) mesh.positions.emplace_back(x, 0, 0);
+    mesh.positions.emplace_back(0, 0, 0);
+    mesh.triangles.push_back({first, first + 1, first + 2});
+    FlowParameters p = preserving(Preserve::Volume);
+    EXPECT_NEAR(enclosed_volume(evolved(mesh, p)), volume, kRestored * volume);
+    p = preserving(Preserve::Area);
+    p.boundary = BoundaryCondition::Free;
+    EXPECT_NEAR(surface_area(evolved(mesh, p)), area, kRestored * area);
+}
+
+}  // namespace
+}  // namespace tracked_mcf
