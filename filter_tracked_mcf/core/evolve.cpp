@@ -1,19 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "filter_tracked_mcf/core/evolve.h"
 
-#include <algorithm>
-#include <cmath>
 #include <memory>
-#include <optional>
 #include <string>
+#include <utility>
 
 #include "filter_tracked_mcf/core/flow/kernels/kernels.h"
 #include "filter_tracked_mcf/core/flow/stepping/mesh_flow.h"
 #include "filter_tracked_mcf/core/flow/stepping/paper_flow.h"
-#include "filter_tracked_mcf/core/mesh/change.h"
+#include "filter_tracked_mcf/core/mesh/filter_run.h"
 #include "filter_tracked_mcf/core/mesh/measures.h"
-#include "filter_tracked_mcf/core/parallel/parallel.h"
-#include "filter_tracked_mcf/core/parallel/progress_meter.h"
 #include "filter_tracked_mcf/core/parallel/setup_phases.h"
 #include "filter_tracked_mcf/core/parallel/stopwatch.h"
 #include "filter_tracked_mcf/core/platform/process_memory.h"
@@ -70,14 +66,12 @@ void make_steps(SurfaceFlow& flow, const TriangleMesh& mesh, int iterations,
     }
 }
 
-/// Returns what FlowReport::quality holds after the surface has moved from `before` to `after`.
-std::vector<double> measure_quality(Quality quality, SurfaceFlow& flow, const TriangleMesh& before,
-                                    const std::vector<Eigen::Vector3d>& after,
-                                    const Selection& selection) {
-    if (quality == Quality::None) return {};
-    if (quality == Quality::Displacement)
-        return displacements_along_normals(before, after, selection);
-    return flow.mean_curvatures({after, before.triangles});
+/// Returns whether hardly any area is left at these positions.
+bool has_vanished(const SurfaceFlow& flow, const TriangleMesh& mesh,
+                  const std::vector<Eigen::Vector3d>& positions) {
+    const Selection& moving = flow.part().triangles;
+    return surface_area({positions, mesh.triangles}, moving) <=
+           kVanishedArea * surface_area(mesh, moving);
 }
 
 }  // namespace
@@ -89,46 +83,34 @@ double default_detail_size(const TriangleMesh& mesh, const Selection& selection)
 
 FlowReport evolve(TriangleMesh& mesh, const Inputs& inputs, const FlowParameters& parameters,
                   const Progress& progress, const StepObserver& on_step) {
-    std::optional<ProgressMeter> meter;
-    if (progress) meter.emplace(progress);
     validate(parameters);
     if (parameters.method == Method::Paper) check_no_inputs(inputs);
     choose_instruction_set();  // refuses a bad choice before the work begins
-    const ThreadTeam team(parameters.threads);
+    FilterRun run(parameters.threads, progress);
     const std::int64_t memory_before = resident_memory_bytes();
     const Stopwatch setup;
     enter_setup_phase(kCheckMesh);
     validate(mesh, inputs);
-    const std::unique_ptr<SurfaceFlow> flow_owner = set_up(mesh, inputs, parameters);
-    SurfaceFlow& flow = *flow_owner;
-    const Selection& moving = flow.selection();
+    const std::unique_ptr<SurfaceFlow> flow = set_up(mesh, inputs, parameters);
     const double setup_seconds = setup.seconds();
 
-    make_steps(flow, mesh, parameters.iterations, on_step);
-    const auto change = [&](const std::vector<Eigen::Vector3d>& after) {
-        return change_of(mesh, after, flow.one_copies(), moving, flow.encloses_volume());
-    };
-    std::vector<Eigen::Vector3d> after = moved_by(flow, mesh);
-    ChangeReport changed = change(after);
-    if (flow.report().stop == Stop::None &&
-        changed.area_after <= kVanishedArea * changed.area_before) {
+    make_steps(*flow, mesh, parameters.iterations, on_step);
+    std::vector<Eigen::Vector3d> after = moved_by(*flow, mesh);
+    if (flow->report().stop == Stop::None && has_vanished(*flow, mesh, after)) {
         // The flow itself would notice only in the next step.
-        flow.end_before_last_step(Stop::Vanished);
-        after = moved_by(flow, mesh);
-        changed = change(after);
+        flow->end_before_last_step(Stop::Vanished);
+        after = moved_by(*flow, mesh);
     }
 
     enter_phase(progress_before(parameters.iterations, parameters.iterations),
                 "Moving the vertices");
-    FlowReport report = flow.report();
+    FlowReport report = flow->report();
     report.setup_seconds = setup_seconds;
-    static_cast<ChangeReport&>(report) = changed;
-    report.quality = measure_quality(parameters.quality, flow, mesh, after, moving);
+    report_change(mesh, after, flow->part(), parameters.quality, report);
+    if (parameters.quality == Quality::MeanCurvature)
+        report.quality = flow->mean_curvatures({after, mesh.triangles});
     report.estimated_memory_bytes += memory_before;
-    report.peak_memory_bytes = peak_memory_bytes();
-    enter_phase(1, "Done");
-    // Nothing can fail from here on.
-    mesh.positions.swap(after);
+    run.finish(mesh, std::move(after), report);
     return report;
 }
 

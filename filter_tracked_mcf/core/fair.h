@@ -2,23 +2,19 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
-#include "filter_tracked_mcf/core/change_report.h"
-#include "filter_tracked_mcf/core/crack_report.h"
 #include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/fair_parameters.h"
+#include "filter_tracked_mcf/core/filter_report.h"
 #include "filter_tracked_mcf/core/progress.h"
 #include "filter_tracked_mcf/core/triangle_mesh.h"
 
 namespace tracked_mcf {
 
-/// What fair() has measured and done.
-struct FairReport : ChangeReport {
-    std::int64_t vertices = 0;   ///< that may move, coincident ones once
-    std::int64_t triangles = 0;  ///< that are selected
-    CrackReport cracks;
-    std::int64_t patches = 0;
+/// What fair() has measured and done. Its vertices are those that may move, its triangles those
+/// that are selected.
+struct FairReport : FilterReport {
+    std::int64_t patches = 0;  ///< 0: the selection has no inner vertices, so nothing has moved
     /// Of these, patches that have less continuity than was asked for: more would have changed them
     /// by more than the continuity before, or taken them farther than `height` 1 from the membrane.
     std::int64_t flatter_patches = 0;
@@ -31,12 +27,7 @@ struct FairReport : ChangeReport {
     /// Largest distance from the membrane, relative to the size of the hole: the diameter of a
     /// sphere around its seam.
     double height = 0;
-    int iterations = 0;  ///< solves in a new metric, of the patch that took most
-
-    /// Per vertex of the mesh, see NoiseReport::quality.
-    std::vector<double> quality;
-    double seconds = 0;
-    std::int64_t peak_memory_bytes = 0;  ///< of the process
+    int passes = 0;  ///< solves in a new metric, of the patch that took most
 };
 
 /// Makes the selected faces of `mesh` continue the surface around them, such as those that fill a
@@ -52,8 +43,8 @@ struct FairReport : ChangeReport {
 /// see FairReport::flatter_patches. So it is never farther from the membrane than the hole is wide.
 ///
 /// Positions are written at the very end, after the last call of `progress` has returned true.
-/// Throws InvalidMesh if nothing is selected, no vertex is an inner one, or nothing holds a patch;
-/// also InvalidParameter, NotEnoughMemory or Cancelled (errors.h). Then the mesh is unchanged.
+/// Throws InvalidMesh if nothing holds a patch, also InvalidParameter, NotEnoughMemory or Cancelled
+/// (errors.h). Then the mesh is unchanged.
 FairReport fair(TriangleMesh& mesh, const Selection& selection, const FairParameters& parameters,
                 const Progress& progress = {});
 

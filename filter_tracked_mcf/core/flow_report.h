@@ -4,8 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "filter_tracked_mcf/core/change_report.h"
-#include "filter_tracked_mcf/core/crack_report.h"
+#include "filter_tracked_mcf/core/filter_report.h"
 
 namespace tracked_mcf {
 
@@ -20,7 +19,7 @@ struct StepReport {
     double residual_after = 0;
     int solver_iterations = 0;  ///< iterations of conjugate gradients, or W-cycles, of all solves
     /// Of the solver that converges: the largest estimated error of a solve in the energy norm,
-    /// relative to its solution.
+    /// relative to its solution. kNoNumber with W-cycles, which have no tolerance.
     double error_estimate = 0;
     bool reached_tolerance = true;       ///< whether error_estimate <= tolerance
     double area = 0;                     ///< area before the step, mesh units²
@@ -39,23 +38,16 @@ enum class Stop {
 };
 
 /// Sizes, durations and results of a whole flow.
-struct FlowReport : ChangeReport {
-    std::int64_t vertices = 0;              ///< of the surface: coincident ones count once
-    std::int64_t triangles = 0;             ///< that flow
+struct FlowReport : SmoothingReport {
     std::int64_t unselected_triangles = 0;  ///< that do not, because others are selected
     std::int64_t zero_strength_triangles =
-        0;                                  ///< that do not, because their vertices' strength is 0
-    bool has_strengths = false;             ///< whether vertices have strengths
-    std::int64_t degenerate_triangles = 0;  ///< triangles of zero area, which were ignored
-    std::int64_t boundary_edges = 0;
-    CrackReport cracks;
+        0;                       ///< that do not, because their vertices' strength is 0
+    bool has_strengths = false;  ///< whether vertices have strengths
     /// Handles of all components of a closed surface under a conformalized flow, else 0.
     std::int64_t genus = 0;
-    std::int64_t constrained_vertices = 0;  ///< those of them that keep their bits
-    double detail_size = 0;   ///< length of the waves whose amplitude all steps halve, mesh units
-    double mean_edge = 0;     ///< mean edge length of the triangles that flow, mesh units
-    double longest_side = 0;  ///< of their bounding box, mesh units
-    double step_size = 0;     ///< δ, mesh units²
+    double mean_edge = 0;        ///< mean edge length of the triangles that flow, mesh units
+    double longest_side = 0;     ///< of their bounding box, mesh units
+    double step_size = 0;        ///< δ, mesh units²
     double asked_step_size = 0;  ///< larger if δ was limited, see FlowParameters::step_size
     int depth = 0;               ///< of the octree; 0 if there was none
     double cell_size = 0;        ///< side of a finest cell, mesh units
@@ -67,17 +59,12 @@ struct FlowReport : ChangeReport {
     std::int64_t fragments = 0;        ///< non-empty intersections of triangles and cells
     std::int64_t split_triangles = 0;  ///< triangles of the fragments' fans
     std::int64_t samples = 0;          ///< quadrature points
-    bool oriented_consistently = true;
-    /// One number per vertex of the mesh, see FlowParameters::quality; 0 at vertices that do not
-    /// flow. Empty if nothing was asked for.
-    std::vector<double> quality;
     double setup_seconds = 0;
     std::vector<StepReport> steps;  ///< one per step made
     Stop stop = Stop::None;
     /// The peak of the process that was expected before the flow began: the estimate for the flow,
     /// and what the process already had, such as the mesh.
     std::int64_t estimated_memory_bytes = 0;
-    std::int64_t peak_memory_bytes = 0;  ///< of the whole process; 0 if unknown
 };
 
 }  // namespace tracked_mcf

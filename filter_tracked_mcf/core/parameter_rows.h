@@ -89,8 +89,9 @@ ParameterOf<Owner<member>> threads() {
 /// The row of a quality that is none or the displacement.
 template <auto member>
 ParameterOf<Owner<member>> displacement() {
-    return named(choice<member>({{"Kept", "none"}, {"Displacement", "displacement"}}), "quality",
-                 "Vertex quality", "For colours: how far the vertex moved along its normal.");
+    return named(choice<member>({{"Unchanged", "none"}, {"Displacement", "displacement"}}),
+                 "quality", "Vertex quality",
+                 "For colours: how far the vertex moved along its normal.");
 }
 
 /// A row of the table of inputs, without its member.

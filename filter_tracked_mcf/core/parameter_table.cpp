@@ -60,7 +60,7 @@ const std::vector<ParameterOf<P>>& parameter_table() {
               "vertex is held."),
         named(choice<&P::boundary, P>({{"Locked", "locked"}, {"Free", "free"}}), "boundary",
               "Boundary", "Locked holds the rim's vertices. Free moves them."),
-        named(choice<&P::quality>({{"Kept", "none"},
+        named(choice<&P::quality>({{"Unchanged", "none"},
                                    {"Displacement", "displacement"},
                                    {"Mean curvature", "mean-curvature"}}),
               "quality", "Vertex quality",

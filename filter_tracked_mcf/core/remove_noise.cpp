@@ -7,15 +7,13 @@
 #include <limits>
 #include <optional>
 #include <string>
-#include <tuple>
 #include <utility>
 
-#include "filter_tracked_mcf/core/mesh/change.h"
+#include "filter_tracked_mcf/core/mesh/filter_run.h"
 #include "filter_tracked_mcf/core/mesh/measures.h"
 #include "filter_tracked_mcf/core/noise/denoising.h"
 #include "filter_tracked_mcf/core/noise/losses.h"
 #include "filter_tracked_mcf/core/noise/rim.h"
-#include "filter_tracked_mcf/core/parallel/stopwatch.h"
 #include "filter_tracked_mcf/core/platform/process_memory.h"
 
 namespace tracked_mcf {
@@ -115,33 +113,12 @@ void report_losses(const TriangleMesh& mesh, const SurfaceOfMesh& from, const Po
     report.lost_volume = losses.volume;
 }
 
-/// Returns the surface of the mesh's triangles, and reports on it.
-SurfaceOfMesh read_surface(const Domain& domain, NoiseReport& report) {
-    bounding_box(domain.surface());  // throws if the size is none to compute with
-    report.triangles = static_cast<std::int64_t>(domain.surface().triangles.size());
-    for (const Triangle& t : domain.surface().triangles) {
-        if (twice_vector_area(domain.surface(), t).isZero(0)) ++report.degenerate_triangles;
-    }
-    if (report.degenerate_triangles == report.triangles) {
-        throw InvalidMesh("All faces to be smoothed are degenerate: none has an area.");
-    }
-    SurfaceOfMesh result = surface_of(domain);
-    std::tie(report.vertices, report.constrained_vertices) = domain.vertex_counts();
-    report.boundary_edges = domain.boundary_edge_count();
-    report.cracks = domain.topology().cracks;
-    report.oriented_consistently = domain.topology().is_oriented_consistently();
-    return result;
-}
-
 }  // namespace
 
 NoiseReport remove_noise(TriangleMesh& mesh, const Inputs& inputs,
                          const NoiseParameters& parameters, const Progress& progress) {
-    std::optional<ProgressMeter> meter;
-    if (progress) meter.emplace(progress);
     validate(parameters);
-    const ThreadTeam team(parameters.threads);
-    const Stopwatch watch;
+    FilterRun run(parameters.threads, progress);
     enter_phase(0, "Checking the mesh");
     validate(mesh, inputs);
     check_memory(mesh);
@@ -151,10 +128,10 @@ NoiseReport remove_noise(TriangleMesh& mesh, const Inputs& inputs,
                                  parameters.boundary == NoiseBoundary::Locked
                                      ? BoundaryCondition::Locked
                                      : BoundaryCondition::Free);
-    const Selection moving = domain->selection();
-    const std::vector<std::uint8_t> one_copies = one_copy_of_each_vertex(domain->topology());
-    const bool encloses_volume = domain->encloses_volume();
-    SurfaceOfMesh from = read_surface(*domain, report);
+    const MovingPart part = moving_part_of(*domain);
+    bounding_box(domain->surface());  // throws if the size is none to compute with
+    report_domain(*domain, report);
+    SurfaceOfMesh from = surface_of(*domain);
     domain.reset();
     report.stop = NoiseStop::NothingMoves;
     const std::vector<float>& fidelity = from.surface.fidelity;
@@ -164,17 +141,10 @@ NoiseReport remove_noise(TriangleMesh& mesh, const Inputs& inputs,
     enter_phase(0.95, "Moving the vertices");
     std::vector<Eigen::Vector3d> after =
         moved_positions(mesh, from, to, parameters.largest_movement, report);
-    static_cast<ChangeReport&>(report) =
-        change_of(mesh, after, one_copies, moving, encloses_volume);
+    report_change(mesh, after, part, parameters.quality, report);
     if (report.largest_displacement > 0)
         report_losses(mesh, from, movements(mesh, after, from), report);
-    if (parameters.quality == Quality::Displacement)
-        report.quality = displacements_along_normals(mesh, after, moving);
-    report.seconds = watch.seconds();
-    report.peak_memory_bytes = peak_memory_bytes();
-    enter_phase(1, "Done");
-    // Nothing can fail from here on.
-    mesh.positions.swap(after);
+    run.finish(mesh, std::move(after), report);
     return report;
 }
 

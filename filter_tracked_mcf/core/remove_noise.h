@@ -2,11 +2,9 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
-#include "filter_tracked_mcf/core/change_report.h"
-#include "filter_tracked_mcf/core/crack_report.h"
 #include "filter_tracked_mcf/core/errors.h"
+#include "filter_tracked_mcf/core/filter_report.h"
 #include "filter_tracked_mcf/core/noise_parameters.h"
 #include "filter_tracked_mcf/core/progress.h"
 #include "filter_tracked_mcf/core/triangle_mesh.h"
@@ -24,14 +22,10 @@ enum class NoiseStop {
 };
 
 /// What remove_noise() has measured and done.
-struct NoiseReport : ChangeReport {
-    std::int64_t vertices = 0;              ///< of the smoothed triangles, coincident ones once
-    std::int64_t triangles = 0;             ///< that were smoothed
-    std::int64_t degenerate_triangles = 0;  ///< of these, with zero area
-    std::int64_t boundary_edges = 0;
-    std::int64_t constrained_vertices = 0;  ///< of the vertices above that keep their bits
-    CrackReport cracks;
-
+///
+/// Its detail size is that of the treatment that suits the whole surface best; places may have
+/// chosen others. See NoiseParameters::detail_size.
+struct NoiseReport : SmoothingReport {
     NoiseStop stop = NoiseStop::None;
     /// Standard deviation along the normals, mesh units, as measured, whatever the parameters say;
     /// 0 if too few vertices can move.
@@ -40,14 +34,11 @@ struct NoiseReport : ChangeReport {
     std::int64_t outliers = 0;  ///< vertices with so much more noise that they hardly counted
     double crease_share = 0;    ///< share of the area in triangles that a crease crosses
     /// If creases are too many, the angle by which half of the area turns across a triangle,
-    /// degrees: more than this are creases that can be told from noise.
-    double median_turn = 0;
-    /// Of the treatment that suits the whole surface best; places may have chosen others. See
-    /// NoiseParameters::detail_size; 0 if there was nothing to do.
-    double detail_size = 0;
-    int steps = 0;
-    int sharpenings = 0;  ///< iterations of the bilateral filter after the steps; 0 if it was worse
-    int iterations = 0;   ///< of conjugate gradients, all steps
+    /// degrees: more than this are creases that can be told from noise. Else kNoNumber.
+    double median_turn = kNoNumber;
+    int smoothing_steps = 0;
+    int sharpening_steps = 0;   ///< of the bilateral filter after these; 0 if it was worse
+    int solver_iterations = 0;  ///< of conjugate gradients, in all steps
 
     /// The height of stairs, as of voxels, slices or whole numbers, mesh units; 0: there are none.
     /// Where there is no noise from vertex to vertex, also the width and the standard deviation of
@@ -59,12 +50,6 @@ struct NoiseReport : ChangeReport {
     /// much, not counting the area that noise adds; and the largest such shares of a part.
     std::int64_t shrunken_parts = 0;
     double lost_area = 0, lost_volume = 0;
-    bool oriented_consistently = true;
-    /// Per vertex of the mesh: how far it has moved along the normal of the result, mesh units.
-    /// Empty unless NoiseParameters::quality asks for it.
-    std::vector<double> quality;
-    double seconds = 0;
-    std::int64_t peak_memory_bytes = 0;  ///< of the process
 };
 
 /// Removes noise from `mesh`, or only from its selected triangles, and keeps creases. Noise is what

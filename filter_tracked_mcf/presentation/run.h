@@ -13,29 +13,16 @@ inline FlowReport run(TriangleMesh& mesh, const Inputs& inputs, const FlowParame
     return evolve(mesh, inputs, parameters, progress, on_step);
 }
 
-/// Returns the number of steps that the filter has kept.
-inline int steps_of(const FlowReport& report) {
-    return static_cast<int>(report.steps.size());
-}
-
 /// Applies the filter of these parameters, which has no steps to observe. See remove_noise().
 inline NoiseReport run(TriangleMesh& mesh, const Inputs& inputs, const NoiseParameters& parameters,
                        const Progress& progress, const StepObserver& /*on_step*/ = {}) {
     return remove_noise(mesh, inputs, parameters, progress);
 }
 
-inline int steps_of(const NoiseReport& report) {
-    return report.steps;
-}
-
 /// Applies the filter of these parameters, which has no steps to observe. See fair().
 inline FairReport run(TriangleMesh& mesh, const Inputs& inputs, const FairParameters& parameters,
                       const Progress& progress, const StepObserver& /*on_step*/ = {}) {
     return fair(mesh, inputs.selection, parameters, progress);
-}
-
-inline int steps_of(const FairReport& report) {
-    return report.iterations;
 }
 
 }  // namespace tracked_mcf

@@ -43,37 +43,28 @@ std::string relative_change(double before, double change) {
     return (per_cent > 0 ? "+" : "") + digits(per_cent, 3) + " %";
 }
 
-/// Says how far vertices moved, and how the area changed.
-template <class Report>
-std::string movement(const Report& report) {
-    return "\nVertices moved by up to " + digits(report.largest_displacement, 3) + ", RMS " +
-           digits(report.rms_displacement, 3) + ".\nArea: " +
-           relative_change(report.area_before, report.area_after - report.area_before) + ".";
-}
-
-/// The same, and how the volume changed.
-template <class Report>
-std::string movement_and_volume(const Report& report) {
-    const std::string text = movement(report) + " ";
-    if (!report.oriented_consistently)
+/// Says how far vertices moved, and how area and volume changed.
+std::string movement(const FilterReport& report) {
+    const std::string text =
+        "\nVertices moved by up to " + digits(report.largest_displacement, 3) + ", RMS " +
+        digits(report.rms_displacement, 3) +
+        ".\nArea: " + relative_change(report.area_before, report.area_after - report.area_before) +
+        ". ";
+    if (std::isnan(report.volume_change))
         return text + "Volume: unknown, because the faces are not oriented consistently.";
-    if (report.volume_before == 0)  // an open surface
+    if (std::isnan(report.volume_before))  // an open surface
         return text + "Volume swept along the normals: " + digits(report.volume_change, 3) + ".";
     return text + "Volume: " + relative_change(report.volume_before, report.volume_change) + ".";
 }
 
-std::string closed_cracks(const CrackReport& cracks) {
-    if (cracks.joined_vertices == 0) return {};
-    return "\nCracks were closed: " + vertices(cracks.joined_vertices) +
-           (cracks.joined_vertices == 1 ? " counts" : " count") +
-           " as one with another that is nearer than 1e-6 of the diagonal.";
-}
-
-template <class Report>
-std::string bystanders(const Report& report) {
-    std::string text = closed_cracks(report.cracks);
-    if (report.constrained_vertices > 0)
-        text += "\n" + vertices(report.constrained_vertices) + " kept their positions.";
+/// Says what did not take part.
+std::string bystanders(const FilterReport& report, std::int64_t held_vertices = 0) {
+    std::string text;
+    if (const std::int64_t joined = report.cracks.joined_vertices; joined > 0) {
+        text += "\nCracks were closed: " + vertices(joined) + (joined == 1 ? " counts" : " count") +
+                " as one with another that is nearer than 1e-6 of the diagonal.";
+    }
+    if (held_vertices > 0) text += "\n" + vertices(held_vertices) + " kept their positions.";
     if (report.degenerate_triangles > 0) {
         text += "\n" + faces(report.degenerate_triangles) + " with zero area had no influence.";
     }
@@ -86,27 +77,20 @@ std::string radius(double curvature, double area) {
     return curvature * std::sqrt(area) < flat ? "infinite" : digits(1 / curvature, 3);
 }
 
-double seconds_of(const FlowReport& report) {
-    double seconds = report.setup_seconds;
-    for (const StepReport& step : report.steps)
-        seconds += step.assemble_seconds + step.solve_seconds;
-    return seconds;
-}
-
 }  // namespace
 
 std::string summary(const FlowParameters& parameters, const FlowReport& report) {
     std::string text = "Smoothed " + vertices(report.vertices) + " by " +
                        steps(static_cast<std::int64_t>(report.steps.size())) + " of " +
                        (parameters.flow == FlowKind::Conformalized ? "conformalized " : "") +
-                       "mean-curvature flow in " + digits(seconds_of(report), 2) + " s.";
+                       "mean-curvature flow in " + digits(report.seconds, 2) + " s.";
     if (!report.steps.empty() && report.stop == Stop::None) {
         text += report.has_strengths           ? "\nWhere the strength is 1, detail"
                 : parameters.local_detail_size ? "\nAt edges of mean length, detail"
                                                : "\nDetail";
         text += " smaller than " + digits(report.detail_size, 3) + " was removed.";
     }
-    if (!report.steps.empty()) text += movement_and_volume(report);
+    if (!report.steps.empty()) text += movement(report);
     if (report.unselected_triangles > 0) {
         const std::int64_t selected = report.triangles + report.zero_strength_triangles;
         text += "\nOnly the " + std::to_string(selected) + " selected of " +
@@ -116,18 +100,18 @@ std::string summary(const FlowParameters& parameters, const FlowReport& report) 
         text += "\n" + faces(report.zero_strength_triangles) +
                 " stayed, because their vertices have strength 0.";
     }
-    return text + bystanders(report);
+    return text + bystanders(report, report.held_vertices);
 }
 
 std::string summary(const NoiseParameters& parameters, const NoiseReport& report) {
     const bool is_smooth = parameters.boundary == NoiseBoundary::Smooth &&
                            report.boundary_edges > 0 && report.largest_displacement > 0;
-    std::string text = (report.steps > 0 ? "Removed noise from "
-                        : is_smooth      ? "Smoothed the rim of "
-                                         : "Found no noise to remove from ") +
+    std::string text = (report.smoothing_steps > 0 ? "Removed noise from "
+                        : is_smooth                ? "Smoothed the rim of "
+                                                   : "Found no noise to remove from ") +
                        vertices(report.vertices) + " in " + digits(report.seconds, 2) + " s.";
-    if (report.steps > 0 && is_smooth) text += " The rim was smoothed, too.";
-    if (report.steps > 0) {
+    if (report.smoothing_steps > 0 && is_smooth) text += " The rim was smoothed, too.";
+    if (report.smoothing_steps > 0) {
         if (report.noise > 0)
             text += "\nThe noise along the normals was about " + digits(report.noise, 3) + ".";
         if (report.outliers > 0) {
@@ -142,22 +126,23 @@ std::string summary(const NoiseParameters& parameters, const NoiseReport& report
                     " smaller than " + digits(report.detail_size, 3) + " was removed.";
         }
     }
-    if (report.largest_displacement > 0) text += movement_and_volume(report);
+    if (report.largest_displacement > 0) text += movement(report);
     if (report.bounded_vertices > 0) {
         text += "\n" + vertices(report.bounded_vertices) +
                 " moved as far as the largest movement allows.";
     }
-    return text + bystanders(report);
+    return text + bystanders(report, report.held_vertices);
 }
 
 std::string summary(const FairParameters& /*parameters*/, const FairReport& report) {
+    if (report.patches == 0) return "Faired nothing." + bystanders(report);
     return "Faired " + vertices(report.vertices) + " of " +
            counted(report.patches, "patch", "patches") + " in " + digits(report.seconds, 2) +
            " s.\nMean radius of curvature: " + radius(report.patch_curvature, report.area_before) +
            " in the patches, " + radius(report.seam_curvature, report.area_before) +
            " around them.\nThe patches rise by up to " + digits(100 * report.height, 3) +
            " % of the size of their hole above its membrane." + movement(report) +
-           closed_cracks(report.cracks);
+           bystanders(report);
 }
 
 std::string solver_details(const FlowParameters& parameters, const FlowReport& report) {
@@ -188,13 +173,13 @@ std::string solver_details(const FlowParameters& parameters, const FlowReport& r
 }
 
 std::string solver_details(const NoiseParameters& /*parameters*/, const NoiseReport& report) {
-    return steps(report.steps) + " with " + std::to_string(report.iterations) +
-           " iterations of conjugate gradients, and " + std::to_string(report.sharpenings) +
+    return steps(report.smoothing_steps) + " with " + std::to_string(report.solver_iterations) +
+           " iterations of conjugate gradients, and " + steps(report.sharpening_steps) +
            " of the bilateral filter.\n";
 }
 
 std::string solver_details(const FairParameters& /*parameters*/, const FairReport& report) {
-    return counted(report.iterations, "iteration", "iterations") + " of the metric.\n";
+    return counted(report.passes, "solve", "solves") + " in a new metric.\n";
 }
 
 }  // namespace tracked_mcf

@@ -6,7 +6,10 @@
 
 namespace tracked_mcf {
 
-std::vector<std::string> open_cracks(const CrackReport& cracks) {
+namespace {
+
+/// Empty if no crack is open.
+std::string open_cracks(const CrackReport& cracks) {
     if (cracks.open_pairs == 0) return {};
     const bool one = cracks.open_pairs == 1;
     std::ostringstream text;
@@ -15,15 +18,26 @@ std::vector<std::string> open_cracks(const CrackReport& cracks) {
          << (one ? " pair of rim vertices is " : " pairs of rim vertices are up to ")
          << cracks.open_width
          << " apart, so the surface may open there. If it is a crack, merge close vertices first.";
-    return {text.str()};
+    return text.str();
 }
 
-std::vector<std::string> inside_out(double volume, double area) {
+/// Empty unless a volume is enclosed, and negative.
+std::string inside_out(double volume, double area) {
     // A flat surface encloses nothing but rounding. A ball encloses 0.094 of this power.
-    if (volume >= -1e-6 * std::pow(area, 1.5)) return {};
-    return {
-        "The mesh is inside out: its faces point inwards. MeshLab's Invert Faces Orientation turns "
-        "them."};
+    if (!(volume < -1e-6 * std::pow(area, 1.5))) return {};
+    return "The mesh is inside out: its faces point inwards. MeshLab's Invert Faces Orientation "
+           "turns them.";
+}
+
+}  // namespace
+
+std::vector<std::string> surface_warnings(const FilterReport& report) {
+    std::vector<std::string> warnings;
+    for (const std::string& text :
+         {open_cracks(report.cracks), inside_out(report.volume_before, report.area_before)}) {
+        if (!text.empty()) warnings.push_back(text);
+    }
+    return warnings;
 }
 
 }  // namespace tracked_mcf

@@ -142,7 +142,7 @@ TEST(Selection, OnlySelectedFacesMove) {
               (std::vector<std::string>{"0 0 0", "1 0 0", "1 1 0", "0 1 0"}));
     EXPECT_NE(part[4], "0.5 0.5 1");
     EXPECT_THAT(read_file(folder / "r.json"), HasSubstr("\"selected\": \"of_faces\""));
-    EXPECT_THAT(read_file(folder / "r.json"), HasSubstr("\"constrained_vertices\": 4,"));
+    EXPECT_THAT(read_file(folder / "r.json"), HasSubstr("\"held_vertices\": 4,"));
 }
 
 TEST(Selection, ErrorsOfTheProgramAreOneLineAndLeaveNoOutput) {

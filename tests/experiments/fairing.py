@@ -477,7 +477,7 @@ def measure_deep(experiment, runner):
     rows = []
     for continuity in CONTINUITIES:
         _, report = runner.ours(flat, faces, selected, continuity)
-        rows.append([continuity, report["vertices"], report["iterations"], report["processor_seconds"]])
+        rows.append([continuity, report["vertices"], report["passes"], report["processor_seconds"]])
         experiment.record([{"table": "deep", "continuity": continuity, "processor_seconds": rows[-1][-1]}])
     experiment.say("\n## Three quarters of a sphere\n")
     experiment.table(["continuity", "vertices that move", "metrics", "processor seconds"], rows)

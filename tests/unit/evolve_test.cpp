@@ -97,21 +97,21 @@ TEST(Evolve, ReportsHowTheSurfaceChanged) {
     EXPECT_NEAR(report.volume_change, change, 1e-12);
     EXPECT_LT(report.volume_change, -0.01);
     EXPECT_EQ(report.volume_before, enclosed_volume(before));
-    EXPECT_TRUE(report.oriented_consistently);
+    EXPECT_FALSE(std::isnan(report.volume_change));
     std::swap(mesh.triangles[0][0], mesh.triangles[0][1]);
     const FlowReport flipped = evolve(mesh, parameters(5, 1e-3, 1));
-    EXPECT_FALSE(flipped.oriented_consistently);
-    EXPECT_EQ(flipped.volume_before, 0);
+    EXPECT_TRUE(std::isnan(flipped.volume_change));
+    EXPECT_TRUE(std::isnan(flipped.volume_before));
     mesh.triangles.erase(mesh.triangles.begin());
-    EXPECT_EQ(evolve(mesh, parameters(5, 1e-3, 1)).volume_before, 0) << "the surface is open";
+    EXPECT_TRUE(std::isnan(evolve(mesh, parameters(5, 1e-3, 1)).volume_before)) << "it is open";
     mesh = shapes::box(4, {1, 1, 1});
     const TriangleMesh wall =
         shapes::transformed(shapes::square(4), Eigen::Affine3d(Eigen::Translation3d(0, 0, 0.5)));
     mesh = shapes::merged(mesh, wall);
     const FlowReport walled = evolve(mesh, parameters(5, 1e-4, 1));
     EXPECT_EQ(walled.boundary_edges, 0);
-    EXPECT_TRUE(walled.oriented_consistently);
-    EXPECT_EQ(walled.volume_before, 0) << "a wall inside has the volume on both sides";
+    EXPECT_FALSE(std::isnan(walled.volume_change));
+    EXPECT_TRUE(std::isnan(walled.volume_before)) << "a wall inside has the volume on both sides";
 }
 
 TEST(Evolve, ReportsOfASoupWhatItReportsOfTheMesh) {
@@ -122,8 +122,8 @@ TEST(Evolve, ReportsOfASoupWhatItReportsOfTheMesh) {
         TriangleMesh welded = mesh, soup = shapes::soup(mesh);
         const FlowReport of_mesh = evolve(welded, p), of_soup = evolve(soup, p);
         EXPECT_EQ(of_soup.vertices, of_mesh.vertices);
-        EXPECT_EQ(of_soup.constrained_vertices, of_mesh.constrained_vertices);
-        EXPECT_GT(of_mesh.constrained_vertices, 0);
+        EXPECT_EQ(of_soup.held_vertices, of_mesh.held_vertices);
+        EXPECT_GT(of_mesh.held_vertices, 0);
         EXPECT_EQ(of_soup.boundary_edges, of_mesh.boundary_edges);
         for (const auto number :
              {&FlowReport::rms_displacement, &FlowReport::largest_displacement,
@@ -153,7 +153,7 @@ TEST(Evolve, ReportsTheVolumeOfTheSelectedPart) {
     const double change = enclosed_volume(mesh) - enclosed_volume(before);
     EXPECT_NEAR(report.volume_change, change, 1e-12);
     EXPECT_LT(report.volume_change, -0.01);
-    EXPECT_EQ(report.volume_before, 0);
+    EXPECT_TRUE(std::isnan(report.volume_before));
 }
 
 TEST(Evolve, ProgressRisesFromZeroToOne) {

@@ -283,7 +283,7 @@ TEST(RemoveNoise, ReportsTheDetailSizeThatItIsGiven) {
     NoiseParameters parameters;
     parameters.detail_size = 0.7;
     const NoiseReport report = report_of(with_noise(shapes::geodesic_sphere(8), 0.1), parameters);
-    EXPECT_GT(report.steps, 0);
+    EXPECT_GT(report.smoothing_steps, 0);
     EXPECT_NEAR(report.detail_size, parameters.detail_size, 1e-6);
 }
 
@@ -349,7 +349,7 @@ TEST(RemoveNoise, ReportsWhatItHasDone) {
     const NoiseReport report = remove_noise(mesh, {}, parameters);
     EXPECT_EQ(report.vertices, 4002);
     EXPECT_EQ(report.triangles, 8000);
-    EXPECT_EQ(report.constrained_vertices, 0);
+    EXPECT_EQ(report.held_vertices, 0);
     EXPECT_NEAR(report.volume_change, shapes::volume(mesh) - shapes::volume(before), 1e-12);
     EXPECT_NEAR(report.volume_before, shapes::volume(before), 1e-12);
     EXPECT_EQ(report.area_before, surface_area(before));

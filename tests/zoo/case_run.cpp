@@ -19,9 +19,7 @@ namespace {
 template <class Parameters, class Report>
 void keep(const Parameters& parameters, Report made, Run& run) {
     run.values = report_values(parameters, {}, made, {});
-    static_cast<ChangeReport&>(run.report) = made;
-    run.report.cracks = made.cracks;
-    run.report.quality = std::move(made.quality);
+    static_cast<FilterReport&>(run.report) = std::move(made);
 }
 
 void filter(const Case& run_case, int threads, Run& run) {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "filter_tracked_mcf/core/flow_report.h"
-#include "filter_tracked_mcf/presentation/report_values.h"
+#include "filter_tracked_mcf/presentation/report_table.h"
 #include "tests/zoo/zoo_case.h"
 
 namespace tracked_mcf::zoo {

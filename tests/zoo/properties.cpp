@@ -338,7 +338,7 @@ void Checker::check_loss() {
     if (after < 0.96 * before) {
         fail(Property::Loss, number(1 - after / before) + " of the area");
     }
-    const bool is_closed = base_.report.volume_before != 0;
+    const bool is_closed = !std::isnan(base_.report.volume_before);
     const double change = base_.report.volume_change / base_.report.volume_before;
     // Rounding is all that a flat surface encloses.
     const double volume = base_.report.volume_before / std::pow(unit, 3);

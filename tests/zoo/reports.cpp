@@ -15,14 +15,35 @@ namespace tracked_mcf::zoo {
 
 namespace {
 
-/// The dimensions of numbers, as powers of a length; those of others are 0.
-const std::map<std::string, int> kDimensions = {
-    {"detail_size", 1},      {"step_size", 2},       {"cell_size", 1},
-    {"area_before", 2},      {"area_after", 2},      {"volume_before", 3},
-    {"volume_after", 3},     {"volume_change", 3},   {"largest_displacement", 1},
-    {"rms_displacement", 1}, {"noise", 1},           {"noise_size", 1},
-    {"stairs", 1},           {"lump_width", 1},      {"lump_height", 1},
-    {"seam_curvature", -1},  {"patch_curvature", -1}};
+/// Returns what is known of a key of any report, or null for parameters and warnings.
+const ReportKey* key_of(const std::string& name) {
+    const auto find = [&](const auto& rows) -> const ReportKey* {
+        const auto row = std::find_if(rows.begin(), rows.end(),
+                                      [&](const ReportKey& key) { return key.name == name; });
+        return row == rows.end() ? nullptr : &*row;
+    };
+    if (const ReportKey* const key = find(report_table<FlowReport>())) return key;
+    if (const ReportKey* const key = find(report_table<NoiseReport>())) return key;
+    return find(report_table<FairReport>());
+}
+
+/// Returns the dimension of a number, as the power of a length; nothing if it is none of these.
+std::optional<int> dimension_of(const std::string& name) {
+    const ReportKey* const key = key_of(name);
+    if (key == nullptr) return {};
+    switch (key->unit) {
+        case Unit::Length:
+            return 1;
+        case Unit::SquaredLength:
+            return 2;
+        case Unit::CubedLength:
+            return 3;
+        case Unit::InverseLength:
+            return -1;
+        default:
+            return {};
+    }
+}
 
 /// Estimates from a sample of the vertices, which their order chooses; and what is lost of parts
 /// that may be smaller than the solver's tolerance.
@@ -33,7 +54,7 @@ const std::set<std::string> kEstimates = {"noise",        "noise_size", "detail_
 /// Shares and counts that must be the same for the same mesh.
 const std::set<std::string> kShares = {"crease_share", "lost_area", "lost_volume", "height"};
 const std::set<std::string> kCounts = {"vertices",       "triangles",       "degenerate_triangles",
-                                       "boundary_edges", "joined_vertices", "constrained_vertices",
+                                       "boundary_edges", "joined_vertices", "held_vertices",
                                        "unknowns",       "patches"};
 
 std::optional<double> number_of(const ReportValue& value) {
@@ -114,22 +135,21 @@ std::string differing_number(const ReportObject& report, const ReportObject& oth
                              double size, double tolerance, bool is_reordered) {
     for (std::size_t i = 0; i < report.size(); ++i) {
         const auto& [name, value] = report[i];
-        const auto found = kDimensions.find(name);
-        const bool is_measured = found != kDimensions.end();
+        const std::optional<int> dimension = dimension_of(name);
         if (const auto* const text = std::get_if<std::string>(&value.value)) {
             const auto* const others = std::get_if<std::string>(&other[i].second.value);
             if (!others || *text != *others) return name + ' ' + *text;
         }
         if (is_reordered && kEstimates.count(name) > 0) continue;
-        if (!is_measured && kShares.count(name) + kCounts.count(name) == 0) continue;
-        const double scale = is_measured ? std::pow(unit, found->second) : 1;
+        if (!dimension && kShares.count(name) + kCounts.count(name) == 0) continue;
+        const double scale = std::pow(unit, dimension.value_or(0));
         const std::optional<double> a = number_of(value), b = number_of(other[i].second);
         if (a.has_value() != b.has_value()) return name + " is there in one of both";
         if (!a) continue;
         // What is small beside the mesh is compared with the mesh.
         constexpr double small = 1e-3;
-        const double dimension = is_measured ? found->second : 0;
-        const double reference = std::max(std::abs(*a), small * std::pow(size, dimension));
+        const double reference =
+            std::max(std::abs(*a), small * std::pow(size, dimension.value_or(0)));
         const double error = kCounts.count(name) > 0 ? 0 : tolerance * reference;
         if (!is_near(*b / scale, *a, error)) return difference(name, *b / scale, *a);
     }

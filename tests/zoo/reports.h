@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "filter_tracked_mcf/presentation/report_values.h"
+#include "filter_tracked_mcf/presentation/report_table.h"
 #include "tests/zoo/zoo_case.h"
 
 namespace tracked_mcf::zoo {

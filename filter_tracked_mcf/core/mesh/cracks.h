@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "filter_tracked_mcf/core/crack_report.h"
+#include "filter_tracked_mcf/core/filter_report.h"
 #include "filter_tracked_mcf/core/mesh/mesh_topology.h"
 
 namespace tracked_mcf {

@@ -76,6 +76,13 @@ bool is_thin(const std::array<Eigen::Vector3d, 3>& corners, double ratio) {
     return twice_vector_area(a, b, c).squaredNorm() <= least * least;
 }
 
+std::int64_t count_degenerate(const SurfaceView& surface) {
+    return std::count_if(surface.triangles.begin(), surface.triangles.end(),
+                         [&](const Triangle& triangle) {
+                             return is_thin(corners_of(surface.positions, triangle), kDegenerate);
+                         });
+}
+
 double surface_area(const SurfaceView& surface, const Selection& selection) {
     double twice = 0;
     for (std::size_t i = 0; i < surface.triangles.size(); ++i) {

@@ -40,6 +40,13 @@ Eigen::Vector3d twice_vector_area(const SurfaceView& surface, const Triangle& tr
 /// Returns whether a triangle's area is at most `ratio` times the square of its longest edge.
 bool is_thin(const std::array<Eigen::Vector3d, 3>& corners, double ratio);
 
+/// A triangle is degenerate if it is thin with this ratio. In double precision it has no plane
+/// then.
+inline constexpr double kDegenerate = 1e-12;
+
+/// Returns the number of degenerate triangles.
+std::int64_t count_degenerate(const SurfaceView& surface);
+
 /// Returns the area of the selected triangles, in squared units of the mesh.
 double surface_area(const SurfaceView& surface, const Selection& selection = {});
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "filter_tracked_mcf/core/crack_report.h"
+#include "filter_tracked_mcf/core/filter_report.h"
 #include "filter_tracked_mcf/core/parallel/parallel.h"
 #include "filter_tracked_mcf/core/parallel/raw_vector.h"
 #include "filter_tracked_mcf/core/triangle_mesh.h"

@@ -235,9 +235,9 @@ public:
         if (kind == NoiseKind::Outliers) treat_without_outliers();
         if (report_.stop != NoiseStop::None) return surface_.positions;
         const Treatment& made = treated_.made[0];
-        report_.steps = made.steps;
-        report_.sharpenings = made.sharpening.iterations;
-        report_.iterations = treated_.iterations;
+        report_.smoothing_steps = made.steps;
+        report_.sharpening_steps = made.sharpening.iterations;
+        report_.solver_iterations = treated_.iterations;
         report_.detail_size = edge_ * detail_size_of(made);
         return std::move(treated_.positions[0]);
     }

@@ -6,6 +6,7 @@
 #include <iostream>
 #include <new>
 #include <optional>
+#include <type_traits>
 
 #include "filter_tracked_mcf/core/parameter_table.h"
 #include "filter_tracked_mcf/hosts/cli/command_line.h"
@@ -106,7 +107,8 @@ void smooth(CommandLineOf<Parameters> line) {
         };
     }
     const auto report = run_with_progress(mesh, inputs, line, on_step);
-    step_files.remove_after(steps_of(report));
+    if constexpr (std::is_same_v<Parameters, FlowParameters>)
+        step_files.remove_after(static_cast<int>(report.steps.size()));
 
     file.set_quality(report.quality);
     output.write([&](std::ostream& out) { file.write(mesh, out, line.output); });

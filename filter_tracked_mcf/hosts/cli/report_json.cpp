@@ -5,7 +5,7 @@
 #include <variant>
 
 #include "filter_tracked_mcf/core/parameter_table.h"
-#include "filter_tracked_mcf/presentation/report_values.h"
+#include "filter_tracked_mcf/presentation/report_table.h"
 
 namespace tracked_mcf {
 

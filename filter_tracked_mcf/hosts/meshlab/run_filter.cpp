@@ -5,13 +5,16 @@
 #include <exception>
 #include <limits>
 #include <new>
+#include <optional>
 #include <string>
+#include <variant>
 
 #include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/parameter_table.h"
 #include "filter_tracked_mcf/presentation/fair_warnings.h"
 #include "filter_tracked_mcf/presentation/flow_warnings.h"
 #include "filter_tracked_mcf/presentation/noise_warnings.h"
+#include "filter_tracked_mcf/presentation/report_table.h"
 #include "filter_tracked_mcf/presentation/summary.h"
 
 namespace tracked_mcf {
@@ -69,15 +72,17 @@ namespace run_filter_detail {
 
 namespace {
 
-template <class Report>
-double volume_change(const Report& report) {
-    return report.oriented_consistently ? report.volume_change
-                                        : std::numeric_limits<double>::quiet_NaN();
-}
-
-double error_estimate(Method method, const StepReport& step) {
-    if (method == Method::Converged) return step.error_estimate;
-    return step.residual_before == 0 ? 0 : step.residual_after / step.residual_before;
+/// Returns a value as MeshLab knows it, or nothing if it is no number.
+std::optional<Outputs::mapped_type> as_output(const ReportValue& value) {
+    if (std::holds_alternative<std::monostate>(value.value))
+        return std::numeric_limits<double>::quiet_NaN();
+    if (const auto* const is_so = std::get_if<bool>(&value.value)) return *is_so ? 1 : 0;
+    if (const auto* const number = std::get_if<double>(&value.value)) return *number;
+    if (const auto* const count = std::get_if<std::int64_t>(&value.value)) {
+        if (*count > std::numeric_limits<int>::max()) return static_cast<double>(*count);
+        return static_cast<int>(*count);
+    }
+    return {};
 }
 
 }  // namespace
@@ -119,56 +124,18 @@ template std::string message_of(const FlowParameters&, const FlowReport&);
 template std::string message_of(const NoiseParameters&, const NoiseReport&);
 template std::string message_of(const FairParameters&, const FairReport&);
 
-Outputs outputs_of(const FlowParameters& parameters, const FlowReport& report) {
-    const double error =
-        report.steps.empty() ? 0 : error_estimate(parameters.method, report.steps.back());
-    return {{"detail_size", report.detail_size},
-            {"step_size", report.step_size},
-            {"depth", report.depth},
-            {"cell_size", report.cell_size},
-            {"unknowns", static_cast<int>(report.unknowns)},
-            {"steps", static_cast<int>(report.steps.size())},
-            {"stopped_early", report.stop == Stop::None ? 0 : 1},
-            {"converged", converged(report) ? 1 : 0},
-            {"error_estimate", error},
-            {"largest_displacement", report.largest_displacement},
-            {"rms_displacement", report.rms_displacement},
-            {"area_before", report.area_before},
-            {"area_after", report.area_after},
-            {"volume_change", volume_change(report)}};
+template <class Report>
+Outputs outputs_of(const Report& report) {
+    Outputs outputs;
+    for (const auto& [name, value] : values_of(report)) {
+        if (const auto output = as_output(value)) outputs.emplace(name, *output);
+    }
+    return outputs;
 }
 
-Outputs outputs_of(const NoiseParameters& /*parameters*/, const NoiseReport& report) {
-    return {{"noise", report.noise},
-            {"noise_size", report.noise_size},
-            {"outliers", static_cast<int>(report.outliers)},
-            {"crease_share", report.crease_share},
-            {"stairs", report.stairs},
-            {"lump_width", report.lump_width},
-            {"lump_height", report.lump_height},
-            {"lost_area", report.lost_area},
-            {"lost_volume", report.lost_volume},
-            {"detail_size", report.detail_size},
-            {"steps", report.steps},
-            {"largest_displacement", report.largest_displacement},
-            {"rms_displacement", report.rms_displacement},
-            {"area_before", report.area_before},
-            {"area_after", report.area_after},
-            {"volume_change", volume_change(report)}};
-}
-
-Outputs outputs_of(const FairParameters& /*parameters*/, const FairReport& report) {
-    return {{"patches", static_cast<int>(report.patches)},
-            {"flatter_patches", static_cast<int>(report.flatter_patches)},
-            {"rough_patches", static_cast<int>(report.rough_patches)},
-            {"seam_curvature", report.seam_curvature},
-            {"patch_curvature", report.patch_curvature},
-            {"height", report.height},
-            {"largest_displacement", report.largest_displacement},
-            {"rms_displacement", report.rms_displacement},
-            {"area_before", report.area_before},
-            {"area_after", report.area_after}};
-}
+template Outputs outputs_of(const FlowReport&);
+template Outputs outputs_of(const NoiseReport&);
+template Outputs outputs_of(const FairReport&);
 
 }  // namespace run_filter_detail
 

@@ -43,25 +43,9 @@ std::uint64_t checksum(const TriangleMesh& mesh);
 template <class Parameters, class Report>
 std::string message_of(const Parameters& parameters, const Report& report);
 
-/// Returns, in units of the mesh and of the surface that flows:
-/// - `detail_size`, `step_size` (δ), `depth`, `cell_size`, `unknowns`,
-/// - `steps` (the number made), `stopped_early` (1 or 0), `converged` (1 if all steps reached the
-///   tolerance, else 0), `error_estimate` (of the last step: the relative error in the energy norm,
-///   or with W-cycles the relative 2-norm of the residual),
-/// - `largest_displacement`, `rms_displacement` (of the vertices),
-/// - `area_before`, `area_after`, `volume_change` (NaN unless the faces are oriented consistently).
-Outputs outputs_of(const FlowParameters& parameters, const FlowReport& report);
-
-/// Returns, in units of the mesh: `noise`, `noise_size`, `outliers`, `crease_share`, `stairs`,
-/// `lump_width`, `lump_height`, `lost_area`, `lost_volume`, `detail_size`, `steps`,
-/// `largest_displacement`, `rms_displacement`, `area_before`, `area_after`, `volume_change` (NaN
-/// unless the faces are oriented consistently). See NoiseReport.
-Outputs outputs_of(const NoiseParameters& parameters, const NoiseReport& report);
-
-/// Returns, in units of the mesh: `patches`, `flatter_patches`, `rough_patches`, `seam_curvature`,
-/// `patch_curvature`, `height`, `largest_displacement`, `rms_displacement`, `area_before`,
-/// `area_after`. See FairReport.
-Outputs outputs_of(const FairParameters& parameters, const FairReport& report);
+/// Returns the numbers of report_table(): 1 for yes, 0 for no, and NaN for null.
+template <class Report>
+Outputs outputs_of(const Report& report);
 
 /// Returns default_detail_size(), or 0 if the mesh is not valid.
 double default_detail_size_or_zero(const TriangleMesh& mesh, const Selection& selection);
@@ -96,7 +80,7 @@ FilterOutcome run_filter(VcgMesh& mesh, const Parameters& parameters, const Inpu
     }
     write_positions(moved, mesh);
     if (!report.quality.empty()) write_quality(report.quality, mesh);
-    return {true, message_of(parameters, report), outputs_of(parameters, report)};
+    return {true, message_of(parameters, report), outputs_of(report)};
 }
 
 }  // namespace tracked_mcf

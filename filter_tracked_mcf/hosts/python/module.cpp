@@ -21,7 +21,7 @@
 #include "filter_tracked_mcf/presentation/filter_names.h"
 #include "filter_tracked_mcf/presentation/flow_warnings.h"
 #include "filter_tracked_mcf/presentation/noise_warnings.h"
-#include "filter_tracked_mcf/presentation/report_values.h"
+#include "filter_tracked_mcf/presentation/report_table.h"
 #include "filter_tracked_mcf/presentation/run.h"
 
 namespace tracked_mcf {
@@ -252,9 +252,24 @@ void translate(const std::exception_ptr& exception, void*) {
     }
 }
 
+/// Returns the keys of a report, for the package's types.
+template <class Report>
+nb::list described_report() {
+    nb::list keys;
+    for (const ReportRow<Report>& row : report_table<Report>()) {
+        nb::dict key;
+        key["name"] = row.name;
+        key["type"] = row.type;
+        key["meaning"] = row.meaning;
+        key["unit"] = unit_in_words(row.unit);
+        keys.append(key);
+    }
+    return keys;
+}
+
 /// Adds the function of the filter to the module, and describes the filter under that name in
 /// module.filters.
-template <class Parameters>
+template <class Parameters, class Report>
 void add_filter(nb::module_& module, const char* name) {
     module.def(name, filtered<Parameters>, "vertices"_a.none(), "faces"_a.none(),
                "on_step"_a = nb::none(), "progress"_a.none(), "parameters"_a);
@@ -262,6 +277,7 @@ void add_filter(nb::module_& module, const char* name) {
     filter["method"] = kNames<Parameters>.python;
     filter["help"] = pymeshlab_help<Parameters>();
     filter["parameters"] = described_parameters<Parameters>();
+    filter["report"] = described_report<Report>();
     module.attr("filters")[name] = filter;
 }
 
@@ -274,10 +290,11 @@ NB_MODULE(_core, module) {
     module.attr("version") = TRACKED_MCF_VERSION;
     module.attr("no_quality") = kNoQuality;
     module.attr("filters") = nb::dict();
+    module.attr("step_report") = described_report<StepReport>();
     nb::register_exception_translator(translate);
-    add_filter<FairParameters>(module, "fair");
-    add_filter<NoiseParameters>(module, "remove_noise");
-    add_filter<FlowParameters>(module, "smooth");
+    add_filter<FairParameters, FairReport>(module, "fair");
+    add_filter<NoiseParameters, NoiseReport>(module, "remove_noise");
+    add_filter<FlowParameters, FlowReport>(module, "smooth");
     module.def("default_detail_size", default_detail_size_of, "vertices"_a.none(), "faces"_a.none(),
                "inputs"_a);
 }

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Writes the package's __init__.py, whose functions have the parameters that the extension module _core lists:
-write_init.py FOLDER_OF_CORE TEMPLATE OUTPUT
+"""Writes modules of the package from templates: __init__.py, whose functions have the parameters that the extension
+module _core lists, and _reports.py, whose types have the keys of the reports:
+write_init.py FOLDER_OF_CORE TEMPLATE OUTPUT [TEMPLATE OUTPUT]...
 """
 
 import pathlib
@@ -24,16 +25,33 @@ def paragraph(parameter):
     return "\n".join(wrapped(first, 80, 8) + wrapped(parameter["help"], 80, 12))
 
 
-def main(folder, template, output):
-    sys.path.insert(0, folder)
-    from _core import filters
-    text = pathlib.Path(template).read_text(encoding="utf-8")
+def key(row):
+    """Returns the key of a report as a line of its type, below a comment wrapped to 100 columns."""
+    meaning = row["meaning"].replace("*", "").replace("null", "None")
+    unit = f" ({row['unit']})" if row["unit"] else ""
+    comment = textwrap.wrap(meaning + unit, 100, initial_indent="    # ", subsequent_indent="    # ",
+                            break_on_hyphens=False)
+    return "\n".join([*comment, f"    {row['name']}: {row['type']}"])
+
+
+def written(text):
+    """Returns the text of a template with what the extension module says."""
+    from _core import filters, step_report
+    text = text.replace("@KEYS OF step@", "\n".join(map(key, step_report)))
     for name, described in filters.items():
         parameters = described["parameters"]
         line_end = ",\n" + len(f"def {name}(") * " "
         text = text.replace(f"@KEYWORDS OF {name}@", line_end.join(map(keyword, parameters)))
         text = text.replace(f"@HELP OF {name}@", "\n".join(map(paragraph, parameters)))
-    pathlib.Path(output).write_text(text, encoding="utf-8")
+        text = text.replace(f"@KEYS OF {name}@", "\n".join(map(key, described["report"])))
+    return text
+
+
+def main(folder, *files):
+    sys.path.insert(0, folder)
+    for template, output in zip(files[::2], files[1::2]):
+        text = pathlib.Path(template).read_text(encoding="utf-8")
+        pathlib.Path(output).write_text(written(text), encoding="utf-8")
 
 
 main(*sys.argv[1:])

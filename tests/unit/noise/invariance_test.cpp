@@ -45,7 +45,7 @@ TEST(RemoveNoise, DoesNotDependOnTheOrderOfTrianglesOrTheirOrientation) {
     for (std::size_t i = 0; i < other.triangles.size(); i += 3) {
         std::swap(other.triangles[i][0], other.triangles[i][1]);
     }
-    EXPECT_FALSE(report_of(other).oriented_consistently);
+    EXPECT_TRUE(std::isnan(report_of(other).volume_change));
     other = denoised(other);
     other.triangles = after.triangles;
     EXPECT_LT(rms_distance(other, after), 1e-3 * mean_edge_length(before));
@@ -78,7 +78,7 @@ TEST(RemoveNoise, TakesASoupAsItsMesh) {
     const NoiseReport of_mesh = report_of(noisy, parameters);
     const NoiseReport of_soup = report_of(shapes::soup(noisy), parameters);
     EXPECT_EQ(of_soup.vertices, of_mesh.vertices);
-    EXPECT_EQ(of_soup.steps, of_mesh.steps);
+    EXPECT_EQ(of_soup.smoothing_steps, of_mesh.smoothing_steps);
     EXPECT_NEAR(static_cast<double>(of_soup.outliers), static_cast<double>(of_mesh.outliers), 2);
     EXPECT_NEAR(static_cast<double>(of_soup.bounded_vertices),
                 static_cast<double>(of_mesh.bounded_vertices), 2);

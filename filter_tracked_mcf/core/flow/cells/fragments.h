@@ -29,10 +29,6 @@ struct GridMesh {
 /// Returns the mesh in the coordinates of a grid.
 GridMesh to_grid(const SurfaceView& mesh, const Grid& grid);
 
-/// A triangle is degenerate if its area is at most this times its longest edge squared, in grid
-/// coordinates. In double precision it has no plane then.
-inline constexpr double kDegenerate = 1e-12;
-
 /// A fragment: a (triangle, cell) pair, with flags of the triangle's corners and sides inside the
 /// closed cell. Degenerate triangles have fragments too: they carry no area, but their vertices
 /// need test functions. Bit-fields save memory: a surface has many fragments.

@@ -166,7 +166,6 @@ TrackedElements build_tracked_elements(const Domain& domain, ClippedSurface surf
     }
     TrackedElements elements;
     elements.grid = surface.grid;
-    elements.degenerate_triangle_count = surface.degenerate_count;
     elements.vertex_constrained = domain.constrained_vertices();
     // There are many fragments: they are gone when the elements are built.
     const RawVector<FragmentEntry> fragments = std::move(surface.fragments);

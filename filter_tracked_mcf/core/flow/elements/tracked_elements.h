@@ -43,7 +43,6 @@ struct TrackedElements {
 
     std::int64_t split_triangle_count = 0;
     std::int64_t fragment_count = 0;  ///< without fragments of degenerate triangles
-    std::int64_t degenerate_triangle_count = 0;
 
     const Level& finest() const { return levels.back(); }
 };

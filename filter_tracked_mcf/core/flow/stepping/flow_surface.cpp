@@ -68,7 +68,7 @@ FlowSurface flow_surface_of(const Domain& domain, const std::vector<double>& den
     const Eigen::AlignedBox3d box = bounding_box(domain.surface());
     const Grid grid = with_depth(cube_around(box), kDepthOfOrder);
     const RawVector<KeyValue> used = used_vertices(triangles, mesh.positions, grid);
-    FlowSurface surface{{{}, 0}, {}, {}, {}, {}, 0, 0, 0, 1, {}};
+    FlowSurface surface{{{}, 0}, {}, {}, {}, {}, 0, 0, 1, {}};
     surface.edge = mean_edge_length(domain.surface());
     surface.vertices.assign(mesh.positions.size(), -1);
     const auto count = static_cast<std::int32_t>(used.size());
@@ -85,14 +85,11 @@ FlowSurface flow_surface_of(const Domain& domain, const std::vector<double>& den
     renumbered.reserve(triangles.size());
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         const Triangle& t = triangles[i];
-        if (is_thin(corners_of(mesh.positions, t), kDegenerate)) ++surface.degenerate_count;
         if (!has_three_vertices(t)) continue;
         renumbered.push_back(
             {surface.vertices[t[0]], surface.vertices[t[1]], surface.vertices[t[2]]});
         if (!densities.empty()) surface.densities.push_back(static_cast<float>(densities[i]));
     }
-    if (surface.degenerate_count == static_cast<std::int64_t>(triangles.size()))
-        throw InvalidMesh("All faces are degenerate: none has an area.");
     surface.constrained_count = std::count_if(surface.fixed.begin(), surface.fixed.end(),
                                               [](std::uint8_t flag) { return flag != 0; });
     surface.stars = Stars(std::move(renumbered), count);

@@ -22,7 +22,6 @@ struct FlowSurface {
     std::vector<std::int32_t> components;    ///< per vertex: its connected component
     std::int32_t component_count = 0;
     std::int64_t constrained_count = 0;  ///< vertices that stay
-    std::int64_t degenerate_count = 0;   ///< triangles of the domain without an area
     double edge = 1;                     ///< mean length of the sides of triangles, mesh units
     std::vector<std::int32_t> vertices;  ///< of the mesh: the surface's vertex, or -1
 };
@@ -32,7 +31,7 @@ struct FlowSurface {
 Grid cube_around(const Eigen::AlignedBox3d& box);
 
 /// Returns the surface of a domain. `densities` are those of the domain's triangles; none if all
-/// are 1. Throws InvalidMesh if no triangle has an area.
+/// are 1. At least one triangle has an area.
 FlowSurface flow_surface_of(const Domain& domain, const std::vector<double>& densities);
 
 }  // namespace tracked_mcf

@@ -118,7 +118,6 @@ MeshFlow::MeshFlow(MeshPlan plan)
     margin_ = kOvershootInDetail * std::min(halved, diagonal) + kOvershootInDiagonals * diagonal;
     if (plan.preserve != Preserve::None)
         preserver_.emplace(surface_, plan.preserve, plan.steps.flow);
-    report_.degenerate_triangles = surface_.degenerate_count;
     if (steps_.flow == FlowKind::Conformalized) report_.genus = genus_of(plan.domain.topology());
     report_.unknowns = surface_.stars.count();
 }

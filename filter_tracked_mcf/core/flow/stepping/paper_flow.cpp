@@ -41,7 +41,6 @@ PaperFlow::PaperFlow(PaperPlan plan)
       elements_(build_tracked_elements(plan.domain, std::move(plan.surface), plan.cubature)),
       multigrid_(elements_, fixed_unknowns(elements_)),
       displacement_(Coefficients::Zero(elements_.finest().unknown_count(), 3)) {
-    report_.degenerate_triangles = elements_.degenerate_triangle_count;
     report_.depth = elements_.grid.depth;
     report_.cell_size = elements_.grid.cell_size;
     report_.cells = count_cells(elements_.finest());
@@ -56,6 +55,7 @@ PaperFlow::PaperFlow(PaperPlan plan)
 
 bool PaperFlow::step() {
     StepReport report;
+    report.error_estimate = kNoNumber;
     const Stopwatch assembling;
     assemble_elements(elements_, displacement_, step_size_, order_ > 1, systems_);
     const double cell = elements_.grid.cell_size;
@@ -67,7 +67,7 @@ bool PaperFlow::step() {
         return false;
     }
     if (report_.constrained_unknowns == report_.unknowns ||
-        report_.constrained_vertices == report_.vertices) {
+        report_.held_vertices == report_.vertices) {
         report_.stop = Stop::NothingMoves;
         return false;
     }

@@ -7,6 +7,7 @@
 
 #include "filter_tracked_mcf/core/flow/plan/plan.h"
 #include "filter_tracked_mcf/core/flow_report.h"
+#include "filter_tracked_mcf/core/mesh/filter_run.h"
 #include "filter_tracked_mcf/core/triangle_mesh.h"
 
 namespace tracked_mcf {
@@ -44,12 +45,8 @@ public:
     virtual std::vector<double> mean_curvatures(const SurfaceView& after) = 0;
 
     const FlowReport& report() const { return report_; }
-    /// Returns which triangles of the mesh flow.
-    const Selection& selection() const { return selection_; }
-    /// Returns Domain::encloses_volume().
-    bool encloses_volume() const { return encloses_volume_; }
-    /// Returns flags of one copy of each vertex of the surface.
-    const std::vector<std::uint8_t>& one_copies() const { return one_copies_; }
+    /// Returns the part of the mesh that flows.
+    const MovingPart& part() const { return part_; }
 
 protected:
     /// Sets what the report says of a plan.
@@ -60,9 +57,7 @@ protected:
 private:
     virtual void take_last_step_back() = 0;
 
-    Selection selection_;
-    std::vector<std::uint8_t> one_copies_;
-    bool encloses_volume_;
+    MovingPart part_;
 };
 
 }  // namespace tracked_mcf

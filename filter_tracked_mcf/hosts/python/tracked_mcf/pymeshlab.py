@@ -56,43 +56,13 @@ def _write(meshes, positions):
 
 
 def _results(report):
-    """Returns the values of the report that all filters have, under the plugin's keys."""
-    return {key: report[key] for key in ("largest_displacement", "rms_displacement", "area_before", "area_after",
-                                         "warnings")}
+    """Returns the numbers of a report, as the plugin has them, and the warnings."""
+    results = {key: float("nan") if value is None else int(value) if isinstance(value, bool) else value
+               for key, value in report.items() if value is None or isinstance(value, (int, float))}
+    return {**results, "warnings": report["warnings"]}
 
 
-def _smoothing_results(report):
-    volume_change = report["volume_change"]
-    return {"detail_size": report["detail_size"],
-            "volume_change": float("nan") if volume_change is None else volume_change}
-
-
-def _fair_results(report):
-    return {key: report[key] for key in ("patches", "flatter_patches", "rough_patches", "seam_curvature",
-                                         "patch_curvature", "height")}
-
-
-def _noise_results(report):
-    return {**_smoothing_results(report),
-            **{key: report[key] for key in ("noise", "noise_size", "outliers", "crease_share", "steps", "stairs",
-                                            "lump_width", "lump_height", "lost_area", "lost_volume")}}
-
-
-def _flow_results(report):
-    def error_estimate(step):
-        if step["error_estimate"] is not None:
-            return step["error_estimate"]
-        return step["residual_after"] / step["residual_before"] if step["residual_before"] else 0.0
-
-    return {**_smoothing_results(report),
-            **{key: report[key] for key in ("step_size", "depth", "cell_size", "unknowns")},
-            "steps": len(report["steps"]),
-            "stopped_early": int(report["stop"] != "none"),
-            "converged": int(report["converged"]),
-            "error_estimate": error_estimate(report["steps"][-1]) if report["steps"] else 0.0}
-
-
-def _method(function, further_results):
+def _method(function):
     """Makes a method of MeshSet from a function of the package, and returns the method."""
     described = _core.filters[function.__name__]
     name = described["method"]
@@ -124,7 +94,7 @@ def _method(function, further_results):
                 self.compute_scalar_by_function_per_vertex(q="x * y")
         finally:
             _write(self, moved)
-        return {**_results(report), **further_results(report)}
+        return _results(report)
 
     def method(self, **parameters):
         try:
@@ -137,6 +107,6 @@ def _method(function, further_results):
     return method
 
 
-apply_coord_fair_selected_faces = _method(fair, _fair_results)
-apply_coord_remove_noise = _method(remove_noise, _noise_results)
-apply_coord_mean_curvature_flow = _method(smooth, _flow_results)
+apply_coord_fair_selected_faces = _method(fair)
+apply_coord_remove_noise = _method(remove_noise)
+apply_coord_mean_curvature_flow = _method(smooth)

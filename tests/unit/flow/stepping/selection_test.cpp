@@ -37,7 +37,7 @@ TEST(Selection, UnselectedVerticesKeepTheirBitsAndTheOthersMove) {
             moved += same ? 0 : 1;
         }
         EXPECT_GT(moved, 300);
-        EXPECT_GT(report.constrained_vertices, 20);
+        EXPECT_GT(report.held_vertices, 20);
         EXPECT_EQ(report.triangles, std::count(top.begin(), top.end(), 1));
         EXPECT_EQ(report.unselected_triangles, std::count(top.begin(), top.end(), 0));
     }

@@ -119,7 +119,7 @@ TEST(Strength, ASingleVertexWithZeroStays) {
     const TriangleMesh before = mesh;
     const FlowReport report = evolve(mesh, parameters(5, 1e-3, 2));
     EXPECT_EQ(report.zero_strength_triangles, 0);
-    EXPECT_EQ(report.constrained_vertices, 1);
+    EXPECT_EQ(report.held_vertices, 1);
     EXPECT_EQ(mesh.positions[7], before.positions[7]);
     EXPECT_NE(mesh.positions[8], before.positions[8]);
 }
