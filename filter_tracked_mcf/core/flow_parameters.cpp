@@ -37,6 +37,7 @@ double detail_size_of(const FlowParameters& parameters, double mean_edge) {
 
 void validate(const FlowParameters& parameters) {
     check_ranges(parameters);
+    check_range("cycles", parameters.cycles, {1, 1000, ""});
     if (parameters.method != Method::Paper) return;
     const auto refuse = [](const char* name) {
         throw InvalidParameter(
@@ -46,7 +47,6 @@ void validate(const FlowParameters& parameters) {
     };
     if (parameters.flow != FlowKind::MeanCurvature) refuse("flow");
     if (parameters.preserve != Preserve::None) refuse("preserve");
-    if (parameters.local_detail_size) refuse("local_detail_size");
 }
 
 }  // namespace tracked_mcf

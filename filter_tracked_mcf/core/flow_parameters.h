@@ -91,18 +91,9 @@ struct FlowParameters : StepParameters {
     /// kDefaultDetailInEdges mean edge lengths.
     double detail_size = 0;
 
-    /// Whether the detail size is proportional to the local edge length, from a tenth of
-    /// detail_size to ten times as much, and detail_size where that has its mean. A step size
-    /// follows in the same way. Noise of scans grows with the spacing of their points.
-    bool local_detail_size = false;
-
-    /// Step size δ for the mesh scaled so that the longest side of its bounding box is 1; finite
-    /// and at least 0. δ is a squared length, see step_size_for(). 0 takes the one that belongs to
-    /// the detail size; any other replaces it.
+    /// Step size δ, mesh units²; finite and at least 0. 0 takes the one that belongs to the detail
+    /// size, see step_size_for(); any other replaces it.
     double step_size = 0;
-
-    /// Whether step_size is in squared units of the mesh instead.
-    bool absolute = false;
 
     /// Number of semi-implicit steps, 1 to kMaximumIterations.
     int iterations = 3;

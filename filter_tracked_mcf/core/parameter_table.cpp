@@ -47,8 +47,6 @@ const std::vector<ParameterOf<P>>& parameter_table() {
               "detail_size", "Detail size (0: auto)",
               "Waves this long keep half their height, shorter ones less. 0 takes 3 mean edge "
               "lengths."),
-        named(toggle<&P::local_detail_size>(), "local_detail_size", "Larger where faces are larger",
-              "The detail size follows the local edge length, as noise of scans often does."),
         named(integer<&P::iterations>(1, kMaximumIterations), "iterations", "Smoothing steps",
               "Steps in which the detail is removed, 1 to 1000000. More are more accurate."),
         named(integer<&P::order, P>(1, kMaximumOrder), "order", "Order (1 to 4)",
@@ -66,13 +64,12 @@ const std::vector<ParameterOf<P>>& parameter_table() {
               "quality", "Vertex quality",
               "For colours: how far the vertex moved along its normal, or the mean curvature after "
               "smoothing."),
-        named(
-            access<&P::step_size>(
-                Type::Real, {0, kFinite, ", such as 1e-5, where 0 takes that of the detail size"}),
-            "step_size", "Step size (expert)",
-            "Time step, a squared length, for longest side 1. 0 takes that of the detail size."),
-        named(toggle<&P::absolute>(), "absolute", "Absolute step size (expert)",
-              "The step size is in squared units of the mesh."),
+        named(access<&P::step_size>(Type::Real,
+                                    {0, kFinite,
+                                     ", in squared units of the mesh, where 0 takes that of the "
+                                     "detail size"}),
+              "step_size", "Step size (expert)",
+              "Time step in squared units of the mesh. 0 takes that of the detail size."),
         named(integer<&P::depth>(0, kMaximumDepth, ", where 0 chooses automatically"), "depth",
               "Octree depth (expert)",
               "1 to 12: 2^depth cells a side, which only speed the default method up. 0 is "
@@ -91,15 +88,6 @@ const std::vector<ParameterOf<P>>& parameter_table() {
               "step in the energy norm, is at most this number; greater than 0, less than 1. A "
               "smaller one takes more iterations. With the default, no wave keeps more or less of "
               "its height by 0.2 %."),
-        named(
-            integer<&P::cycles>(1, 1000), "cycles", "",
-            "With method paper: W-cycles of multigrid in each step, 1 to 1000. The paper uses "
-            "one. More solve the equations more exactly, but once parts have pinched, the flow may "
-            "end. The time grows in proportion."),
-        named(
-            choice<&P::cubature>({{"", "1"}, {"", "3"}, {"", "12"}}), "cubature", "",
-            "With method paper: samples on each split triangle. The paper has 3. Take 1, which is "
-            "inaccurate, or 12, which is slow and exact to degree 6, only to compare."),
         threads<&P::threads>(),
     };
     return table;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "filter_tracked_mcf/presentation/report_table.h"
 
-#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <type_traits>
@@ -308,23 +307,11 @@ std::vector<ReportRow<StepReport>> step_rows() {
     return table.rows();
 }
 
-ReportValue integer(std::int64_t number) {
-    return {number};
-}
-
-/// Returns the name of a choice, or its number if that is its name.
-ReportValue choice_value(const std::string& name) {
-    const bool is_number = std::all_of(name.begin(), name.end(),
-                                       [](char letter) { return letter >= '0' && letter <= '9'; });
-    if (is_number) return integer(std::stoi(name));
-    return {name};
-}
-
 ReportValue parameter_value(const Parameter& parameter, const ParameterValue& value) {
     if (parameter.type == Parameter::Type::Choice) {
-        return choice_value(parameter.choices.at(std::get<int>(value)).name);
+        return {parameter.choices.at(std::get<int>(value)).name};
     }
-    if (const int* number = std::get_if<int>(&value)) return integer(*number);
+    if (const int* number = std::get_if<int>(&value)) return {std::int64_t{*number}};
     if (const bool* is_on = std::get_if<bool>(&value)) return {*is_on};
     return {std::get<double>(value)};
 }

@@ -85,9 +85,7 @@ std::string summary(const FlowParameters& parameters, const FlowReport& report) 
                        (parameters.flow == FlowKind::Conformalized ? "conformalized " : "") +
                        "mean-curvature flow in " + digits(report.seconds, 2) + " s.";
     if (!report.steps.empty() && report.stop == Stop::None) {
-        text += report.has_strengths           ? "\nWhere the strength is 1, detail"
-                : parameters.local_detail_size ? "\nAt edges of mean length, detail"
-                                               : "\nDetail";
+        text += report.has_strengths ? "\nWhere the strength is 1, detail" : "\nDetail";
         text += " smaller than " + digits(report.detail_size, 3) + " was removed.";
     }
     if (!report.steps.empty()) text += movement(report);

@@ -9,7 +9,6 @@ namespace tracked_mcf::benchmark {
 
 FlowParameters TrackedOptions::parameters() const {
     FlowParameters parameters = experiments::parse_configuration(configuration);
-    parameters.absolute = true;
     parameters.step_size = step_size;
     parameters.depth = depth;
     parameters.iterations = steps;

@@ -46,39 +46,53 @@ TEST(CommandLine, DefaultsAreThoseOfTheFlow) {
     EXPECT_FALSE(line.quiet);
     EXPECT_TRUE(line.lengths.empty());
     EXPECT_EQ(line.parameters.detail_size, defaults.detail_size);
-    EXPECT_EQ(line.parameters.local_detail_size, defaults.local_detail_size);
     EXPECT_EQ(line.parameters.order, defaults.order);
     EXPECT_EQ(line.parameters.depth, defaults.depth);
     EXPECT_EQ(line.parameters.step_size, defaults.step_size);
-    EXPECT_EQ(line.parameters.absolute, defaults.absolute);
     EXPECT_EQ(line.parameters.iterations, defaults.iterations);
     EXPECT_EQ(line.parameters.flow, defaults.flow);
     EXPECT_EQ(line.parameters.boundary, defaults.boundary);
     EXPECT_EQ(line.properties.at("selected"), "");
     EXPECT_EQ(line.parameters.preserve, defaults.preserve);
-    EXPECT_EQ(line.parameters.cubature, defaults.cubature);
     EXPECT_EQ(line.parameters.method, defaults.method);
     EXPECT_EQ(line.parameters.tolerance, defaults.tolerance);
-    EXPECT_EQ(line.parameters.cycles, defaults.cycles);
     EXPECT_EQ(line.parameters.threads, defaults.threads);
 }
 
 TEST(CommandLine, EveryOptionIsTaken) {
-    const auto line =
-        parse({"a.PLY",      "b.Stl",      "--detail-size",  "0.75%",       "--local-detail-size",
-               "--order",    "4",          "--depth",        "7",           "--step-size",
-               "2.5e-4",     "--absolute", "--iterations=3", "--flow",      "conformalized",
-               "--boundary", "free",       "--selected",     "my quality",  "--preserve",
-               "Volume",     "--method",   "paper",          "--tolerance", "1e-10",
-               "--cubature", "12",         "--cycles",       "4",           "--threads",
-               "2",          "--report",   "r.json",         "--quiet"});
+    const auto line = parse({"a.PLY",
+                             "b.Stl",
+                             "--detail-size",
+                             "0.75%",
+                             "--order",
+                             "4",
+                             "--depth",
+                             "7",
+                             "--step-size",
+                             "2.5e-4",
+                             "--iterations=3",
+                             "--flow",
+                             "conformalized",
+                             "--boundary",
+                             "free",
+                             "--selected",
+                             "my quality",
+                             "--preserve",
+                             "Volume",
+                             "--method",
+                             "paper",
+                             "--tolerance",
+                             "1e-10",
+                             "--threads",
+                             "2",
+                             "--report",
+                             "r.json",
+                             "--quiet"});
     EXPECT_EQ(line.lengths.at("detail_size").value, 0.75);
     EXPECT_TRUE(line.lengths.at("detail_size").in_per_cent);
-    EXPECT_TRUE(line.parameters.local_detail_size);
     EXPECT_EQ(line.parameters.order, 4);
     EXPECT_EQ(line.parameters.depth, 7);
     EXPECT_EQ(line.parameters.step_size, 2.5e-4);
-    EXPECT_TRUE(line.parameters.absolute);
     EXPECT_EQ(line.parameters.iterations, 3);
     EXPECT_EQ(line.parameters.flow, FlowKind::Conformalized);
     EXPECT_EQ(line.parameters.boundary, BoundaryCondition::Free);
@@ -86,8 +100,6 @@ TEST(CommandLine, EveryOptionIsTaken) {
     EXPECT_EQ(line.parameters.preserve, Preserve::Volume);
     EXPECT_EQ(line.parameters.method, Method::Paper);
     EXPECT_EQ(line.parameters.tolerance, 1e-10);
-    EXPECT_EQ(line.parameters.cubature, Cubature::Degree6);
-    EXPECT_EQ(line.parameters.cycles, 4);
     EXPECT_EQ(line.parameters.threads, 2);
     EXPECT_EQ(line.report, "r.json");
     EXPECT_TRUE(line.quiet);
@@ -131,10 +143,6 @@ TEST(CommandLine, WhatIsNoLengthIsRefusedWithTwoExamples) {
     }
 }
 
-TEST(CommandLine, TheRuleOf12SamplesKeepsItsOldName) {
-    EXPECT_EQ(parse({"a.ply", "b.ply", "--cubature", "11"}).parameters.cubature, Cubature::Degree6);
-}
-
 TEST(CommandLine, OnlyAPlyHasPropertiesToSelectBy) {
     EXPECT_THAT(complaint({"a.obj", "b.ply", "--selected", "q"}),
                 HasSubstr("--selected needs a PLY file as INPUT"));
@@ -170,7 +178,6 @@ TEST(CommandLine, InvalidArgumentsAreNamed) {
     EXPECT_THAT(complaint({"a.ply", "b.ply", "--rescale", "volume"}), HasSubstr("--rescale"));
     EXPECT_THAT(complaint({"a.ply", "b.ply", "--order", "x"}), HasSubstr("--order = x"));
     EXPECT_THAT(complaint({"a.ply", "b.ply", "--order", "1.5"}), HasSubstr("--order = 1.5"));
-    EXPECT_THAT(complaint({"a.ply", "b.ply", "--cubature", "2"}), HasSubstr("12"));
     EXPECT_THAT(complaint({"a.ply", "b.ply", "--method", "cg"}), HasSubstr("paper"));
     EXPECT_THAT(complaint({"a.ply", "b.ply", "--tolerance", "x"}), HasSubstr("--tolerance = x"));
     EXPECT_THAT(complaint({"a.ply", "b.ply", "--speed", "2"}), HasSubstr("--speed"));
@@ -204,7 +211,6 @@ TEST(CommandLine, HelpNamesEveryOptionAndExplainsTheSharedParameters) {
                                "--order",
                                "--depth",
                                "--step-size",
-                               "--absolute",
                                "--iterations",
                                "--flow",
                                "mean-curvature|conformalized",
@@ -217,9 +223,6 @@ TEST(CommandLine, HelpNamesEveryOptionAndExplainsTheSharedParameters) {
                                "--method",
                                "converged|paper",
                                "--tolerance",
-                               "--cubature",
-                               "1|3|12",
-                               "--cycles",
                                "--threads",
                                "--report",
                                "--quiet",

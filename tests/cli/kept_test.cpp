@@ -190,7 +190,7 @@ protected:
 TEST_P(Kept, ALockedBoundaryKeepsItsBits) {
     const auto before = open_document(folder_ / "in.ply");
     for (const char* flow : {"mean-curvature", "conformalized"}) {
-        const auto after = smoothed("--step-size 1e-4 --iterations 5 --flow " + std::string(flow));
+        const auto after = smoothed("--detail-size 5% --iterations 5 --flow " + std::string(flow));
         expect_kept(*before, *after, boundary_vertices(*before));
     }
 }
@@ -200,7 +200,7 @@ TEST_P(Kept, UnselectedVerticesKeepTheirBits) {
     write_file(folder_ / "in.ply",
                with_lower_half_chosen(*open_document(folder_ / "in.ply"), kept));
     const auto before = open_document(folder_ / "in.ply");
-    expect_kept(*before, *smoothed("--step-size 1e-4 --iterations 5 --selected chosen"),
+    expect_kept(*before, *smoothed("--detail-size 5% --iterations 5 --selected chosen"),
                 with_twins(kept, before->positions()));
 }
 

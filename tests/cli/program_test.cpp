@@ -114,11 +114,8 @@ TEST_F(Program, MethodsDiffer) {
         return read_file(folder_ / "b.off");
     };
     const std::string converged = smoothed("");
-    const std::string one_cycle = smoothed("--method paper");
     EXPECT_EQ(smoothed("--method converged --tolerance 1e-3"), converged);
-    EXPECT_EQ(smoothed("--method paper --cycles 1"), one_cycle);
-    EXPECT_NE(one_cycle, converged);
-    EXPECT_NE(smoothed("--method paper --cycles 2"), one_cycle);
+    EXPECT_NE(smoothed("--method paper"), converged);
     EXPECT_NE(smoothed("--tolerance 1e-8"), converged);
 }
 
@@ -138,24 +135,6 @@ TEST_F(Program, TheDefaultMethodHasTheVerticesAsUnknowns) {
     };
     EXPECT_EQ(unknowns(""), 8);
     EXPECT_GT(unknowns("--method paper"), 100);
-}
-
-TEST_F(Program, AbsoluteStepsAreInSquaredUnitsOfTheMesh) {
-    std::string wide = kTetrahedron;
-    for (const char* from : {"1 0 0", "0 1 0", "0 0 1"}) {
-        std::string to = from;
-        to[to.find('1')] = '4';
-        wide.replace(wide.find(std::string("\n") + from) + 1, 5, to);
-    }
-    write_file(folder_ / "wide.off", wide);
-    const auto positions = [&](const std::string& options) {
-        const ProgramRun result = run(options + " --depth 4");
-        EXPECT_EQ(result.exit_code, 0) << result.errors;
-        return read_file(folder_ / "b.off");
-    };
-    const std::string relative = positions("wide.off b.off --step-size 0.0009765625");
-    EXPECT_EQ(positions("wide.off b.off --step-size 0.015625 --absolute"), relative);
-    EXPECT_NE(positions("wide.off b.off --step-size 0.015625"), relative);
 }
 
 TEST_F(Program, ADetailSizeInPerCentIsPartOfTheBoxesDiagonal) {
@@ -381,10 +360,9 @@ TEST_F(Program, HelpAndVersionSucceed) {
 }
 
 TEST_F(Program, EmptyValuesAreRefused) {
-    for (const char* option :
-         {"--detail-size", "--order", "--depth", "--step-size", "--iterations", "--flow",
-          "--boundary", "--selected", "--preserve", "--quality", "--method", "--tolerance",
-          "--cycles", "--cubature", "--threads", "--report"}) {
+    for (const char* option : {"--detail-size", "--order", "--depth", "--step-size", "--iterations",
+                               "--flow", "--boundary", "--selected", "--preserve", "--quality",
+                               "--method", "--tolerance", "--threads", "--report"}) {
         const ProgramRun result = run("a.off b.ply " + std::string(option) + " \"\"");
         EXPECT_EQ(result.exit_code, 2) << option;
         EXPECT_THAT(result.errors, HasSubstr(option));
@@ -410,7 +388,6 @@ TEST_F(Program, WrongUseExitsWith2) {
                                   "a.off b.ply --step-size -1e-5",
                                   "a.off b.ply --step-size nan",
                                   "a.off b.ply --step-size inf",
-                                  "a.off b.ply --cycles 0",
                                   "a.off b.ply --threads -1",
                                   "a.off b.ply --boundary x",
                                   "a.off b.ply --flow x",
@@ -420,8 +397,6 @@ TEST_F(Program, WrongUseExitsWith2) {
                                   "a.off b.ply --method paper --flow conformalized",
                                   "a.off b.ply --rescale volume",
                                   "a.off b.ply --selected flags",
-                                  "a.off b.ply --absolute --step-size inf",
-                                  "a.off b.ply --absolute --step-size -1",
                                   "a.off b.ply --method cg",
                                   "a.off b.ply --tolerance 0",
                                   "a.off b.ply --tolerance 1",

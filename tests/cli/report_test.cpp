@@ -24,11 +24,9 @@ TEST(Report, HoldsEveryMemberUnderItsName) {
     line.input = "in.ply";
     line.output = "out.obj";
     line.parameters.detail_size = 0.375;
-    line.parameters.local_detail_size = true;
     line.parameters.order = 2;
     line.parameters.depth = 7;
     line.parameters.step_size = 2e-4;
-    line.parameters.absolute = true;
     line.parameters.iterations = 3;
     line.parameters.flow = FlowKind::Conformalized;
     line.parameters.boundary = BoundaryCondition::Free;
@@ -36,9 +34,7 @@ TEST(Report, HoldsEveryMemberUnderItsName) {
     line.parameters.preserve = Preserve::Area;
     line.parameters.quality = Quality::Displacement;
     line.parameters.method = Method::Converged;
-    line.parameters.cubature = Cubature::Degree6;
     line.parameters.tolerance = 0.5;
-    line.parameters.cycles = 2;
     line.parameters.threads = 1;
     FlowReport report;
     report.vertices = 1;
@@ -74,11 +70,11 @@ TEST(Report, HoldsEveryMemberUnderItsName) {
     const Json expected = Json::parse(R"({
         "program": "tracked_mcf", "version": ")" TRACKED_MCF_VERSION R"(",
         "input": "in.ply", "output": "out.obj",
-        "parameters": {"detail_size": 0.375, "local_detail_size": true, "order": 2, "depth": 7,
-                       "step_size": 2e-4, "absolute": true, "iterations": 3,
+        "parameters": {"detail_size": 0.375, "order": 2, "depth": 7,
+                       "step_size": 2e-4, "iterations": 3,
                        "flow": "conformalized", "boundary": "free", "selected": "q", "strength": "s",
-                       "preserve": "area", "quality": "displacement", "cubature": 12,
-                       "method": "converged", "tolerance": 0.5, "cycles": 2, "threads": 1},
+                       "preserve": "area", "quality": "displacement",
+                       "method": "converged", "tolerance": 0.5, "threads": 1},
         "vertices": 1, "triangles": 2, "degenerate_triangles": 3, "boundary_edges": 4,
         "joined_vertices": 16, "open_pairs": 17,
         "held_vertices": 15, "detail_size": 0.4375, "step_size": 0.0625,

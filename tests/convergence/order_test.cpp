@@ -18,7 +18,7 @@ TriangleMesh flowed(TriangleMesh mesh, int depth) {
     parameters.method = Method::Paper;
     parameters.cycles = 30;  // so that the solver's error is negligible
     parameters.depth = depth;
-    parameters.step_size = 1e-3;
+    parameters.step_size = 4e-3;
     parameters.iterations = 2;
     EXPECT_EQ(evolve(mesh, parameters).steps.size(), 2U);
     return mesh;

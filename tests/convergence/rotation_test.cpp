@@ -16,7 +16,6 @@ namespace {
 /// mesh.
 double disagreement(const TriangleMesh& mesh, const Eigen::Affine3d& turn, Method method,
                     int depth) {
-    // δ is relative to the bounding box. Turning changes the box, so this keeps the absolute δ.
     const auto flowed = [&](TriangleMesh m) {
         FlowParameters parameters;
         parameters.order = 1;
@@ -24,8 +23,7 @@ double disagreement(const TriangleMesh& mesh, const Eigen::Affine3d& turn, Metho
         parameters.cycles = 20;
         parameters.depth = depth;
         parameters.iterations = 3;
-        const double side = longest_side(m);
-        parameters.step_size = 1e-3 / (side * side);
+        parameters.step_size = 1e-3;
         evolve(m, parameters);
         return m;
     };

@@ -57,7 +57,7 @@ FlowReport flow(TriangleMesh& mesh, Method method, double step_size, int iterati
     FlowParameters parameters;
     parameters.order = 1;
     parameters.method = method;
-    parameters.step_size = step_size;
+    parameters.step_size = step_size * std::pow(longest_side(mesh), 2);
     parameters.iterations = iterations;
     FlowReport report = evolve(mesh, parameters);
     for (std::size_t i = 1; i < report.steps.size(); ++i) {

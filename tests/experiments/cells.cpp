@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "filter_tracked_mcf/core/flow/stepping/paper_flow.h"
+#include "filter_tracked_mcf/core/mesh/measures.h"
 #include "filter_tracked_mcf/hosts/cli/mesh_file.h"
 #include "tests/experiments/csv.h"
 #include "tests/experiments/experiments.h"
@@ -67,7 +68,8 @@ public:
           file_(options.mesh),
           mesh_(file_.triangle_mesh()),
           flow_(paper_plan_of(
-              mesh_, options.parameters(options.depths.front(), options.configurations.front()))),
+              mesh_, options.parameters(options.depths.front(), options.configurations.front(),
+                                        longest_side(mesh_)))),
           elements_(flow_.elements()),
           identity_(identity_coefficients(elements_)),
           in_patch_(elements_in_patch()) {}

@@ -174,7 +174,7 @@ def catenoid(experiment, flow):
     exact = numpy.pi * c * (2 * HEIGHT + c * numpy.sinh(2 * HEIGHT / c))
     rows = []
     for size, steps in ((1, 20), (0.01, 200), (0.001, 1000))[:2 if experiment.options.quick else 3]:
-        moved, report = flow(cylinder.vertices, faces, "--order", 1, "--step-size", size, "--absolute", "--iterations", steps)
+        moved, report = flow(cylinder.vertices, faces, "--order", 1, "--step-size", size, "--iterations", steps)
         rows.append([f"{steps} steps of {size:g}", area(faces, moved) / exact,
                      turned(cylinder, cylinder.vertices, moved)["turned"], report["stop"]])
     show(experiment, "catenoid", "A cylinder between two rings", ["", "area over the catenoid's", "turned", "stop"],

@@ -24,7 +24,7 @@ namespace {
 
 /// Returns δ for the mesh scaled so that the longest side of its bounding box is 1.
 double relative_step_size(const TriangleMesh& mesh, const FlowParameters& parameters) {
-    const double side = parameters.absolute ? longest_side(mesh) : 1;
+    const double side = longest_side(mesh);
     return parameters.step_size / (side * side);
 }
 
@@ -76,11 +76,7 @@ public:
     Rebuilt(const TriangleMesh& mesh, const FlowParameters& parameters)
         : mesh_(mesh),
           parameters_(parameters),
-          grid_(paper_plan_of(mesh, parameters).surface.grid) {
-        const double side = longest_side(mesh);
-        parameters_.step_size = relative_step_size(mesh, parameters) * side * side;
-        parameters_.absolute = true;
-    }
+          grid_(paper_plan_of(mesh, parameters).surface.grid) {}
 
     bool step() override {
         const double start = cpu_seconds();

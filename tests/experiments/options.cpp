@@ -5,10 +5,10 @@
 
 namespace tracked_mcf::experiments {
 
-FlowParameters Options::parameters(int depth, const std::string& configuration) const {
+FlowParameters Options::parameters(int depth, const std::string& configuration, double unit) const {
     FlowParameters parameters = parse_configuration(configuration);
     parameters.depth = depth;
-    parameters.step_size = step_size();
+    parameters.step_size = step_size() * unit * unit;
     return parameters;
 }
 

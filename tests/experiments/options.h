@@ -25,8 +25,9 @@ struct Options {
         return std::find(steps.begin(), steps.end(), step) != steps.end();
     }
 
-    /// Returns the parameters of a configuration at a depth, with the first step size.
-    FlowParameters parameters(int depth, const std::string& configuration) const;
+    /// Returns the parameters of a configuration at a depth, with the first step size, for a mesh
+    /// of which the longest side is `unit`: as in the paper, a step size is for longest side 1.
+    FlowParameters parameters(int depth, const std::string& configuration, double unit = 1) const;
 
     /// Calls measure(depth, configuration) for every combination.
     template <class Measure>

@@ -42,7 +42,6 @@ RadiusError radius_error(const TriangleMesh& mesh, double radius) {
 void measure(const TriangleMesh& mesh, const SphereOptions& options, int depth,
              const std::string& configuration) {
     FlowParameters parameters = options.parameters(depth, configuration);
-    parameters.absolute = true;
     const std::unique_ptr<Method> method = make_method(options.method, mesh, parameters);
     double radius = 1;
     for (int step = 1; step <= options.last_step() && method->step(); ++step) {
@@ -71,7 +70,8 @@ void run(const SphereOptions& options) {
 void add_sphere(CLI::App& app) {
     const auto [command, options] = add_experiment(
         app, "sphere",
-        "Flows the unit sphere with absolute steps. Prints errors of the radius against the exact "
+        "Flows the unit sphere with steps in squared units. Prints errors of the radius against "
+        "the exact "
         "semi-implicit one, r(t + δ) = r³ / (r² + 2δ): of its mean (signed), RMS and largest of "
         "the vertices.",
         run, with_defaults<SphereOptions>({100}, 1e-3));

@@ -121,7 +121,8 @@ public:
     void run() {
         int index = 0;
         options_.for_each_case([&](int depth, const std::string& configuration) {
-            flow(configuration, options_.parameters(depth, configuration), index++);
+            flow(configuration, options_.parameters(depth, configuration, longest_side(mesh_)),
+                 index++);
         });
     }
 

@@ -61,7 +61,6 @@ FlowParameters parameters_of(Bytes& bytes) {
     FlowParameters p;
     p.depth = bytes.integer(-1, kMaximumDepth + 1);
     p.order = bytes.integer(0, kMaximumOrder + 1);
-    p.absolute = bytes.flag();
     if (bytes.flag()) p.detail_size = bytes.number();
     if (bytes.flag()) p.step_size = bytes.number();
     p.flow = bytes.pick({FlowKind::MeanCurvature, FlowKind::Conformalized});
@@ -72,7 +71,6 @@ FlowParameters parameters_of(Bytes& bytes) {
     p.method = bytes.pick({Method::Converged, Method::Paper});
     p.cycles = bytes.integer(0, 3);
     if (bytes.flag()) p.tolerance = bytes.number();
-    p.local_detail_size = bytes.flag();
     return p;
 }
 

@@ -166,9 +166,7 @@ TEST(Summary, TellsWhereTheDetailSizeHolds) {
     FlowReport report;
     report.steps.resize(1);
     report.detail_size = 3;
-    parameters.local_detail_size = true;
-    EXPECT_THAT(summary(parameters, report),
-                HasSubstr("\nAt edges of mean length, detail smaller than 3 was removed."));
+    EXPECT_THAT(summary(parameters, report), HasSubstr("\nDetail smaller than 3 was removed."));
     report.has_strengths = true;
     EXPECT_THAT(summary(parameters, report), HasSubstr("\nWhere the strength is 1, detail"));
 }

@@ -58,9 +58,7 @@ protected:
 
     /// Sets random values. One set in ten is invalid.
     void set_random_values() {
-        for (const char* name : {"local_detail_size", "selected", "absolute"}) {
-            parameters.setValue(name, BoolValue(random(2) == 1));
-        }
+        parameters.setValue("selected", BoolValue(random(2) == 1));
         const std::pair<const char*, int> choices[] = {
             {"preserve", 3}, {"boundary", 2}, {"quality", 3}, {"flow", 2}, {"method", 2}};
         for (const auto& [name, count] : choices) {

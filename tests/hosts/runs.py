@@ -13,12 +13,10 @@ COARSE = "depth=6 iterations=5 detail_size=0"
 RUNS = [
     "",
     "detail_size=DETAIL",
-    "local_detail_size=true",
     "iterations=2",
     "order=1",
     "order=4",
-    "step_size=STEP absolute=true",
-    "step_size=3.0517578125e-05",
+    "step_size=STEP",
     "depth=5",
     "boundary=free",
     "flow=conformalized",

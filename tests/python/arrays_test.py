@@ -76,10 +76,8 @@ FLOW_WRONG = [
     ({"order": 2.0}, TypeError, "order is 2.0; give an integer"),
     ({"iterations": 10**30}, InvalidParameter, "give 1 to 1000000"),
     ({"iterations": -10**30}, InvalidParameter, "give 1 to 1000000"),
-    ({"absolute": 1}, TypeError, "absolute is 1; give True or False"),
     ({"preserve": "volum"}, InvalidParameter, "give one of 'none', 'area', 'volume'"),
     ({"preserve": 1}, InvalidParameter, "preserve is 1"),
-    ({"cubature": "3"}, InvalidParameter, "give one of 1, 3, 12"),
     ({"preserve": "area"}, InvalidParameter, "Preserving the area"),
 ]
 NOISE_WRONG = [
@@ -759,8 +757,7 @@ class Documents(WithFolder):
             self.assertLessEqual(max(map(len, lines)), 76)  # help() indents them by 4
             for name in names[2:]:
                 self.assertRegex(inspect.getdoc(public), f"\n    {name}\\b")
-        for name, value in (("detail_size", 0.0), ("order", 2), ("preserve", "none"), ("cubature", 3),
-                            ("absolute", False), ("selected", None)):
+        for name, value in (("detail_size", 0.0), ("order", 2), ("preserve", "none"), ("selected", None)):
             self.assertIs(type(keywords[name].default), type(value))
             self.assertEqual(keywords[name].default, value)
         self.assertEqual(keywords["preserve"].annotation, "Literal['none', 'area', 'volume'] | None")

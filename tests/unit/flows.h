@@ -7,16 +7,25 @@
 #include <random>
 
 #include "filter_tracked_mcf/core/evolve.h"
+#include "filter_tracked_mcf/core/mesh/measures.h"
 #include "tests/support/shapes.h"
 
 namespace tracked_mcf {
 
-inline FlowParameters parameters(int depth, double step_size, int iterations) {
+/// The parameters of a flow of order 1. The step size is for the mesh scaled to longest side 1, if
+/// it is as large as the unit sphere, which most shapes of the tests are.
+inline FlowParameters parameters(int depth, double relative_step_size, int iterations) {
     FlowParameters p;
     p.order = 1;  // the flow itself
     p.depth = depth;
-    p.step_size = step_size;
+    p.step_size = 4 * relative_step_size;
     p.iterations = iterations;
+    return p;
+}
+
+/// Scales the step size with a mesh that is not as large as the unit sphere.
+inline FlowParameters scaled_to(const TriangleMesh& mesh, FlowParameters p) {
+    p.step_size *= std::pow(longest_side(mesh) / 2, 2);
     return p;
 }
 

@@ -94,7 +94,7 @@ void Invariance::check_scale() {
         scaled.noise->largest_movement *= unit;
     }
     scaled.parameters.detail_size *= unit;
-    if (scaled.parameters.absolute) scaled.parameters.step_size *= unit * unit;
+    scaled.parameters.step_size *= unit * unit;
     const Run other = run(scaled);
     if (!other.made()) {
         fail(Property::Scale, "by " + number(unit) + ": refused: " + other.refusal + other.foreign);

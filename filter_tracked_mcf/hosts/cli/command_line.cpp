@@ -217,12 +217,6 @@ void add_rows(CLI::App& app, CommandLineOf<Parameters>& line) {
 
 void add_parameters(CLI::App& app, CommandLineOf<FlowParameters>& line) {
     add_rows(app, line);
-    // Up to version 1.0.0, the rule with 12 samples was called 11, after the paper's 11-point rule.
-    const auto rename = [](std::string& name) {
-        if (name == "11") name = "12";
-        return std::string();
-    };
-    app.get_option("--cubature")->transform(CLI::Validator(rename, ""));
     app.add_option(
            "--every", line.every,
            help_of("Also write the surface after every N steps, for an animation or a "

@@ -70,16 +70,9 @@ Length length_of(const Parameter& parameter, nb::handle value) {
             "cent of the diagonal of its bounding box.");
 }
 
-/// Returns the value that functions take for a choice: an int if its name is a number, else its
-/// name.
-nb::object python_name(const NamedChoice& choice) {
-    const bool is_number = choice.name.find_first_not_of("0123456789") == std::string::npos;
-    if (is_number) return nb::int_(nb::str(choice.name.c_str()));
-    return nb::str(choice.name.c_str());
-}
-
+/// Returns a choice's name as a string of Python.
 std::string literal(const NamedChoice& choice) {
-    return code_of(python_name(choice));
+    return code_of(nb::str(choice.name.c_str()));
 }
 
 std::string literals(const Parameter& parameter) {
@@ -122,7 +115,8 @@ template <class Parameters>
 nb::object default_of(const ParameterOf<Parameters>& parameter) {
     const ParameterValue value = parameter.initial;
     if (parameter.type == Parameter::Type::Choice)
-        return python_name(parameter.choices.at(static_cast<std::size_t>(std::get<int>(value))));
+        return nb::str(
+            parameter.choices.at(static_cast<std::size_t>(std::get<int>(value))).name.c_str());
     return std::visit([](auto held) { return nb::cast(held); }, value);
 }
 
@@ -174,7 +168,7 @@ nb::list described_parameters() {
     for (const auto& parameter : parameter_table<Parameters>()) {
         nb::list choices;
         for (const NamedChoice& choice : parameter.choices)
-            choices.append(nb::make_tuple(choice.label, python_name(choice)));
+            choices.append(nb::make_tuple(choice.label, choice.name));
         nb::dict values;
         values["name"] = parameter.name;
         values["type"] = annotation(parameter);

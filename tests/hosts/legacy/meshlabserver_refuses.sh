@@ -48,8 +48,7 @@ refuses "detail_size is nan" good detail_size=nan
 refuses "detail_size is inf" good detail_size=inf
 refuses "step_size is -" good step_size=-1e-5
 refuses "step_size is nan" good step_size=nan
-refuses "step_size is nan" good step_size=nan absolute=true
-refuses "step_size is inf" good step_size=inf absolute=true
+refuses "step_size is inf" good step_size=inf
 for choice in order={0,5} {flow=2,boundary=3,preserve=3,method=3} \
     {flow,boundary,preserve,method}=-1; do
     refuses "${choice/=/ is }" good $choice

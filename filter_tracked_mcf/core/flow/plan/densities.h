@@ -7,18 +7,13 @@
 
 namespace tracked_mcf {
 
-/// Edge lengths multiply the detail size at a place by at most this number and at least its
-/// inverse.
-inline constexpr double kLargestDetailRatio = 10;
-
 /// A smaller mean strength of a triangle's vertices acts like this one: even here, the surface
 /// moves by a millionth of what it would with strength 1.
 inline constexpr double kLeastStrength = 1e-3;
 
 /// Returns the mass density of each triangle of the domain's surface; nothing if all are 1. In
-/// equation 2, a density ρ acts like a time step δ / ρ, so it is 1 / r² where the detail size is r
-/// times the usual one. r is the product of two limited factors: the mean strength of the vertices
-/// and, if the detail size `follows_edges`, the local edge length over the `mean` one.
-std::vector<double> triangle_densities(const Domain& domain, bool follows_edges, double mean);
+/// equation 2, a density ρ acts like a time step δ / ρ, so it is 1 / s² where s is the mean
+/// strength of the vertices.
+std::vector<double> triangle_densities(const Domain& domain);
 
 }  // namespace tracked_mcf

@@ -90,9 +90,8 @@ constexpr double kAutomaticCellInEdges = 1.6;
 /// Returns the plan of a flow, with a step size of at most `largest`.
 Plan plan_of(Domain domain, const FlowParameters& parameters, double mean_edge, double largest,
              double bytes) {
-    const double side = parameters.absolute ? 1 : longest_side(domain.mesh());
     const double asked = parameters.step_size > 0
-                             ? parameters.step_size * side * side
+                             ? parameters.step_size
                              : step_size_for(detail_size_of(parameters, mean_edge),
                                              parameters.iterations, parameters.order);
     return {std::move(domain), parameters, std::min(asked, largest), asked, parameters.iterations,
@@ -119,7 +118,7 @@ MeshPlan mesh_plan_of(const TriangleMesh& mesh, const Inputs& inputs,
     enter_setup_phase(kMeasureSurface);
     check_preservable(domain, parameters.preserve, parameters.flow);
     const double mean_edge = mean_edge_length(domain.surface());
-    auto densities = triangle_densities(domain, parameters.local_detail_size, mean_edge);
+    auto densities = triangle_densities(domain);
     const double largest = kLargestStepSizeInEdges * mean_edge * mean_edge;
     return {plan_of(std::move(domain), parameters, mean_edge, largest, bytes), std::move(densities),
             parameters.preserve, parameters.depth};

@@ -181,9 +181,8 @@ TEST(DetailSize, GivesWayToAStepSize) {
     TriangleMesh after = mesh;
     const FlowReport report = evolve(after, p);
     EXPECT_TRUE(same_bits(after, expected));
-    const double step_size = 1e-3 * std::pow(longest_side(mesh), 2);
-    EXPECT_NEAR(report.step_size, step_size, 1e-14);
-    EXPECT_NEAR(report.detail_size, detail_size_for(step_size, 2, 1), 1e-13);
+    EXPECT_EQ(report.step_size, p.step_size);
+    EXPECT_NEAR(report.detail_size, detail_size_for(p.step_size, 2, 1), 1e-13);
 }
 
 TEST(DetailSize, IsReportedAsThatOfTheStepThatWasMade) {

@@ -178,7 +178,7 @@ TEST(Flow, PinchedPartsStayWhereTheyAre) {
     Eigen::AlignedBox3d box;
     for (const auto& position : mesh.positions) box.extend(position);
     TriangleMesh after = mesh;
-    EXPECT_EQ(evolve(after, parameters(6, 2e-4, 60)).stop, Stop::Vanished);
+    EXPECT_EQ(evolve(after, scaled_to(mesh, parameters(6, 2e-4, 60))).stop, Stop::Vanished);
     for (const auto& position : after.positions) EXPECT_TRUE(box.contains(position));
 }
 

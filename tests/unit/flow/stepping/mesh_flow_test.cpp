@@ -16,8 +16,8 @@ namespace {
 
 /// Parameters with a step size in squared units of the mesh.
 FlowParameters on_mesh(double step_size, int iterations, int depth = 0) {
-    FlowParameters p = parameters(depth, step_size, iterations);
-    p.absolute = true;
+    FlowParameters p = parameters(depth, 0, iterations);
+    p.step_size = step_size;
     return p;
 }
 
@@ -145,7 +145,7 @@ TEST(MeshFlow, UndoesAStepThatMakesTheSurfaceLargerAndEnds) {
         // The relative step size decides whether the first step or a later one fails.
         for (const auto& [frequency, step_size] : {std::pair(3, 1e-3), std::pair(4, 1e-4)}) {
             const TriangleMesh mesh = with_spikes(shapes::geodesic_sphere(frequency));
-            FlowParameters p = parameters(0, step_size, 6);
+            FlowParameters p = scaled_to(mesh, parameters(0, step_size, 6));
             p.flow = flow;
             const Evolved stopped = evolve_copy(mesh, p);
             EXPECT_EQ(stopped.report.stop, Stop::Grew);
@@ -230,7 +230,6 @@ TEST(MeshFlow, TakesAnOctreeOnceSolvesAreLong) {
     const TriangleMesh sphere = shapes::bumpy_sphere(30);
     FlowParameters p;
     p.step_size = 5 * std::pow(mean_edge_length(sphere), 2);  // a step halves waves of 14 edges
-    p.absolute = true;
     p.iterations = 2;
     TriangleMesh usual = sphere, close = sphere;
     EXPECT_EQ(evolve(usual, p).depth, 0);

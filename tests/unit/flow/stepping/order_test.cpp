@@ -76,8 +76,7 @@ TEST(Order, HigherOnesShrinkASphereLess) {
     // test, which is of the grid and the triangles.
     const TriangleMesh sphere = shapes::geodesic_sphere(40);
     for (int order = 1; order <= kMaximumOrder; ++order) {
-        FlowParameters p = parameters(5, 0.05, 1);
-        p.absolute = true;
+        FlowParameters p = parameters(5, 0.05 / 4, 1);
         p.order = order;
         const double h = 0.1 / 1.1;
         for (const Eigen::Vector3d& position : evolved(sphere, p).positions) {

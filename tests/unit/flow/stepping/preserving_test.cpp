@@ -103,7 +103,7 @@ TEST(Preserving, SphereStaysAsItIs) {
 TEST(PreservingVolume, OfSpheresOfUnequalSizeKeepsEachInItsPlace) {
     // Without pressures of their own, the smaller one would vanish.
     const TriangleMesh spheres = beside(shapes::geodesic_sphere(16), 0.4);
-    FlowParameters p = preserving(Preserve::Volume, 1e-3, 100);
+    FlowParameters p = scaled_to(spheres, preserving(Preserve::Volume, 1e-3, 100));
     p.tolerance = 1e-5;
     const TriangleMesh after = evolved(spheres, p);
     const double radii[] = {1, 0.4};
@@ -323,7 +323,7 @@ TEST(PreservingArea, OfEachOrderTurnsAnEllipsoidIntoASphere) {
 TEST(PreservingArea, OfTwoComponentsKeepsEachAreaAndCentroid) {
     for (const int order : {1, 2}) {
         const TriangleMesh mesh = beside(shapes::bumpy_sphere(16), 0.4);
-        FlowParameters p = preserving(Preserve::Area, 1e-4, 1);
+        FlowParameters p = scaled_to(mesh, preserving(Preserve::Area, 1e-4, 1));
         p.order = order;
         const TriangleMesh plain = evolved(mesh, [&] {
             FlowParameters unscaled = p;

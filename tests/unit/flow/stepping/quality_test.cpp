@@ -21,7 +21,6 @@ FlowParameters measuring(Quality quality) {
     FlowParameters p;
     p.order = 1;
     p.depth = 5;
-    p.absolute = true;
     p.step_size = kStepSize;
     p.iterations = 2;
     p.quality = quality;

@@ -47,7 +47,6 @@ TEST(Selection, FlowsAsTheSelectedFacesAlone) {
     const TriangleMesh mesh = shapes::bumpy_sphere(20);
     const Selection top = above(mesh, 0.3);
     FlowParameters p = parameters(6, 1e-3, 3);
-    p.absolute = true;
     const TriangleMesh part = part_of(mesh, top);
     TriangleMesh first = mesh, second = part;
     evolve(first, top, p);
@@ -72,7 +71,6 @@ TEST(Selection, OfASmallPartFlowsAsThatPartAlone) {
     EXPECT_LT(20 * part.triangles.size(), mesh.triangles.size());
     for (const double step_size : {0.0, 1e-4}) {
         FlowParameters p = parameters(0, step_size, 3);
-        p.absolute = true;
         TriangleMesh selected = mesh, alone = part;
         const FlowReport of_selection = evolve(selected, tip, p);
         const FlowReport of_part = evolve(alone, p);

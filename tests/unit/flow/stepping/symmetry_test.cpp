@@ -61,15 +61,9 @@ TEST(Symmetry, CommutesWithScaling) {
         for (const double scale : {1e-9, 1e12}) {
             const Eigen::Affine3d scaling(Eigen::Scaling(scale));
             const TriangleMesh expected = shapes::transformed(unscaled, scaling);
-            EXPECT_LT(
-                distance(evolved(shapes::transformed(of.mesh, scaling), of.parameters), expected),
-                1e-6 * scale)
-                << of.name;
-            // The same with the step size in the mesh's own units.
-            FlowParameters absolute = of.parameters;
-            absolute.absolute = true;
-            absolute.step_size *= std::pow(scale * longest_side(of.mesh), 2);
-            EXPECT_LT(distance(evolved(shapes::transformed(of.mesh, scaling), absolute), expected),
+            FlowParameters scaled = of.parameters;
+            scaled.step_size *= scale * scale;
+            EXPECT_LT(distance(evolved(shapes::transformed(of.mesh, scaling), scaled), expected),
                       1e-6 * scale)
                 << of.name;
         }
@@ -87,7 +81,7 @@ TEST(Symmetry, FlowFarFromTheOriginIsThatAtTheOrigin) {
         there.positions[i] = (there.positions[i] + far).cast<float>().cast<double>();
         here.positions[i] = there.positions[i] - far;
     }
-    const FlowParameters p = parameters(5, 1e-4, 5);
+    const FlowParameters p = scaled_to(here, parameters(5, 1e-4, 5));
     const TriangleMesh after = evolved(there, p);
     TriangleMesh expected = evolved(here, p);
     for (auto& position : expected.positions) position += far;
