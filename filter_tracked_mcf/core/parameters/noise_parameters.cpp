@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "filter_tracked_mcf/core/noise_parameters.h"
 
-#include "filter_tracked_mcf/core/parameter_rows.h"
+#include "filter_tracked_mcf/core/parameters/parameter_rows.h"
 
 namespace tracked_mcf {
 

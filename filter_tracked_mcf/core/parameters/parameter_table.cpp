@@ -4,7 +4,7 @@
 #include <sstream>
 
 #include "filter_tracked_mcf/core/errors.h"
-#include "filter_tracked_mcf/core/parameter_rows.h"
+#include "filter_tracked_mcf/core/parameters/parameter_rows.h"
 
 namespace tracked_mcf {
 
