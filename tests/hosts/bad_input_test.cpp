@@ -118,11 +118,6 @@ void preserve_the_volume_of_a_turned_face(MeshModel& layer, RichParameterList& l
     list.setValue("preserve", *host::choice(2));
 }
 
-auto set_step_size(float value) {
-    return
-        [=](MeshModel&, RichParameterList& list) { list.setValue("step_size", FloatValue(value)); };
-}
-
 INSTANTIATE_TEST_SUITE_P(
     BadInputs, PluginRefuses,
     testing::Values(
@@ -159,8 +154,6 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"ConformalizedOpenVolume", conformalize_an_open_volume, "open"},
         BadInput{"VolumeOfATurnedFace", preserve_the_volume_of_a_turned_face, "oriented"},
         BadInput{"SelectedOfTheWrongType", replace<RichInt>("selected", 1), "selected"},
-        BadInput{"StepSizeNaN", set_step_size(kNaN), "step_size"},
-        BadInput{"StepSizeInfinite", set_step_size(kInfinity), "step_size"},
         BadInput{"MethodTooLarge", set_choice("method", 2), "method"},
         BadInput{"MethodNegative", set_choice("method", -1), "method"},
         BadInput{"DepthOfTheWrongType", replace<RichFloat>("depth", 5.0F), "depth"}),

@@ -14,6 +14,7 @@
 #include "filter_tracked_mcf/hosts/meshlab/run_filter.h"
 #include "filter_tracked_mcf/presentation/flow_warnings.h"
 #include "filter_tracked_mcf/presentation/noise_warnings.h"
+#include "filter_tracked_mcf/presentation/report_table.h"
 #include "filter_tracked_mcf/presentation/summary.h"
 
 namespace tracked_mcf {
