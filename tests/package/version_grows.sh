@@ -25,3 +25,9 @@ expect 7.8.9
 commit "first change"
 commit "second change"
 expect 7.8.9.2
+git tag v7.8.8 HEAD~1 # an older one, or one that was forgotten
+expect 7.8.9.2
+git tag v7.9.0
+expect 7.9.0
+commit "third change"
+expect 7.9.0.1
