@@ -54,7 +54,7 @@ dress_script() { # gives each vertex and face its own values
 dress_script > "$work/dress.mlx"
 
 # Hosts read floats, and the step size is one.
-settings=(step_size=1.220703125e-04 iterations=5) options=(--step-size 1.220703125e-04 --iterations 5 --quiet)
+settings=(iterations=5) options=(--iterations 5 --quiet)
 looks="vc vq fc fq wt" looks_and_flags="vc vq vf fc ff fq wt"
 
 echo "== Boundary locked"
