@@ -9,8 +9,8 @@
 #   python       building the Python package for NumPy arrays
 #   demo         running the plugin without a screen and drawing pictures of surfaces
 #   tests        building and running all tests
-#   experiments  building and running tests/experiments
-#   benchmark    building and running tests/benchmark, CGAL and hypre included
+#   experiments  building and running tests/research/experiments
+#   benchmark    building and running tests/research/benchmark, CGAL and hypre included
 #   pymeshlab    external/pymeshlab.sh
 #   gravomg      external/gravomg.sh
 #   windows      building for Windows and running tests in Wine

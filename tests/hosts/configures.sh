@@ -38,7 +38,7 @@ ln -s "$sources" "$folder"
 configure -DMESHLAB_SOURCE_DIR= || fail "does not find the sources in $folder"
 rm "$folder"
 configure "-DMESHLAB_SOURCE_DIR=$sources" || fail "does not find the sources that it was given"
-for page in README.md tests/experiments/README.md README.md tests/benchmark/README.md README.md; do
+for page in README.md tests/research/experiments/README.md README.md tests/research/benchmark/README.md README.md; do
     read -ra options < <(sed -n 's/^cmake -S \. -B build \([^&#]*\).*/\1/p' "$root/$page")
     # CGAL and hypre need not be here. The target is the same without them.
     configure "${options[@]/BENCHMARK=ON/BENCHMARK=OFF}" || fail "cannot configure as $page says: ${options[*]}"

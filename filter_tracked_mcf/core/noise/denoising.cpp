@@ -30,7 +30,7 @@ constexpr double kMostSharpenings = 600;
 constexpr double kWidthOfRadius = 3;
 
 /// Fewer vertices than this show no noise. Nor do those of which creases take more than this share
-/// of the area; they take at most 0.42 on the meshes of tests/experiments.
+/// of the area; they take at most 0.42 on the meshes of tests/research/experiments.
 constexpr std::int64_t kLeastVertices = 100;
 constexpr double kMostCreases = 0.5;
 

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "filter_tracked_mcf/core/flow/cells/grid.h"
-#include "tests/benchmark/incomplete_cholesky_flow.h"
+#include "tests/research/benchmark/incomplete_cholesky_flow.h"
 #include "tests/support/cotangent_flow.h"
 #include "tests/support/shapes.h"
 

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tests/research/benchmark/meshes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <sstream>
+#include <vector>
+
+#include "filter_tracked_mcf/core/flow/cells/grid.h"
+#include "filter_tracked_mcf/core/mesh/mesh_topology.h"
+#include "filter_tracked_mcf/hosts/cli/mesh_file.h"
+#include "tests/support/shapes.h"
+
+namespace tracked_mcf::benchmark {
+
+namespace {
+
+using Eigen::Vector3d;
+
+/// Splits a name at its colons.
+std::vector<std::string> words_of(const std::string& name) {
+    std::vector<std::string> words;
+    std::istringstream stream(name);
+    for (std::string word; std::getline(stream, word, ':');) words.push_back(word);
+    return words;
+}
+
+double mean_edge(const TriangleMesh& mesh) {
+    double sum = 0;
+    for (const Triangle& t : mesh.triangles) {
+        for (int i = 0; i < 3; ++i) {
+            sum += (mesh.positions[t[i]] - mesh.positions[t[(i + 1) % 3]]).norm();
+        }
+    }
+    return sum / (3 * static_cast<double>(mesh.triangles.size()));
+}
+
+/// Returns the same mesh at each call.
+TriangleMesh noisy_sphere(int frequency, double amplitude) {
+    TriangleMesh mesh = shapes::geodesic_sphere(frequency);
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> noise(-1, 1);
+    const double height = amplitude * mean_edge(mesh);
+    for (Vector3d& position : mesh.positions) {
+        position *= kSphereRadius * (1 + height * noise(random));
+    }
+    return mesh;
+}
+
+/// Splits each triangle into four at the midpoints of its edges.
+TriangleMesh split(const TriangleMesh& mesh) {
+    const MeshTopology topology = topology_of(mesh);
+    const auto first = static_cast<std::int32_t>(mesh.positions.size());
+    TriangleMesh fine{mesh.positions, {}};
+    fine.positions.resize(mesh.positions.size() + topology.edge_count, Vector3d::Zero());
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        const Triangle& t = mesh.triangles[i];
+        const auto& edges = topology.edges[i];
+        // Triangles of zero area have no edges here.
+        if (std::count(edges.begin(), edges.end(), MeshTopology::kNoEdge) != 0) continue;
+        Triangle middle{};
+        for (int k = 0; k < 3; ++k) {
+            middle[k] = first + edges[k];
+            fine.positions[middle[k]] =
+                0.5 * (mesh.positions[t[k]] + mesh.positions[t[(k + 1) % 3]]);
+        }
+        for (int k = 0; k < 3; ++k) {
+            fine.triangles.push_back({t[k], middle[k], middle[(k + 2) % 3]});
+        }
+        fine.triangles.push_back(middle);
+    }
+    return fine;
+}
+
+TriangleMesh in_unit_cube(TriangleMesh mesh) {
+    const double side = longest_side(mesh);
+    for (Vector3d& position : mesh.positions) position /= side;
+    return mesh;
+}
+
+TriangleMesh scan(const std::string& path, int splits) {
+    TriangleMesh mesh = MeshFile(path).triangle_mesh();
+    for (int i = 0; i < splits; ++i) mesh = split(mesh);
+    return in_unit_cube(std::move(mesh));
+}
+
+}  // namespace
+
+TriangleMesh named_mesh(const std::string& name) {
+    const std::vector<std::string> words = words_of(name);
+    if (is_sphere(name)) {
+        return noisy_sphere(std::stoi(words.at(1)), words.size() > 2 ? std::stod(words[2]) : 0);
+    }
+    if (words.at(0) == "tube") {
+        const int around = std::stoi(words.at(1));
+        return in_unit_cube(shapes::tube(around, around / 3, 2));
+    }
+    return scan(words[0], words.size() > 1 ? std::stoi(words[1]) : 0);
+}
+
+bool is_sphere(const std::string& name) {
+    return name.rfind("sphere:", 0) == 0;
+}
+
+}  // namespace tracked_mcf::benchmark

@@ -1,0 +1,314 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Measures the set-up and the steps of the flow and of its peers, and writes the results page.
+
+Each run is a separate process. The output folder gets measurements.csv with all numbers; the page is made
+from this file alone. A whole run takes about 20 minutes, a quick run two.
+"""
+
+import argparse
+import dataclasses
+import json
+import lzma
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+
+import numpy
+
+from measurements import (BASELINE_INSTRUCTIONS, CGAL, IC, MIC, OTHER_BINARY, OURS, REBUILT, TRACKED, TRIAD,
+                          JOBS_BY_SIZE, RELIEF, WHOLE_JOBS, Case, Measurements)
+from results_page import Page
+
+TOP = pathlib.Path(__file__).resolve().parents[3]
+STEP_SIZES = (1e-5, 5e-4, 5e-3)
+MIDDLE = 5e-4
+STEPS = 10  # the default of a flow
+NOISE = 0.2  # in mean edge lengths
+LARGE_SCAN = "bunny_scan_871k"
+RELIEF_SIDES = (100, 316, 1000, 3162)  # in vertices
+PYMESHLAB_FILTERS = ("apply_coord_taubin_smoothing", "apply_coord_laplacian_smoothing")
+
+
+def options():
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--build", type=pathlib.Path, default=TOP / "build", metavar="FOLDER",
+                        help="where the project was built, tests and tool included")
+    parser.add_argument("--meshes", type=pathlib.Path, metavar="FOLDER",
+                        help=f"folder with {LARGE_SCAN}.ply.xz (default: that scan is not measured)")
+    parser.add_argument("--output", type=pathlib.Path, metavar="FOLDER",
+                        help="for the measurements (default: benchmark in the build folder)")
+    parser.add_argument("--page", type=pathlib.Path, metavar="FILE",
+                        help="the page (default: results.md in this script's folder; with --quick, in the "
+                        "output folder)")
+    parser.add_argument("--quick", action="store_true",
+                        help="164,000 vertices instead of 655,000, one repetition, fewer cases")
+    parser.add_argument("--frequency", type=int, metavar="N",
+                        help="frequency of the main sphere (default: 256; with --quick, 128); it and the "
+                        "other generated meshes have about 10 N² + 2 vertices")
+    parser.add_argument("--repetitions", type=int, default=3, help="of the cases that are compared directly")
+    parser.add_argument("--largest", type=int, default=1024, metavar="FREQUENCY",
+                        help="largest frequency of the scaling test; 1024 has 10.5 million vertices")
+    parser.add_argument("--binary", type=pathlib.Path, metavar="DRIVER",
+                        help="another tracked_mcf_benchmark to compare with, for example one built with "
+                        "-march=native")
+    parser.add_argument("--whole-jobs", action="store_true",
+                        help="only jobs from file to file, alone and beside endless loops, for whole_jobs.md; "
+                        "takes ten minutes")
+    parser.add_argument("--page-only", action="store_true",
+                        help="make the page from the measurements of the last run")
+    return parser.parse_args()
+
+
+def sphere(frequency, noise=NOISE):
+    """Returns the mesh's name for the driver."""
+    return f"sphere:{frequency}:{noise}" if noise else f"sphere:{frequency}"
+
+
+def label(frequency):
+    """Returns the mesh's name in tables."""
+    vertices = 10 * frequency * frequency + 2
+    return f"sphere, {vertices / 1e6:.1f} M" if vertices >= 1e6 else f"sphere, {vertices // 1000} k"
+
+
+def ours(mesh, name, step_size, threads=1, steps=STEPS, peer=OURS, environment=()):
+    return Case(peer, name, step_size, threads,
+                ("rebuilt" if peer == REBUILT else "flow", mesh, "--step-size", step_size, "--threads",
+                 threads, "--steps", steps, "--solver", "paper" if peer in (TRACKED, REBUILT) else "converged"),
+                environment)
+
+
+def baseline(mesh, name, step_size, threads=1, steps=STEPS, peer=IC):
+    relaxation = 1 if peer == MIC else 0
+    return Case(peer, name, step_size, threads,
+                ("baseline", mesh, "--step-size", step_size, "--threads", threads, "--steps", steps,
+                 "--relaxation", relaxation, "--most-iterations", 1000))
+
+
+# The baseline without one of its choices: name, the driver's arguments, and environment.
+TUNINGS = (("Morton order", ("--order", "morton"), ()),
+           ("the mesh's own order", ("--order", "given"), ()),
+           ("no warm start", ("--cold",), ()),
+           ("baseline instructions", (), (("TRACKED_MCF_INSTRUCTIONS", "baseline"),)))
+
+
+def has_cgal(build):
+    """Returns whether the driver was built with CGAL."""
+    cache = (build / "CMakeCache.txt").read_text(encoding="utf-8")
+    return "TRACKED_MCF_BENCHMARK:BOOL=ON" in cache
+
+
+def cgal(mesh, name, step_size):
+    return Case(CGAL, name, step_size, 1, ("cgal", mesh, "--step-size", step_size))
+
+
+class Benchmark:
+    """All cases. `main` is the sphere of the targets, `clean` the same without noise."""
+
+    def __init__(self, arguments, output):
+        self._arguments = arguments
+        self._output = output
+        self._frequency = arguments.frequency or (128 if arguments.quick else 256)
+        self._repetitions = 1 if arguments.quick else arguments.repetitions
+        self.main = label(self._frequency)
+        self.clean = f"{self.main}, without noise"
+
+    def run(self, measurements):
+        if self._arguments.whole_jobs:
+            measurements.run(self._whole_jobs(), self._repetitions)
+            measurements.run(self._sizes(), self._repetitions)
+            return
+        triads = [Case(TRIAD, threads=n, words=("triad", "--threads", n)) for n in (1, 2)]
+        measurements.run(triads + self._compared(), self._repetitions)
+        measurements.run(self._tunings() + self._cgal() + self._papers() + self._accuracy(), 1)
+        measurements.run(self._other_meshes() + self._scale(), 1)
+
+    def _compared(self):
+        mesh = sphere(self._frequency)
+        cases = [make(mesh, self.main, step_size, peer=peer) for step_size in STEP_SIZES
+                 for make, peer in ((ours, OURS), (baseline, IC), (baseline, MIC))]
+        cases += [make(mesh, self.main, MIDDLE, threads=2) for make in (ours, baseline)]
+        cases.append(ours(mesh, self.main, MIDDLE, peer=BASELINE_INSTRUCTIONS,
+                          environment=(("TRACKED_MCF_INSTRUCTIONS", "ssse3"),)))
+        if self._arguments.binary:
+            cases.append(ours(mesh, self.main, MIDDLE, peer=OTHER_BINARY))
+        return cases
+
+    def _tunings(self):
+        mesh = sphere(self._frequency)
+        cases = []
+        for step_size in STEP_SIZES[:2]:
+            usual = baseline(mesh, self.main, step_size)
+            cases += [dataclasses.replace(usual, peer=f"{IC}, {name}", words=usual.words + words,
+                                          environment=environment)
+                      for name, words, environment in TUNINGS]
+        return cases
+
+    def _cgal(self):
+        if not has_cgal(self._arguments.build):
+            return []
+        step_sizes = [MIDDLE] if self._arguments.quick else STEP_SIZES
+        clean = sphere(self._frequency, noise=0)
+        return [cgal(sphere(self._frequency), self.main, step_size) for step_size in step_sizes] + [
+            cgal(clean, self.clean, MIDDLE), ours(clean, self.clean, MIDDLE, steps=1)]
+
+    def _papers(self):
+        return [ours(sphere(self._frequency), self.main, MIDDLE, steps=2, peer=peer) for peer in (TRACKED, REBUILT)]
+
+    def _accuracy(self):
+        """Returns cases with a known exact radius, on a coarser mesh, too."""
+        cases = []
+        for frequency in (self._frequency // 2, self._frequency):
+            name = f"{label(frequency)}, without noise, {STEPS} steps"
+            mesh = sphere(frequency, noise=0)
+            cases += [baseline(mesh, name, MIDDLE), ours(mesh, name, MIDDLE)]
+        return cases
+
+    def _scale(self):
+        largest = 2 * self._frequency if self._arguments.quick else self._arguments.largest
+        frequencies = [f for f in (16, 32, 64, 128, 256, 512, 1024, 2048)
+                       if self._frequency // 4 <= f <= largest]
+        # δ is the same for all in squared edges. The first step also allocates memory.
+        return [ours(sphere(f), f"{label(f)}, scaled", MIDDLE * (256 / f)**2, steps=4)
+                for f in frequencies]
+
+    def _other_meshes(self):
+        cases = []
+        for mesh, name in self._files():
+            step_sizes = [MIDDLE] if self._arguments.quick else STEP_SIZES
+            for step_size in step_sizes:
+                cases.append(ours(mesh, name, step_size, steps=2))
+                cases += [baseline(mesh, name, step_size, steps=2, peer=peer) for peer in (IC, MIC)]
+        return cases
+
+    def _whole_jobs(self):
+        """Returns jobs from file to file, on an idle machine and beside endless loops."""
+        return [case for mesh, name in self._job_meshes() for busy in (0, 1, os.cpu_count())
+                for case in self._jobs(mesh, name, WHOLE_JOBS, busy)]
+
+    def _sizes(self):
+        """Returns jobs of single programs on meshes of different sizes."""
+        return [case for side in RELIEF_SIDES[:2 if self._arguments.quick else None]
+                for case in self._jobs(relief(side, self._output), f"{RELIEF}, {side * side // 1000} k",
+                                       JOBS_BY_SIZE, 0)]
+
+    def _jobs(self, mesh, name, jobs, busy):
+        """Returns the jobs of these names, but those of PyMeshLab only if it is there."""
+        script = pathlib.Path(__file__).parent / "whole_job.py"
+        tool = self._arguments.build / "filter_tracked_mcf/hosts/cli" / "tracked_mcf"
+        python = self._arguments.build / "pymeshlab" / "bin" / "python"
+        edge = mean_edge(tool, mesh, self._output)
+        commands = [(sys.executable, (tool, *words))
+                    for words in ((), ("--threads", 1), ("--detail-size", 10 * edge), ("--detail-size", 40 * edge),
+                                  ("remove-noise",), ("remove-noise", "--threads", 1))]
+        if python.exists():
+            commands += [(python, ("pymeshlab", name)) for name in PYMESHLAB_FILTERS]
+        return [Case(job, name, words=(script, *words, mesh, self._output / f"job{mesh.suffix}"),
+                     program=program, busy=busy)
+                for job, (program, words) in zip(WHOLE_JOBS, commands) if job in jobs]
+
+    def _job_meshes(self):
+        """Returns files and names."""
+        folder = self._arguments.meshes
+        if folder and not self._arguments.quick:
+            return [(folder / f"{name}.ply", name) for name in ("hand_8k", "skull_50k")] + [
+                (unpacked(folder / f"{LARGE_SCAN}.ply.xz", self._output), LARGE_SCAN)]
+        armadillo = self._arguments.build / "cgal-meshes" / "armadillo.off"
+        return [(armadillo, "armadillo")] if armadillo.exists() else []
+
+    def _files(self):
+        """Returns names for the driver and for tables."""
+        around = round(5.477 * self._frequency)
+        tube = f"open tube, {around * (around // 3 + 1) // 1000} k"
+        meshes = [(f"tube:{around}", tube)]
+        quick = self._arguments.quick
+        armadillo = self._arguments.build / "cgal-meshes" / "armadillo.off"
+        if armadillo.exists():
+            meshes.append((f"{armadillo}:{1 if quick else 2}", "armadillo, refined"))
+        if self._arguments.meshes and not quick:
+            packed = self._arguments.meshes / f"{LARGE_SCAN}.ply.xz"
+            meshes.append((unpacked(packed, self._output), LARGE_SCAN))
+        return meshes
+
+
+def relief(side, folder):
+    """Writes a square with waves, and with noise of 0.2 edges, of side² vertices. Returns its file."""
+    path = folder / f"relief_{side}.ply"
+    if path.exists():
+        return path
+    x, y = numpy.indices((side, side)).reshape(2, -1)
+    z = side / 30 * numpy.sin(20 / side * x) + numpy.random.default_rng(1).normal(scale=NOISE, size=side * side)
+    corner = numpy.arange(side * side).reshape(side, side)[:-1, :-1].reshape(-1, 1)
+    faces = numpy.empty(2 * corner.size, dtype=[("count", "u1"), ("corners", "<i4", 3)])
+    faces["count"] = 3
+    faces["corners"] = numpy.vstack([corner + [0, side, side + 1], corner + [0, side + 1, 1]])
+    with open(path, "wb") as file:
+        file.write(f"ply\nformat binary_little_endian 1.0\nelement vertex {side * side}\n"
+                   "property float x\nproperty float y\nproperty float z\n"
+                   f"element face {faces.size}\nproperty list uchar int vertex_indices\nend_header\n".encode())
+        file.write(numpy.stack([x, y, z], axis=1).astype("<f4").tobytes())
+        file.write(faces.tobytes())
+    return path
+
+
+def mean_edge(tool, mesh, folder):
+    """Returns the mesh's mean edge length, a third of the default detail size."""
+    report = folder / "mean_edge.json"
+    subprocess.run([tool, "--quiet", "--iterations", "1", "--report", report, mesh, folder / f"mean_edge{mesh.suffix}"],
+                   check=True)
+    return json.loads(report.read_text(encoding="utf-8"))["detail_size"] / 3
+
+
+def unpacked(packed, folder):
+    path = folder / packed.stem
+    if not path.exists():
+        with lzma.open(packed) as source, open(path, "wb") as target:
+            shutil.copyfileobj(source, target)
+    return path
+
+
+def command_line(arguments):
+    """Returns the command without the options that do not affect the measurements."""
+    words = ["tests/research/benchmark/run_benchmark.py"]
+    if arguments.quick:
+        words.append("--quick")
+    if arguments.whole_jobs:
+        words.append("--whole-jobs")
+    if arguments.frequency:
+        words.append(f"--frequency {arguments.frequency}")
+    if arguments.binary:
+        words.append("--binary DRIVER")
+    return " ".join(words)
+
+
+def main():
+    arguments = options()
+    output = arguments.output or arguments.build / "benchmark"
+    output.mkdir(parents=True, exist_ok=True)
+    figures = output / ("whole_jobs.csv" if arguments.whole_jobs else "measurements.csv")
+    driver = arguments.build / "tests" / "research" / "benchmark" / "tracked_mcf_benchmark"
+    measurements = Measurements(driver, arguments.binary)
+    benchmark = Benchmark(arguments, output)
+    if arguments.page_only:
+        measurements.read(figures)
+    else:
+        try:
+            benchmark.run(measurements)
+        finally:
+            measurements.write(figures)
+    beside = output if arguments.quick else pathlib.Path(__file__).parent
+    page = Page(measurements, arguments.build, benchmark.main, STEP_SIZES, MIDDLE, STEPS,
+                command_line(arguments))
+    if arguments.whole_jobs:
+        (arguments.page or beside / "whole_jobs.md").write_text(page.text_of_whole_jobs(), encoding="utf-8")
+    else:
+        (arguments.page or beside / "results.md").write_text(page.text(), encoding="utf-8")
+    if measurements.failures:
+        sys.exit("These runs failed:\n" + "\n".join(measurements.failures))
+
+
+if __name__ == "__main__":
+    main()
