@@ -9,10 +9,8 @@
 #   python       building the Python package for NumPy arrays
 #   demo         running the plugin without a screen and drawing pictures of surfaces
 #   tests        building and running all tests
-#   experiments  building and running tests/research/experiments
-#   benchmark    building and running tests/research/benchmark, CGAL and hypre included
+#   research     building and running tests/research, CGAL included
 #   pymeshlab    external/pymeshlab.sh
-#   gravomg      external/gravomg.sh
 #   windows      building for Windows and running tests in Wine
 #   arm64        building for ARM64 and running tests in QEMU
 #   checks       formatting, static analysis, sanitizers and coverage
@@ -29,16 +27,12 @@ packages_of() {
         package) echo "$(packages_of plugin)" dpkg-dev file help2man python3 ;;
         python) echo "$(packages_of core)" python3-dev python3-venv ;;
         demo) echo "$(packages_of plugin)" xvfb xauth python3-vtk9 python3-numpy ;;
-        tests) echo "$(packages_of package) $(packages_of python)" libgtest-dev libgmock-dev libboost-dev \
+        tests) echo "$(packages_of package) $(packages_of python)" libgtest-dev libgmock-dev \
             xvfb xauth xdotool imagemagick debootstrap python3-numpy python3-matplotlib python3-nbclient \
             python3-ipykernel python3-cloudpickle python3-joblib python3-distributed ;;
-        experiments) echo "$(packages_of program)" libgtest-dev libgmock-dev libboost-dev \
-            meshlab "$(libraries_recommended_by meshlab)" \
+        research) echo "$(packages_of program)" libcgal-dev meshlab "$(libraries_recommended_by meshlab)" \
             python3-matplotlib python3-vtk9 python3-numpy xvfb xauth ;;
-        benchmark) echo "$(packages_of program)" libgtest-dev libgmock-dev libboost-dev \
-            libcgal-dev libhypre-dev python3-numpy ;;
         pymeshlab) echo python3-venv python3-numpy python3-matplotlib ;;
-        gravomg) echo python3-venv ;;
         windows) echo "$(packages_of program)" g++-mingw-w64-x86-64-posix googletest python3 wine wine64 ;;
         arm64) echo "$(packages_of program)" g++-aarch64-linux-gnu googletest python3 qemu-user ;;
         checks) echo g++-11 libc++-dev libc++abi-dev clang clang-format clang-tidy-22 libclang-rt-dev llvm git \

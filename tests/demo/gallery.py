@@ -190,7 +190,7 @@ def check_results(meshes, work):
 
 
 def draw(output, *meshes, options=()):
-    subprocess.run([TOP / "tests" / "research" / "experiments" / "render.py", "--output", output, "--height", "400",
+    subprocess.run([TOP / "tests" / "demo" / "render.py", "--output", output, "--height", "400",
                     *options, "--", *meshes], check=True)
 
 

@@ -40,7 +40,7 @@ if ! xvfb-run -a "$demo/meshlab/bin/meshlabserver" -i "$mesh" -s "$demo/smooth.m
 fi
 
 say "Drawing"
-/usr/bin/python3 "$root/tests/research/experiments/render.py" --output "$demo/before_and_after.png" \
+/usr/bin/python3 "$root/tests/demo/render.py" --output "$demo/before_and_after.png" \
     --labels before after -- "$mesh" "$demo/smooth.ply"
 
 say "Done"

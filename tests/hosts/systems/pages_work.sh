@@ -11,9 +11,9 @@ set -euo pipefail
 here=$(dirname "$(realpath "$0")")
 root=$(realpath "$here/../../..") folder=$(realpath -m "$1")
 pages=(README.md filter_tracked_mcf/{package,hosts/{meshlab,python,cli}}/README.md filter_tracked_mcf/hosts/cli/folder.md
-    tests/research/{experiments,benchmark}/README.md)
+    tests/research{,/experiments,/benchmark}/README.md)
 lines_left_out='^jupyter lab|figure_2|tests/run\.sh'
-blocks_left_out='SCHEDULER|load_plugin|xvfb-run|-B build[-/]'
+blocks_left_out='SCHEDULER|load_plugin|xvfb-run|-B build-'
 
 "$here/lay_system.sh" bookworm "$folder/system"
 system=$folder/pages_system clone=$folder/clone

@@ -13,8 +13,7 @@ int main(int argc, char** argv) {
     app.require_subcommand(1);
     add_flow(app);
     add_rebuilt(app);
-    add_baseline(app);
-    add_multigrid(app);
+    add_incomplete_cholesky(app);
     add_cgal(app);
     add_triad(app);
     try {

@@ -12,9 +12,7 @@ import subprocess
 import sys
 
 OURS, TRACKED, REBUILT = "ours", "paper's, tracked", "paper's, rebuilt"
-IC, MIC, CGAL = "IC(0)-CG", "modified IC(0)-CG", "CGAL"
-BASELINE_INSTRUCTIONS = "ours, baseline instructions"
-OTHER_BINARY = "ours, other binary"
+IC, CGAL = "IC(0)-CG", "CGAL"
 TRIAD = "triad"
 # Of ours, then of PyMeshLab.
 WHOLE_JOBS = ("flow, default parameters", "flow, one thread", "flow, detail of 10 edges", "flow, detail of 40 edges",
@@ -56,9 +54,8 @@ class Measurements:
 
     KEYS = ("peer", "mesh", "step_size", "threads", "busy")
 
-    def __init__(self, driver, other_binary=None):
+    def __init__(self, driver):
         self._driver = driver
-        self._other_binary = other_binary
         self._rows = []
         self.failures = []  # arguments of failed runs
 
@@ -68,8 +65,7 @@ class Measurements:
             self._run_once(case, repetition)
 
     def _run_once(self, case, repetition):
-        default = self._other_binary if case.peer == OTHER_BINARY else self._driver
-        program = case.program or default
+        program = case.program or self._driver
         words = [str(word) for word in case.words]
         print(f"... {' '.join(words)} {' '.join('='.join(e) for e in case.environment)}",
               file=sys.stderr, flush=True)
@@ -111,9 +107,6 @@ class Measurements:
     def loads(self, **case):
         return sorted({row["busy"] for row in self._rows
                        if all(row[key] == value for key, value in case.items())})
-
-    def peers(self):
-        return list(dict.fromkeys(row["peer"] for row in self._rows))
 
     def write(self, path):
         with open(path, "w", newline="", encoding="utf-8") as file:

@@ -92,10 +92,6 @@ TriangleMesh named_mesh(const std::string& name) {
     if (is_sphere(name)) {
         return noisy_sphere(std::stoi(words.at(1)), words.size() > 2 ? std::stod(words[2]) : 0);
     }
-    if (words.at(0) == "tube") {
-        const int around = std::stoi(words.at(1));
-        return in_unit_cube(shapes::tube(around, around / 3, 2));
-    }
     return scan(words[0], words.size() > 1 ? std::stoi(words[1]) : 0);
 }
 

@@ -14,7 +14,6 @@ inline constexpr double kSphereRadius = 0.5;
 ///
 ///   sphere:N      geodesic sphere about the origin, of frequency N, with 10 N² + 2 vertices
 ///   sphere:N:A    the same with random noise of up to A mean edge lengths in the radius
-///   tube:N        open tube of N quads around, as high as wide, with about N² / 3 vertices
 ///   FILE          a file, scaled to a longest side of 1
 ///   FILE:K        the same with each triangle split into four, K times
 ///

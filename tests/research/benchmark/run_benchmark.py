@@ -7,7 +7,6 @@ from this file alone. A whole run takes about 20 minutes, a quick run two.
 """
 
 import argparse
-import dataclasses
 import json
 import lzma
 import os
@@ -18,11 +17,11 @@ import sys
 
 import numpy
 
-from measurements import (BASELINE_INSTRUCTIONS, CGAL, IC, MIC, OTHER_BINARY, OURS, REBUILT, TRACKED, TRIAD,
-                          JOBS_BY_SIZE, RELIEF, WHOLE_JOBS, Case, Measurements)
+from measurements import CGAL, IC, JOBS_BY_SIZE, OURS, REBUILT, RELIEF, TRACKED, TRIAD, WHOLE_JOBS, Case, Measurements
 from results_page import Page
 
 TOP = pathlib.Path(__file__).resolve().parents[3]
+ARMADILLO = TOP / "build" / "cgal-meshes" / "armadillo.off"
 STEP_SIZES = (1e-5, 5e-4, 5e-3)
 MIDDLE = 5e-4
 STEPS = 10  # the default of a flow
@@ -35,8 +34,8 @@ PYMESHLAB_FILTERS = ("apply_coord_taubin_smoothing", "apply_coord_laplacian_smoo
 def options():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--build", type=pathlib.Path, default=TOP / "build", metavar="FOLDER",
-                        help="where the project was built, tests and tool included")
+    parser.add_argument("--build", type=pathlib.Path, default=TOP / "build" / "research", metavar="FOLDER",
+                        help="where tests/research was built")
     parser.add_argument("--meshes", type=pathlib.Path, metavar="FOLDER",
                         help=f"folder with {LARGE_SCAN}.ply.xz (default: that scan is not measured)")
     parser.add_argument("--output", type=pathlib.Path, metavar="FOLDER",
@@ -50,11 +49,8 @@ def options():
                         help="frequency of the main sphere (default: 256; with --quick, 128); it and the "
                         "other generated meshes have about 10 N² + 2 vertices")
     parser.add_argument("--repetitions", type=int, default=3, help="of the cases that are compared directly")
-    parser.add_argument("--largest", type=int, default=1024, metavar="FREQUENCY",
-                        help="largest frequency of the scaling test; 1024 has 10.5 million vertices")
-    parser.add_argument("--binary", type=pathlib.Path, metavar="DRIVER",
-                        help="another tracked_mcf_benchmark to compare with, for example one built with "
-                        "-march=native")
+    parser.add_argument("--largest", type=int, metavar="FREQUENCY",
+                        help="largest frequency of the scaling test (default: 1024, which has 10.5 million vertices)")
     parser.add_argument("--whole-jobs", action="store_true",
                         help="only jobs from file to file, alone and beside endless loops, for whole_jobs.md; "
                         "takes ten minutes")
@@ -74,31 +70,20 @@ def label(frequency):
     return f"sphere, {vertices / 1e6:.1f} M" if vertices >= 1e6 else f"sphere, {vertices // 1000} k"
 
 
-def ours(mesh, name, step_size, threads=1, steps=STEPS, peer=OURS, environment=()):
+def ours(mesh, name, step_size, threads=1, steps=STEPS, peer=OURS):
     return Case(peer, name, step_size, threads,
                 ("rebuilt" if peer == REBUILT else "flow", mesh, "--step-size", step_size, "--threads",
-                 threads, "--steps", steps, "--solver", "paper" if peer in (TRACKED, REBUILT) else "converged"),
-                environment)
+                 threads, "--steps", steps, "--solver", "paper" if peer in (TRACKED, REBUILT) else "converged"))
 
 
-def baseline(mesh, name, step_size, threads=1, steps=STEPS, peer=IC):
-    relaxation = 1 if peer == MIC else 0
-    return Case(peer, name, step_size, threads,
-                ("baseline", mesh, "--step-size", step_size, "--threads", threads, "--steps", steps,
-                 "--relaxation", relaxation, "--most-iterations", 1000))
-
-
-# The baseline without one of its choices: name, the driver's arguments, and environment.
-TUNINGS = (("Morton order", ("--order", "morton"), ()),
-           ("the mesh's own order", ("--order", "given"), ()),
-           ("no warm start", ("--cold",), ()),
-           ("baseline instructions", (), (("TRACKED_MCF_INSTRUCTIONS", "baseline"),)))
+def incomplete_cholesky(mesh, name, step_size, steps=STEPS):
+    return Case(IC, name, step_size, 1, ("incomplete-cholesky", mesh, "--step-size", step_size, "--steps", steps))
 
 
 def has_cgal(build):
     """Returns whether the driver was built with CGAL."""
     cache = (build / "CMakeCache.txt").read_text(encoding="utf-8")
-    return "TRACKED_MCF_BENCHMARK:BOOL=ON" in cache
+    return "TRACKED_MCF_CGAL:BOOL=ON" in cache
 
 
 def cgal(mesh, name, step_size):
@@ -123,29 +108,13 @@ class Benchmark:
             return
         triads = [Case(TRIAD, threads=n, words=("triad", "--threads", n)) for n in (1, 2)]
         measurements.run(triads + self._compared(), self._repetitions)
-        measurements.run(self._tunings() + self._cgal() + self._papers() + self._accuracy(), 1)
+        measurements.run(self._cgal() + self._papers() + self._accuracy(), 1)
         measurements.run(self._other_meshes() + self._scale(), 1)
 
     def _compared(self):
         mesh = sphere(self._frequency)
-        cases = [make(mesh, self.main, step_size, peer=peer) for step_size in STEP_SIZES
-                 for make, peer in ((ours, OURS), (baseline, IC), (baseline, MIC))]
-        cases += [make(mesh, self.main, MIDDLE, threads=2) for make in (ours, baseline)]
-        cases.append(ours(mesh, self.main, MIDDLE, peer=BASELINE_INSTRUCTIONS,
-                          environment=(("TRACKED_MCF_INSTRUCTIONS", "ssse3"),)))
-        if self._arguments.binary:
-            cases.append(ours(mesh, self.main, MIDDLE, peer=OTHER_BINARY))
-        return cases
-
-    def _tunings(self):
-        mesh = sphere(self._frequency)
-        cases = []
-        for step_size in STEP_SIZES[:2]:
-            usual = baseline(mesh, self.main, step_size)
-            cases += [dataclasses.replace(usual, peer=f"{IC}, {name}", words=usual.words + words,
-                                          environment=environment)
-                      for name, words, environment in TUNINGS]
-        return cases
+        return [make(mesh, self.main, step_size) for step_size in STEP_SIZES for make in (ours, incomplete_cholesky)] + [
+            ours(mesh, self.main, MIDDLE, threads=2)]
 
     def _cgal(self):
         if not has_cgal(self._arguments.build):
@@ -164,11 +133,11 @@ class Benchmark:
         for frequency in (self._frequency // 2, self._frequency):
             name = f"{label(frequency)}, without noise, {STEPS} steps"
             mesh = sphere(frequency, noise=0)
-            cases += [baseline(mesh, name, MIDDLE), ours(mesh, name, MIDDLE)]
+            cases += [incomplete_cholesky(mesh, name, MIDDLE), ours(mesh, name, MIDDLE)]
         return cases
 
     def _scale(self):
-        largest = 2 * self._frequency if self._arguments.quick else self._arguments.largest
+        largest = 2 * self._frequency if self._arguments.quick else self._arguments.largest or 1024
         frequencies = [f for f in (16, 32, 64, 128, 256, 512, 1024, 2048)
                        if self._frequency // 4 <= f <= largest]
         # δ is the same for all in squared edges. The first step also allocates memory.
@@ -180,8 +149,7 @@ class Benchmark:
         for mesh, name in self._files():
             step_sizes = [MIDDLE] if self._arguments.quick else STEP_SIZES
             for step_size in step_sizes:
-                cases.append(ours(mesh, name, step_size, steps=2))
-                cases += [baseline(mesh, name, step_size, steps=2, peer=peer) for peer in (IC, MIC)]
+                cases += [make(mesh, name, step_size, steps=2) for make in (ours, incomplete_cholesky)]
         return cases
 
     def _whole_jobs(self):
@@ -198,8 +166,8 @@ class Benchmark:
     def _jobs(self, mesh, name, jobs, busy):
         """Returns the jobs of these names, but those of PyMeshLab only if it is there."""
         script = pathlib.Path(__file__).parent / "whole_job.py"
-        tool = self._arguments.build / "filter_tracked_mcf/hosts/cli" / "tracked_mcf"
-        python = self._arguments.build / "pymeshlab" / "bin" / "python"
+        tool = self._arguments.build / "tracked_mcf"
+        python = TOP / "build" / "pymeshlab" / "bin" / "python"
         edge = mean_edge(tool, mesh, self._output)
         commands = [(sys.executable, (tool, *words))
                     for words in ((), ("--threads", 1), ("--detail-size", 10 * edge), ("--detail-size", 40 * edge),
@@ -216,18 +184,12 @@ class Benchmark:
         if folder and not self._arguments.quick:
             return [(folder / f"{name}.ply", name) for name in ("hand_8k", "skull_50k")] + [
                 (unpacked(folder / f"{LARGE_SCAN}.ply.xz", self._output), LARGE_SCAN)]
-        armadillo = self._arguments.build / "cgal-meshes" / "armadillo.off"
-        return [(armadillo, "armadillo")] if armadillo.exists() else []
+        return [(ARMADILLO, "armadillo")] if ARMADILLO.exists() else []
 
     def _files(self):
         """Returns names for the driver and for tables."""
-        around = round(5.477 * self._frequency)
-        tube = f"open tube, {around * (around // 3 + 1) // 1000} k"
-        meshes = [(f"tube:{around}", tube)]
         quick = self._arguments.quick
-        armadillo = self._arguments.build / "cgal-meshes" / "armadillo.off"
-        if armadillo.exists():
-            meshes.append((f"{armadillo}:{1 if quick else 2}", "armadillo, refined"))
+        meshes = [(f"{ARMADILLO}:{1 if quick else 2}", "armadillo, refined")] if ARMADILLO.exists() else []
         if self._arguments.meshes and not quick:
             packed = self._arguments.meshes / f"{LARGE_SCAN}.ply.xz"
             meshes.append((unpacked(packed, self._output), LARGE_SCAN))
@@ -273,24 +235,18 @@ def unpacked(packed, folder):
 def command_line(arguments):
     """Returns the command without the options that do not affect the measurements."""
     words = ["tests/research/benchmark/run_benchmark.py"]
-    if arguments.quick:
-        words.append("--quick")
-    if arguments.whole_jobs:
-        words.append("--whole-jobs")
-    if arguments.frequency:
-        words.append(f"--frequency {arguments.frequency}")
-    if arguments.binary:
-        words.append("--binary DRIVER")
-    return " ".join(words)
+    words += [f"--{name.replace('_', '-')}" for name in ("quick", "whole_jobs") if getattr(arguments, name)]
+    words += [f"--{name} {getattr(arguments, name)}" for name in ("frequency", "largest") if getattr(arguments, name)]
+    return " ".join([*words, *(["--meshes FOLDER"] if arguments.meshes else [])])
 
 
 def main():
     arguments = options()
-    output = arguments.output or arguments.build / "benchmark"
+    output = arguments.output or arguments.build / "benchmark_results"
     output.mkdir(parents=True, exist_ok=True)
     figures = output / ("whole_jobs.csv" if arguments.whole_jobs else "measurements.csv")
-    driver = arguments.build / "tests" / "research" / "benchmark" / "tracked_mcf_benchmark"
-    measurements = Measurements(driver, arguments.binary)
+    driver = arguments.build / "tracked_mcf_benchmark"
+    measurements = Measurements(driver)
     benchmark = Benchmark(arguments, output)
     if arguments.page_only:
         measurements.read(figures)
@@ -300,8 +256,7 @@ def main():
         finally:
             measurements.write(figures)
     beside = output if arguments.quick else pathlib.Path(__file__).parent
-    page = Page(measurements, arguments.build, benchmark.main, STEP_SIZES, MIDDLE, STEPS,
-                command_line(arguments))
+    page = Page(measurements, arguments.build, benchmark.main, STEP_SIZES, MIDDLE, command_line(arguments))
     if arguments.whole_jobs:
         (arguments.page or beside / "whole_jobs.md").write_text(page.text_of_whole_jobs(), encoding="utf-8")
     else:

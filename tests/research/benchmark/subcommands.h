@@ -16,12 +16,8 @@ void add_flow(CLI::App& app);
 /// Measures our flow without tracking: a new set-up from the evolved mesh before each step.
 void add_rebuilt(CLI::App& app);
 
-/// Measures the cotangent flow with conjugate gradients and an incomplete factorisation.
-void add_baseline(CLI::App& app);
-
-/// Measures the cotangent flow with conjugate gradients and hypre's algebraic multigrid. Adds
-/// nothing if hypre is not enabled.
-void add_multigrid(CLI::App& app);
+/// Measures the cotangent flow by Eigen's conjugate gradients with incomplete Cholesky factors.
+void add_incomplete_cholesky(CLI::App& app);
 
 /// Measures CGAL's smooth_shape. Adds nothing if CGAL is not enabled.
 void add_cgal(CLI::App& app);

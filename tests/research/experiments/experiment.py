@@ -23,6 +23,8 @@ import sys
 import time
 
 TOP = pathlib.Path(__file__).resolve().parents[3]
+RENDER = TOP / "tests" / "demo" / "render.py"
+CGAL_MESHES = TOP / "build" / "cgal-meshes"
 sys.path.insert(0, str(TOP / "tests" / "research" / "benchmark"))
 
 from machine import processor  # noqa: E402
@@ -50,23 +52,23 @@ class Experiment:
     def __init__(self, name, description, add_options=lambda parser: None):
         parser = argparse.ArgumentParser(
             description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
-        parser.add_argument("--build", type=pathlib.Path, default=TOP / "build", metavar="FOLDER",
-                            help="where the project was built, tests and tool included")
+        parser.add_argument("--build", type=pathlib.Path, default=TOP / "build" / "research", metavar="FOLDER",
+                            help="where tests/research was built")
         parser.add_argument("--program", type=pathlib.Path, metavar="FILE",
                             help="another tracked_mcf than that of the build folder")
         parser.add_argument("--meshes", type=pathlib.Path, metavar="FOLDER",
-                            help="folder of scans (default: cgal-meshes in the build folder)")
+                            help="folder of scans (default: build/cgal-meshes)")
         parser.add_argument("--scans", nargs="+", metavar="NAME",
                             help="file names in that folder, instead of the usual ones")
         parser.add_argument("--output", type=pathlib.Path, metavar="FOLDER",
-                            help="for tables and plots (default: experiments in the build folder)")
+                            help="for tables and plots (default: results in the build folder)")
         parser.add_argument("--quick", action="store_true", help="fewer and smaller cases")
         add_options(parser)
         self.name = name
         self.options = parser.parse_args()
-        self.program = self.options.program or self.options.build / "filter_tracked_mcf/hosts/cli" / "tracked_mcf"
+        self.program = self.options.program or self.options.build / "tracked_mcf"
         self._pyplot = pyplot()  # before the measurements, in case it is missing
-        self.output = self.options.output or self.options.build / "experiments"
+        self.output = self.options.output or self.options.build / "results"
         self.output.mkdir(parents=True, exist_ok=True)
         self._rows = []
         self._text = io.StringIO()
@@ -76,15 +78,20 @@ class Experiment:
     def _command(self):
         """Returns a sentence with the command that makes the page. It names no folder of this machine."""
         script = pathlib.Path(sys.argv[0]).resolve().relative_to(TOP)
-        words = [f"--{name} FOLDER" for name in ("meshes", "pairs", "findings") if getattr(self.options, name, None)]
+        words = []
+        for name in ("meshes", "pairs", "findings"):
+            given = getattr(self.options, name, None)
+            if given:
+                words.append(" ".join([f"--{name}", *["FOLDER"] * (len(given) if isinstance(given, list) else 1)]))
         words += [f'--also="{options}"' for options in getattr(self.options, "also", [])]
         if self.options.quick:
             words.append("--quick")
-        return f"{MADE_BY} `{' '.join([str(script), *words])}`."
+        python = ["build/pymeshlab/bin/python"] if "pymeshlab" in sys.modules else []
+        return f"{MADE_BY} `{' '.join([*python, str(script), *words])}`."
 
     def meshes(self, shared, cgal):
         """Returns the paths of the meshes named `shared` if the folder has them, else of `cgal`."""
-        folder = self.options.meshes or self.options.build / "cgal-meshes"
+        folder = self.options.meshes or CGAL_MESHES
         names = next((names for names in (shared, cgal)
                       if all((folder / name).exists() for name in names)), None)
         if names is None:
@@ -103,7 +110,7 @@ class Experiment:
         """Returns the path of a file, or of its unpacked copy if it is packed by xz."""
         if path.suffix != ".xz":
             return path
-        target = self.options.build / "experiments" / path.stem
+        target = self.options.build / "unpacked" / path.stem
         target.parent.mkdir(parents=True, exist_ok=True)
         with lzma.open(path) as packed, open(target, "wb") as file:
             shutil.copyfileobj(packed, file)
@@ -120,7 +127,7 @@ class Experiment:
 
     def run(self, command, *words, **more):
         """Runs the driver. Returns its rows as dictionaries, each with the entries of `more`."""
-        driver = self.options.build / "tests" / "research" / "experiments" / "tracked_mcf_experiments"
+        driver = self.options.build / "tracked_mcf_experiments"
         if not driver.exists():
             sys.exit(f"{self.name}: {driver} has not been built")
         call = [str(driver), command] + [str(word) for word in words]
@@ -239,6 +246,11 @@ def pyplot():
     matplotlib.use("Agg")  # no display
     from matplotlib import pyplot as module
     return module
+
+
+def step_words(step_size):
+    """Returns the program's options for δ in squared units of the mesh."""
+    return ["--step-size", step_size, "--absolute"]
 
 
 def number_or_text(value):

@@ -23,7 +23,7 @@ import subprocess
 import tempfile
 
 import numpy
-from experiment import TOP, Experiment
+from experiment import RENDER, Experiment
 from ply import read_mesh, read_vertices, write_ply
 from scipy.spatial import cKDTree
 from shapes import grid_faces
@@ -43,7 +43,7 @@ class Runner:
 
     def __init__(self, experiment, folder):
         self.experiment, self.folder = experiment, pathlib.Path(folder)
-        self.cgal_program = experiment.options.build / "tests" / "research" / "experiments" / "tracked_mcf_cgal_fair"
+        self.cgal_program = experiment.options.build / "tracked_mcf_cgal_fair"
 
     def ours(self, vertices, faces, selected, continuity, *words):
         """Returns vertices, and the report with the processor seconds, files included."""
@@ -435,7 +435,7 @@ def draw(experiment, name, shapes, faces, selected, scale):
             paths[-1].write_bytes("\n".join(header).encode() + rows.tobytes() + triangles.tobytes())
         picture = experiment.output / f"fairing_{name}.png"
         forward = -unit_normals(shapes["membrane"], faces[selected]).mean(axis=0)
-        subprocess.run(["/usr/bin/python3", TOP / "tests" / "research" / "experiments" / "render.py", "--colours", "--height", "360",
+        subprocess.run(["/usr/bin/python3", RENDER, "--colours", "--height", "360",
                         "--view", *map(str, forward), "--up", "0", "1", "0", "--output", picture,
                         *paths, "--labels", *shapes], check=True)
     experiment.say(f"![{name}: curvature as colours]({picture.name})\n")

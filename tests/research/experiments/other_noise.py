@@ -28,7 +28,7 @@ import tempfile
 
 import numpy
 import shapes
-from experiment import Experiment
+from experiment import CGAL_MESHES, Experiment
 from leaving_in_place import terrain
 from measures import angles, distance, heights
 from ply import read_mesh, write_ply
@@ -148,7 +148,7 @@ def cases_of_lumps(experiment, random):
         yield Case(f"building, lumps {times}", house,
                    house.vertices + 0.25 * house.edge * averaged(house, random, times, 3), size)
     cube = Surface("cube", *shapes.cube(40))
-    fandisk = Scan(experiment.options.build / "cgal-meshes" / "fandisk.off")
+    fandisk = Scan(CGAL_MESHES / "fandisk.off")
     for surface in (cube, fandisk, *hands(experiment)):
         yield Case(f"{surface.name}, lumps 4", surface, along_normals(surface, 0.2 * averaged(surface, random, 4, 1)), 3)
     wave = numpy.sin(2 * numpy.pi * (fandisk.vertices @ (0.8, 0.5, 0.4)) / (6 * fandisk.edge) + random.uniform(0, 6))
@@ -187,7 +187,7 @@ def depth_camera(random, columns=200, rows=200):
 
 def cases_of_varying_noise(experiment, random):
     yield depth_camera(random)
-    scans = [Surface("cube", *shapes.cube(40)), Scan(experiment.options.build / "cgal-meshes" / "bear.off")]
+    scans = [Surface("cube", *shapes.cube(40)), Scan(CGAL_MESHES / "bear.off")]
     for surface in (*scans, *hands(experiment)):
         axis = numpy.argmax(numpy.ptp(surface.vertices, axis=0))
         share = (surface.vertices[:, axis] - surface.vertices[:, axis].min()) / numpy.ptp(surface.vertices[:, axis])

@@ -24,7 +24,7 @@ import subprocess
 import tempfile
 
 import numpy
-from experiment import TOP, Experiment, geometric_mean
+from experiment import CGAL_MESHES, RENDER, Experiment, geometric_mean
 from measures import angles
 from ply import read_mesh
 from scan import Scan, loaded, mesh_set, pymeshlab
@@ -174,7 +174,7 @@ def draw(experiment, scan, row):
             meshes.save_current_mesh(paths[-1], save_vertex_color=True, save_vertex_quality=False)
         picture = experiment.output / f"removing_noise_{scan.name}.png"
         # In a process of its own: VTK and PyMeshLab have different versions of some libraries.
-        subprocess.run(["/usr/bin/python3", TOP / "tests" / "research" / "experiments" / "render.py", "--colours",
+        subprocess.run(["/usr/bin/python3", RENDER, "--colours",
                         "--flat", "--height", "360", "--view", *forward.split(), "--up", *up.split(),
                         "--output", picture, *paths, "--labels", *shown.values()], check=True)
         experiment.say(f"\n![{scan.name}]({picture.name})")
@@ -240,7 +240,7 @@ def main():
     options = experiment.options
     if options.peers:
         experiment.say("The other smoothers' results are those of an earlier run: they do not depend on the program.")
-    folders = [options.build / "cgal-meshes", *([options.meshes] if options.meshes else [])]
+    folders = [CGAL_MESHES, *([options.meshes] if options.meshes else [])]
 
     def scans(names):
         found = [folder / name for name in names for folder in folders if (folder / name).exists()]

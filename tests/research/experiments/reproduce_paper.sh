@@ -3,17 +3,15 @@
 # Reproduces the paper's evaluation, in under two hours on two cores: reproduce_paper.sh [OPTION]...
 #
 # Installs what is needed, builds, runs the scripts of tests/research/experiments/paper with these options, such as
-# --meshes FOLDER or --quick, and writes their pages with tables, plots and pictures into build/experiments.
+# --meshes FOLDER or --quick, and writes their pages with tables, plots and pictures into build/research/results.
 # --output tests/research/experiments/results replaces the kept pages. Exits with 1 if a script's check failed.
 set -euo pipefail
-cd "$(dirname "$0")/../.."
+cd "$(dirname "$0")/../../.."
 
-external/install_debian.sh experiments benchmark
+external/install_debian.sh research
 external/cgal_meshes.sh build/cgal-meshes
-external/gravomg.sh build/gravomg ||
-    echo "reproduce_paper.sh: Gravo MG could not be installed and is left out." >&2
-cmake -S . -B build -DTRACKED_MCF_PLUGIN=OFF -DTRACKED_MCF_TESTS=ON -DTRACKED_MCF_BENCHMARK=ON
-cmake --build build -j "$(nproc)" --target tracked_mcf_experiments tracked_mcf_benchmark
+cmake -S tests/research -B build/research -DTRACKED_MCF_CGAL=ON
+cmake --build build/research -j "$(nproc)"
 
 failed=()
 for script in tests/research/experiments/paper/{table,error,figure}*.py; do

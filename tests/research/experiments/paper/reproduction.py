@@ -12,7 +12,7 @@ import tempfile
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
 
-from experiment import CLAIM, CONVERGED, PAPER, Experiment, skip  # noqa: E402
+from experiment import CLAIM, CONVERGED, PAPER, RENDER, Experiment, skip  # noqa: E402
 
 METHODS = ["tracked", "rebuilt", "rebuilt-split", "cotangent"]
 
@@ -24,7 +24,7 @@ class Reproduction(Experiment):
         super().__init__(name, description, add_options)
         self.say(description.strip().split("\n\n", 1)[1] + "\n")
         self._display = None
-        self.surfaces = self.options.build / "experiments" / "surfaces"
+        self.surfaces = self.options.build / "surfaces"
 
     def flow(self, scan, step_size, steps, method="tracked", configuration=CONVERGED, depth=0,
              boundary="free"):
@@ -68,7 +68,7 @@ class Reproduction(Experiment):
     def draw(self, suffix, surfaces, labels, *words):
         """Draws surfaces side by side with render.py, which also takes `words`."""
         picture = self.output / f"{self.name}{suffix}.png"
-        subprocess.run([sys.executable, str(HERE.parent / "render.py"), *map(str, surfaces),
+        subprocess.run([sys.executable, str(RENDER), *map(str, surfaces),
                         "--labels", *map(str, labels), "--output", str(picture),
                         *map(str, words)], check=True, env=self.on_display())
         self.say(f"\n![{self.name}{suffix}]({picture.name})")
