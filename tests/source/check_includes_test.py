@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tests .ci/check_includes: it passes the sources as they are, and finds each of the planted violations."""
+"""Tests check_includes.py: it passes the sources as they are, and finds each of the planted violations."""
 
 import pathlib
 import shutil
@@ -27,7 +27,7 @@ VIOLATIONS = [
 
 
 def check(top):
-    result = subprocess.run([sys.executable, TOP / ".ci/check_includes", top], stderr=subprocess.PIPE, text=True,
+    result = subprocess.run([sys.executable, TOP / "tests/source/check_includes.py", top], stderr=subprocess.PIPE, text=True,
                             check=False)
     return result.returncode, result.stderr
 

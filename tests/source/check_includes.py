@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Checks which part of the project includes which: check_includes [TOP]
+"""Checks which part of the project includes which: check_includes.py [TOP]
 
 TOP is the top of a checkout, by default the current folder. Prints each include that breaks a rule, and exits
 with 1 if there is one.
