@@ -31,7 +31,7 @@ packages_of() {
             xvfb xauth xdotool imagemagick debootstrap python3-numpy python3-matplotlib python3-nbclient \
             python3-ipykernel python3-cloudpickle python3-joblib python3-distributed ;;
         research) echo "$(packages_of program)" libcgal-dev meshlab "$(libraries_recommended_by meshlab)" \
-            python3-matplotlib python3-vtk9 python3-numpy xvfb xauth ;;
+            python3-matplotlib python3-scipy python3-vtk9 python3-numpy xvfb xauth ;;
         pymeshlab) echo python3-venv python3-numpy python3-matplotlib ;;
         windows) echo "$(packages_of program)" g++-mingw-w64-x86-64-posix googletest python3 wine wine64 ;;
         arm64) echo "$(packages_of program)" g++-aarch64-linux-gnu googletest python3 qemu-user ;;

@@ -232,8 +232,9 @@ def write_list_of_pages(folder):
     links = [link(folder, name, lines) for name, lines in pages.items()]
     (folder / "README.md").write_text("\n".join(
         ["# Results of the experiments", "",
-         "`tests/research/experiments/reproduce_paper.sh` builds and runs all scripts of `paper`; [how to run one](../README.md). FOLDER has "
-         "[these meshes](meshes.md); without `--meshes`, those of Debian's libcgal-demo are taken.", "", *links, "", "The paper's claims:", "", *claims, ""]),
+         "`tests/research/experiments/reproduce_paper.sh` builds and runs all scripts of `paper`; [how to run one](../README.md).",
+         "FOLDER has [these meshes](meshes.md); without `--meshes`, those of Debian's libcgal-demo are taken. The commands run in the",
+         "project's folder.", "", *links, "", "The paper's claims:", "", *claims, ""]),
         encoding="utf-8")
 
 

@@ -14,7 +14,7 @@ mean edges. Noise moves every vertex by a normal distribution along each axis. N
 four rings around the hole towards a neighbour. Crossings are pairs of triangles, one at least in the patch, that cross
 and have no vertex in common.
 
-Needs tracked_mcf_cgal_fair in the build folder, which TRACKED_MCF_BENCHMARK builds; without it, CGAL is left out.
+Needs tracked_mcf_cgal_fair in the build folder, which TRACKED_MCF_CGAL builds; without it, CGAL is left out.
 """
 
 import pathlib
