@@ -20,7 +20,7 @@ struct TrackedOptions {
     int steps = 4;
     int threads = 1;
 
-    /// Returns the parameters for a mesh in the unit cube, with an absolute δ.
+    /// Returns the parameters for a mesh in the unit cube, with δ in its squared units.
     FlowParameters parameters() const;
 };
 

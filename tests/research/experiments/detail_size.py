@@ -5,9 +5,8 @@
 Each entry is the geometric mean over the scans of two ratios to the noisy mesh: of the RMS distance from the clean
 vertices along the clean normals, and of the mean angle between normals of faces and those of the clean mesh. Noise is
 normally distributed along the normals; its standard deviation is in mean edge lengths. Detail sizes are in mean edge
-lengths of the noisy mesh; "local" ones are proportional to the local edge length. MeshLab's Taubin smoother has the best
-of many settings for each scan, for the distance and for the angle each, which only somebody can choose who has the clean
-mesh.
+lengths of the noisy mesh. MeshLab's Taubin smoother has the best of many settings for each scan, for the distance and for
+the angle each, which only somebody can choose who has the clean mesh.
 
 Needs PyMeshLab: external/pymeshlab.sh build/pymeshlab, then build/pymeshlab/bin/python detail_size.py.
 """
@@ -17,7 +16,7 @@ import pathlib
 import tempfile
 
 import numpy
-from experiment import Experiment, geometric_mean
+from experiment import CGAL_MESHES, Experiment, geometric_mean
 from measures import angles, distance
 from ply import read_mesh, write_ply
 from removing_noise import SCANS
@@ -28,7 +27,6 @@ from surface import Surface
 NOISES = [0.1, 0.2, 0.3]
 SIZES = [2.5, 3, 4, 5, 6, 8]
 ORDERS = [1, 2]
-LOCAL = {"": [], "local": ["--local-detail-size"]}
 TAUBIN = "Taubin, best"
 
 
@@ -43,9 +41,9 @@ def results(experiment, folder, scan, noise):
     source, target = folder / "in.ply", folder / "out.ply"
     write_ply(source, noisy, scan.faces)
     found = {}
-    for order, (local, words), size in itertools.product(ORDERS, LOCAL.items(), SIZES):
-        experiment.smooth(source, target, "--order", order, "--detail-size", size * edge, *words)
-        found[order, local, size] = figures(scan, read_mesh(target)[0])
+    for order, size in itertools.product(ORDERS, SIZES):
+        experiment.smooth(source, target, "--order", order, "--detail-size", size * edge)
+        found[order, size] = figures(scan, read_mesh(target)[0])
     taubin, angle = best(scan, noisy, taubin_families(scan, noisy))
     found[TAUBIN] = taubin["RMS"], angle
     before = figures(scan, noisy)
@@ -55,7 +53,7 @@ def results(experiment, folder, scan, noise):
 def main():
     experiment = Experiment("detail_size", __doc__)
     options = experiment.options
-    folders = [options.build / "cgal-meshes", *([options.meshes] if options.meshes else [])]
+    folders = [CGAL_MESHES, *([options.meshes] if options.meshes else [])]
     paths = [folder / name for name in SCANS for folder in folders if (folder / name).exists()]
     scans = [Scan(path) for path in (paths[:1] if options.quick else paths)]
     ratios = {}
@@ -73,9 +71,8 @@ def main():
 
     for noise in NOISES:
         experiment.say(f"\n## Noise of {noise} edges\n")
-        experiment.table(["order", "", *(f"{size:g} edges" for size in SIZES)],
-                         [[order, local, *(cell(noise, (order, local, size)) for size in SIZES)]
-                          for order, local in itertools.product(ORDERS, LOCAL)])
+        experiment.table(["order", *(f"{size:g} edges" for size in SIZES)],
+                         [[order, *(cell(noise, (order, size)) for size in SIZES)] for order in ORDERS])
         experiment.say(f"{TAUBIN}: {cell(noise, TAUBIN)}\n")
     experiment.finish()
 

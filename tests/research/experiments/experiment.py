@@ -249,11 +249,6 @@ def pyplot():
     return module
 
 
-def step_words(step_size):
-    """Returns the program's options for δ in squared units of the mesh."""
-    return ["--step-size", step_size, "--absolute"]
-
-
 def number_or_text(value):
     for kind in (int, float):
         try:

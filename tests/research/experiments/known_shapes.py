@@ -14,7 +14,7 @@
   vertices from the exact torus in edges, wherever they slide, and the angle is that to its normals;
 - a depth image of 320 x 240 pixels (depth_camera in other_noise.py), with much noise far away and little within 1.5 m, which
   is "near". The RMS is along the normals, with and without the rim, which is locked; "sideways" is the RMS distance from the
-  exact place across the normals. "Local" is --local-detail-size;
+  exact place across the normals;
 - a cylinder between two rings, which comes to rest at the catenoid: area over that of the catenoid, and triangles whose
   normals have turned round.
 
@@ -45,14 +45,13 @@ PLATES = [(1, 0.3), (2, 0.2), (2, 0.3), (3, 0.3)]  # thickness in quads, and noi
 OF_PLATES = [(3, 2), (4, 2), (8, 2), (8, 1)]  # detail size and order; the default first
 OF_STAIRCASE = [(3, 2), (4, 2), (8, 2), (12, 2), (16, 2), (24, 2)]
 OF_DEPTH_IMAGE = [(3, 2), (8, 2), (16, 2), (24, 2), (32, 2), (48, 2)]
-OF_DEPTH_IMAGE += [(detail_size, 2, "--local-detail-size") for detail_size in (8, 16, 24, 32)]
 
 
 def by_flow(flow, surface, noisy, settings):
     """Yields names, the flow's results for detail sizes in edges and orders, and the reason to stop."""
-    for detail_size, order, *words in settings:
-        moved, report = flow(noisy, surface.faces, "--detail-size", detail_size * surface.edge, "--order", order, *words)
-        yield f"flow, ℓ = {detail_size:g}, order {order}{', local' if words else ''}", moved, report["stop"]
+    for detail_size, order in settings:
+        moved, report = flow(noisy, surface.faces, "--detail-size", detail_size * surface.edge, "--order", order)
+        yield f"flow, ℓ = {detail_size:g}, order {order}", moved, report["stop"]
 
 
 def by_peers(experiment, surface, noisy):

@@ -2,6 +2,7 @@
 #include "tests/research/experiments/method.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <random>
 #include <stdexcept>
@@ -21,12 +22,6 @@
 namespace tracked_mcf::experiments {
 
 namespace {
-
-/// Returns δ for the mesh scaled so that the longest side of its bounding box is 1.
-double relative_step_size(const TriangleMesh& mesh, const FlowParameters& parameters) {
-    const double side = longest_side(mesh);
-    return parameters.step_size / (side * side);
-}
 
 /// Takes the sizes and the last step of a flow, which took `seconds` of processor time. The parts
 /// of a step share it as they share the wall time.
@@ -131,8 +126,7 @@ public:
           multigrid_(elements_, constrained_unknowns(elements_)),
           displacement_(Coefficients::Zero(elements_.finest().unknown_count(), 3)) {
         draw_samples(count, elements_);
-        const double cells = longest_side(mesh) / elements_.grid.cell_size;
-        step_size_ = relative_step_size(mesh, parameters) * cells * cells;
+        step_size_ = parameters.step_size / std::pow(elements_.grid.cell_size, 2);
     }
 
     bool step() override {
@@ -164,7 +158,7 @@ private:
 class Cotangent : public Method {
 public:
     Cotangent(const TriangleMesh& mesh, const FlowParameters& parameters)
-        : flow_(mesh, relative_step_size(mesh, parameters), parameters.boundary) {
+        : flow_(mesh, parameters.step_size / std::pow(longest_side(mesh), 2), parameters.boundary) {
         report_.unknowns = static_cast<std::int64_t>(mesh.positions.size());
     }
 
