@@ -48,7 +48,8 @@ def options():
     parser.add_argument("--frequency", type=int, metavar="N",
                         help="frequency of the main sphere (default: 256; with --quick, 128); it and the "
                         "other generated meshes have about 10 N² + 2 vertices")
-    parser.add_argument("--repetitions", type=int, default=3, help="of the cases that are compared directly")
+    parser.add_argument("--repetitions", type=int, metavar="N",
+                        help="of the cases that are compared directly (default: 3)")
     parser.add_argument("--largest", type=int, metavar="FREQUENCY",
                         help="largest frequency of the scaling test (default: 1024, which has 10.5 million vertices)")
     parser.add_argument("--whole-jobs", action="store_true",
@@ -97,7 +98,7 @@ class Benchmark:
         self._arguments = arguments
         self._output = output
         self._frequency = arguments.frequency or (128 if arguments.quick else 256)
-        self._repetitions = 1 if arguments.quick else arguments.repetitions
+        self._repetitions = 1 if arguments.quick else arguments.repetitions or 3
         self.main = label(self._frequency)
         self.clean = f"{self.main}, without noise"
 
@@ -236,7 +237,7 @@ def command_line(arguments):
     """Returns the command without the options that do not affect the measurements."""
     words = ["tests/research/benchmark/run_benchmark.py"]
     words += [f"--{name.replace('_', '-')}" for name in ("quick", "whole_jobs") if getattr(arguments, name)]
-    words += [f"--{name} {getattr(arguments, name)}" for name in ("frequency", "largest") if getattr(arguments, name)]
+    words += [f"--{name} {getattr(arguments, name)}" for name in ("frequency", "largest", "repetitions") if getattr(arguments, name)]
     return " ".join([*words, *(["--meshes FOLDER"] if arguments.meshes else [])])
 
 
