@@ -1,5 +1,7 @@
+#!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The runs of the filters in which every host must do what the program does. Each host takes the table from here.
+`runs.py COMMAND IN OUT.ply` writes the mesh of a filter's runs, and prints the program's options for the first one.
 
 A run has the parameters that differ from those of COMMON, in the program's words. `6edges` stands for six mean edges,
 `2squares` for two squared ones.
@@ -9,6 +11,7 @@ has no effect.
 
 import math
 import random
+import sys
 
 import float_ply
 
@@ -175,3 +178,8 @@ def by_index(command, settings):
     """Returns the settings as filter scripts have them: the value of a choice is its index."""
     return {name: str(CHOICES[name].index(value)) if name in CHOICES else value
             for name, value in settings.items() if (command, name) != ("fair", "selected")}
+
+
+if __name__ == "__main__":
+    mean = write_mesh(sys.argv[3], sys.argv[1], *float_ply.read_mesh(sys.argv[2]))
+    print(*program_options(settings_of(sys.argv[1], "", mean)))
