@@ -6,6 +6,11 @@
 #include <set>
 
 #include "filter_tracked_mcf/core/errors.h"
+#include "filter_tracked_mcf/core/evolve.h"
+#include "filter_tracked_mcf/core/fair.h"
+#include "filter_tracked_mcf/core/remove_noise.h"
+#include "tests/support/shapes.h"
+#include "tests/support/values_outside.h"
 
 namespace tracked_mcf {
 namespace {
@@ -49,6 +54,46 @@ TEST(ParameterTable, NamesDifferAndAnInputHasOneMember) {
     expect_different_names_and_one_member_of_each_input<FlowParameters>();
     expect_different_names_and_one_member_of_each_input<NoiseParameters>();
     expect_different_names_and_one_member_of_each_input<FairParameters>();
+}
+
+void run_with(TriangleMesh& mesh, const FlowParameters& parameters) {
+    evolve(mesh, parameters);
+}
+
+void run_with(TriangleMesh& mesh, const NoiseParameters& parameters) {
+    remove_noise(mesh, {}, parameters);
+}
+
+void run_with(TriangleMesh& mesh, const FairParameters& parameters) {
+    Selection selected(mesh.triangles.size(), 1);
+    selected.back() = 0;
+    fair(mesh, selected, parameters);
+}
+
+template <class Parameters>
+void expect_refused_outside_the_ranges() {
+    const TriangleMesh mesh = shapes::bumpy_sphere(5);
+    for (const ParameterOf<Parameters>& row : parameter_table<Parameters>()) {
+        for (const ParameterValue& value : values_outside(row)) {
+            Parameters parameters;
+            row.set(parameters, value);
+            TriangleMesh untouched = mesh;
+            try {
+                run_with(untouched, parameters);
+                ADD_FAILURE() << row.name << " was accepted";
+            } catch (const InvalidParameter& error) {
+                EXPECT_EQ(std::string(error.what()).rfind(row.name + " is ", 0), 0U)
+                    << error.what();
+            }
+            EXPECT_EQ(untouched.positions, mesh.positions);
+        }
+    }
+}
+
+TEST(ParameterTable, WhatIsOutsideTheRangesIsRefusedAndNamed) {
+    expect_refused_outside_the_ranges<FlowParameters>();
+    expect_refused_outside_the_ranges<NoiseParameters>();
+    expect_refused_outside_the_ranges<FairParameters>();
 }
 
 }  // namespace
