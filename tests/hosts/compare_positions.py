@@ -29,33 +29,31 @@ def largest_difference(a, b):
     return max(math.inf if math.isnan(p - q) else abs(p - q) for p, q in zip(a, b))
 
 
-def compare(what, a, b, ulps):
-    """Returns the tolerance."""
+def compare(what, a, b, tolerance):
+    """Ends the program if the numbers differ by more than the tolerance."""
     if len(a) != len(b):
         sys.exit(f"different numbers of {what}: {len(a)}, {len(b)}")
-    largest = max(map(abs, a))
-    tolerance = float(ulps) * float_ulp(largest)
     difference = largest_difference(a, b)
-    print(f"{len(a)} {what}: largest difference {difference:.3g}, {difference / largest if largest else 0:.3g} of the "
-          f"largest; tolerance {tolerance:.3g}", end="; ")
+    print(f"{len(a)} {what}: largest difference {difference:.3g}; tolerance {tolerance:.3g}", end="; ")
     if difference > tolerance:
         sys.exit(f"the {what} differ")
-    return tolerance
 
 
-def main(first, second, reference, ulps):
+def main(first, second, reference, ulps, share=0):
+    """`share` is another tolerance, relative to the largest movement and to the largest quality."""
     files = [read_ply(path) for path in (first, second, reference)]
     a, b, start = map(coordinates_of, files)
-    tolerance = compare("coordinates", a, b, ulps)
+    movement, rounding = largest_difference(b, start), float(ulps) * float_ulp(max(map(abs, a)))
+    compare("coordinates", a, b, max(rounding, share * movement))
     vertices = [file["vertex"] for file in files[:2]]
     if all("quality" in element.properties for element in vertices):
         ours, theirs = (element.column("quality") for element in vertices)
         if vertices[0].types[vertices[0].properties.index("quality")] == ["f"]:
             theirs = [float_ply.as_float(number) for number in theirs]
-        compare("qualities", ours, theirs, ulps)
-    movement = largest_difference(a, start)
+        largest = max(map(abs, ours))
+        compare("qualities", ours, theirs, max(float(ulps) * float_ulp(largest), share * largest))
     print(f"largest movement {movement:.3g}")
-    if len(a) != len(start) or movement <= 100 * tolerance:
+    if len(a) != len(start) or movement <= 100 * rounding:
         sys.exit("nothing has moved")
 
 

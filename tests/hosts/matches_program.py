@@ -26,9 +26,9 @@ def run(command):
 class Comparison:
     """Of a host with the program, for the runs of one filter."""
 
-    def __init__(self, program, host, takes_options, scalar, ulps):
-        self.program, self.host, self.takes_options, self.ulps = program, host, takes_options, ulps
-        self.scalar = scalar
+    def __init__(self, program, host, takes_options, scalar, tolerances):
+        self.program, self.host, self.takes_options = program, host, takes_options
+        self.scalar, self.tolerances = scalar, tolerances
 
     def compare(self, command, work, settings):
         """Returns the bytes of the program's result, which the host's must match, or b"" if both refuse."""
@@ -45,7 +45,7 @@ class Comparison:
         if (code, host_code) != (0, 0) and not (code in (1, 2) and host_code in (1, 2, 255)):
             sys.exit(f"{settings}: the host ends with {host_code}, the program with {code}\n{log}\n{message}")
         if code == 0:
-            compare_positions.main(theirs, ours, mesh, self.ulps)
+            compare_positions.main(theirs, ours, mesh, *self.tolerances)
             return ours.read_bytes()
         said = message.strip().removeprefix("tracked_mcf: ")
         if said not in log:
@@ -73,6 +73,8 @@ def main():
     parser.add_argument("--options", action="store_true", help="HOST is a program")
     parser.add_argument("--ulps", type=float, default=0, help="the largest permitted difference, in units in the last "
                         "place of the largest number as a float")
+    parser.add_argument("--share", type=float, default=0, help="the largest permitted difference, relative to the "
+                        "largest movement")
     parser.add_argument("program", type=pathlib.Path)
     parser.add_argument("mesh", type=pathlib.Path)
     parser.add_argument("work", type=pathlib.Path, help="a folder, which is made anew")
@@ -81,7 +83,7 @@ def main():
     given = parser.parse_args()
     shutil.rmtree(given.work, ignore_errors=True)
     given.work.mkdir(parents=True)
-    comparison = Comparison(given.program, given.host, given.options, given.scalar, given.ulps)
+    comparison = Comparison(given.program, given.host, given.options, given.scalar, (given.ulps, given.share))
     for command in runs.FILTERS:
         comparison.compare_all(command, float_ply.read_mesh(given.mesh), given.work)
 
