@@ -146,16 +146,6 @@ TEST_F(RemoveNoise, UsesTheSelectionTheStrengthAndTheQuality) {
     EXPECT_GT(std::count_if(layer.cm.vert.begin(), layer.cm.vert.end(), moved), 1700);
 }
 
-TEST(ParameterTables, ANameHasTheSameLabelInAllDialogs) {
-    for (const Parameter& noise : parameter_table<NoiseParameters>()) {
-        for (const Parameter& flow : parameter_table<FlowParameters>()) {
-            if (noise.name == flow.name) {
-                EXPECT_EQ(noise.label, flow.label) << noise.name;
-            }
-        }
-    }
-}
-
 }  // namespace
 
 }  // namespace tracked_mcf

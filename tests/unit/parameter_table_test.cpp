@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+#include <map>
 #include <set>
 
 #include "filter_tracked_mcf/core/errors.h"
@@ -94,6 +96,48 @@ TEST(ParameterTable, WhatIsOutsideTheRangesIsRefusedAndNamed) {
     expect_refused_outside_the_ranges<FlowParameters>();
     expect_refused_outside_the_ranges<NoiseParameters>();
     expect_refused_outside_the_ranges<FairParameters>();
+}
+
+TEST(ParameterTable, NamesTheValuesOfEachChoiceInTheirOrder) {
+    const std::map<std::string, std::pair<ParameterValue, std::string>> labels = {
+        {"flow", {static_cast<int>(FlowKind::Conformalized), "Conformalized"}},
+        {"boundary", {static_cast<int>(BoundaryCondition::Free), "Free"}},
+        {"preserve", {static_cast<int>(Preserve::Volume), "Volume"}},
+        {"quality", {static_cast<int>(Quality::MeanCurvature), "Mean curvature"}},
+        {"method", {static_cast<int>(Method::Paper), "Paper"}}};
+    for (const auto& parameter : parameter_table<FlowParameters>()) {
+        if (parameter.type != Parameter::Type::Choice || parameter.label.empty()) continue;
+        const auto& [value, label] = labels.at(parameter.name);
+        EXPECT_EQ(parameter.choices.at(static_cast<std::size_t>(std::get<int>(value))).label,
+                  label);
+        FlowParameters parameters;
+        parameter.set(parameters, value);
+        EXPECT_EQ(parameter.get(parameters), value) << parameter.name;
+    }
+}
+
+TEST(ParameterTable, ANumberThatIsNoChoiceIsRefusedWithTheLabels) {
+    for (const int index : {-1, 2, std::numeric_limits<int>::max()}) {
+        FlowParameters parameters;
+        parameters.boundary = static_cast<BoundaryCondition>(index);
+        try {
+            validate(parameters);
+            ADD_FAILURE() << index << " was accepted";
+        } catch (const InvalidParameter& error) {
+            EXPECT_EQ(error.what(),
+                      "boundary is " + std::to_string(index) + "; give 0 to 1: Locked, Free.");
+        }
+    }
+}
+
+TEST(ParameterTable, ANameHasTheSameLabelInAllDialogs) {
+    for (const Parameter& noise : parameter_table<NoiseParameters>()) {
+        for (const Parameter& flow : parameter_table<FlowParameters>()) {
+            if (noise.name == flow.name) {
+                EXPECT_EQ(noise.label, flow.label) << noise.name;
+            }
+        }
+    }
 }
 
 }  // namespace
