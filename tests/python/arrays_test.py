@@ -239,8 +239,7 @@ class Runs(WithFolder):
             function = getattr(tracked_mcf, command.replace("-", "_"))
             names = set(inspect.signature(function).parameters) - {"vertices", "faces", "fixed", "progress"}
             tested = {name for run in table for name in runs.settings_of(command, run, 1)}
-            # These are to go.
-            self.assertEqual(names - {"local_detail_size", "step_size", "absolute", "cycles", "cubature"}, tested)
+            self.assertEqual(names, tested)
 
     def compare_reports(self, report, reported):
         """Times and memory differ from run to run."""
@@ -257,6 +256,7 @@ class Runs(WithFolder):
         # The advice of the last warning names options of the host.
         self.assertEqual(len(report.pop("warnings")), len(reported.pop("warnings")))
         self.assertEqual(report, reported)
+
 
 class Program(WithFolder):
     function, given = staticmethod(smooth), COARSE_OPTIONS
