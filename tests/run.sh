@@ -22,7 +22,8 @@ cmake -S . -B build -DTRACKED_MCF_TOOL=ON -DTRACKED_MCF_PLUGIN=ON -DTRACKED_MCF_
     "-DTRACKED_MCF_PYTHON=$PWD/build/python/bin/python" "${options[@]}"
 cmake --build build -j "$(nproc)"
 external/python_package.sh build/python build
-build/python/bin/python -m pip install -q trimesh # README's script needs it, and no Debian has it
+# README's script and the tests need them. PyVista takes VTK with it, 110 MB.
+build/python/bin/python -m pip install -q trimesh meshio pyvista
 ctest --test-dir build --output-on-failure -j "$(nproc)" "${arguments[@]}"
 # ctest does not tell why a test was skipped.
 grep -h '^skipped: ' build/Testing/Temporary/LastTest.log || true

@@ -4,8 +4,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/parameter_table.h"
 
@@ -150,21 +148,6 @@ TEST(CommandLine, OnlyAPlyHasPropertiesToSelectBy) {
     EXPECT_THAT(complaint({"a.ply", "b.obj", "--selected", ""}), HasSubstr("--selected"));
 }
 
-TEST(CommandLine, NegativeNumbersAndNotANumberReachTheFlowsOwnCheck) {
-    const auto detail_size = [](const char* text) {
-        return parse({"a.ply", "b.ply", "--detail-size", text}).lengths.at("detail_size").value;
-    };
-    EXPECT_EQ(detail_size("-1"), -1);
-    EXPECT_EQ(detail_size("-1%"), -1);
-    EXPECT_TRUE(std::isnan(detail_size("nan")));
-    EXPECT_TRUE(std::isinf(detail_size("inf%")));
-    EXPECT_EQ(parse({"a.ply", "b.ply", "--order", "-1"}).parameters.order, -1);
-    EXPECT_EQ(parse({"a.ply", "b.ply", "--step-size", "-1"}).parameters.step_size, -1);
-    EXPECT_TRUE(std::isnan(parse({"a.ply", "b.ply", "--step-size", "nan"}).parameters.step_size));
-    EXPECT_EQ(parse({"a.ply", "b.ply", "--depth", "-2"}).parameters.depth, -2);
-    EXPECT_TRUE(std::isnan(parse({"a.ply", "b.ply", "--tolerance", "nan"}).parameters.tolerance));
-}
-
 TEST(CommandLine, InvalidArgumentsAreNamed) {
     EXPECT_THAT(complaint({"a.ply"}), HasSubstr("OUTPUT is required"));
     EXPECT_THAT(complaint({"a.ply", "b.ply", "--iterations", "abc"}),
@@ -172,14 +155,8 @@ TEST(CommandLine, InvalidArgumentsAreNamed) {
     EXPECT_THAT(complaint({"a.ply", "b.ply", "--iterations", "2.5"}),
                 HasSubstr("--iterations = 2.5"));
     EXPECT_THAT(complaint({"a.ply", "b.ply", "--depth", "99999999999"}), HasSubstr("--depth"));
-    EXPECT_THAT(complaint({"a.ply", "b.ply", "--boundary", "open"}), HasSubstr("locked"));
-    EXPECT_THAT(complaint({"a.ply", "b.ply", "--flow", "x"}), HasSubstr("conformalized"));
-    EXPECT_THAT(complaint({"a.ply", "b.ply", "--preserve", "x"}), HasSubstr("volume"));
     EXPECT_THAT(complaint({"a.ply", "b.ply", "--rescale", "volume"}), HasSubstr("--rescale"));
-    EXPECT_THAT(complaint({"a.ply", "b.ply", "--order", "x"}), HasSubstr("--order = x"));
     EXPECT_THAT(complaint({"a.ply", "b.ply", "--order", "1.5"}), HasSubstr("--order = 1.5"));
-    EXPECT_THAT(complaint({"a.ply", "b.ply", "--method", "cg"}), HasSubstr("paper"));
-    EXPECT_THAT(complaint({"a.ply", "b.ply", "--tolerance", "x"}), HasSubstr("--tolerance = x"));
     EXPECT_THAT(complaint({"a.ply", "b.ply", "--speed", "2"}), HasSubstr("--speed"));
     EXPECT_THAT(complaint({"a.ply", "b.ply", "c.ply"}), HasSubstr("c.ply"));
     EXPECT_THAT(complaint({"a.ply", "b.ply", "--bad"}), HasSubstr("tracked_mcf --help"));

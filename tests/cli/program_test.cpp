@@ -9,8 +9,11 @@
 
 #include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/mesh/measures.h"
+#include "filter_tracked_mcf/core/parameter_table.h"
+#include "filter_tracked_mcf/hosts/cli/command_line.h"
 #include "filter_tracked_mcf/hosts/cli/mesh_file.h"
 #include "tests/cli/program_fixture.h"
+#include "tests/support/values_outside.h"
 
 namespace tracked_mcf {
 namespace {
@@ -370,40 +373,48 @@ TEST_F(Program, EmptyValuesAreRefused) {
     }
 }
 
+/// Runs the program with options that its command must refuse.
+template <class Parameters, class Run>
+void expect_refused_outside_the_ranges(const std::string& command, const Run& run) {
+    for (const ParameterOf<Parameters>& row : parameter_table<Parameters>()) {
+        std::vector<std::string> values = {"x"};
+        for (const ParameterValue& value : values_outside(row)) {
+            if (row.type == Parameter::Type::Choice) break;  // by name
+            std::ostringstream text;
+            std::visit([&](auto number) { text << number; }, value);
+            values.push_back(text.str());
+        }
+        const std::string option = option_of(row.name);
+        if (row.type == Parameter::Type::Switch) continue;
+        for (const std::string& value : values) {
+            std::ostringstream arguments;
+            arguments << command << " a.ply b.ply " << option << ' ' << value;
+            const ProgramRun result = run(arguments.str());
+            EXPECT_EQ(result.exit_code, 2) << arguments.str();
+            EXPECT_THAT(result.errors, HasSubstr(option)) << arguments.str();
+        }
+    }
+}
+
+TEST_F(Program, WhatIsOutsideTheRangesIsRefusedAndNamed) {
+    const auto run_here = [&](const std::string& arguments) { return run(arguments); };
+    write_file(folder_ / "a.ply",
+               "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+               "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
+               "property int flags\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 32\n");
+    expect_refused_outside_the_ranges<FlowParameters>("smooth", run_here);
+    expect_refused_outside_the_ranges<NoiseParameters>("remove-noise", run_here);
+    expect_refused_outside_the_ranges<FairParameters>("fair --selected flags", run_here);
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "b.ply"));
+}
+
 TEST_F(Program, WrongUseExitsWith2) {
-    for (const char* arguments : {"",
-                                  "a.off",
-                                  "a.off b.ply --depth 99",
-                                  "a.off b.ply --depth -1",
-                                  "a.off b.ply --iterations 0",
-                                  "a.off b.ply --iterations abc",
-                                  "a.off b.ply --detail-size -1",
-                                  "a.off b.ply --detail-size -1%",
-                                  "a.off b.ply --detail-size %",
-                                  "a.off b.ply --detail-size nan",
-                                  "a.off b.ply --detail-size inf%",
-                                  "a.off b.ply --detail-size",
-                                  "a.off b.ply --order 0",
-                                  "a.off b.ply --order 5",
-                                  "a.off b.ply --step-size -1e-5",
-                                  "a.off b.ply --step-size nan",
-                                  "a.off b.ply --step-size inf",
-                                  "a.off b.ply --threads -1",
-                                  "a.off b.ply --boundary x",
-                                  "a.off b.ply --flow x",
-                                  "a.off b.ply --preserve x",
-                                  "a.off b.ply --quality x",
-                                  "a.off b.off --quality displacement",
-                                  "a.off b.ply --method paper --flow conformalized",
-                                  "a.off b.ply --rescale volume",
-                                  "a.off b.ply --selected flags",
-                                  "a.off b.ply --method cg",
-                                  "a.off b.ply --tolerance 0",
-                                  "a.off b.ply --tolerance 1",
-                                  "a.off b.ply --tolerance nan",
-                                  "a.off b.xyz",
-                                  "a.off \"\"",
-                                  "a.off b.ply --report b.ply"}) {
+    for (const char* arguments :
+         {"", "a.off", "a.off b.ply --detail-size -1%", "a.off b.ply --detail-size %",
+          "a.off b.ply --detail-size inf%", "a.off b.ply --detail-size",
+          "a.off b.off --quality displacement", "a.off b.ply --method paper --flow conformalized",
+          "a.off b.ply --rescale volume", "a.off b.ply --selected flags", "a.off b.xyz",
+          "a.off \"\"", "a.off b.ply --report b.ply"}) {
         const ProgramRun result = run(arguments);
         EXPECT_EQ(result.exit_code, 2) << arguments;
         EXPECT_EQ(result.errors.substr(0, 13), "tracked_mcf: ") << arguments;

@@ -4,8 +4,8 @@
 
 same_bits.py OLD NEW MESH...
 
-Each mesh flows once for each set of options below, which together use every option. Prints a line
-for each difference, and the number of comparisons. Exits with 1 if anything differs. Use it before
+Makes all runs of tests/hosts/runs.py, which together use every parameter of every filter, for each PLY or OFF file.
+Prints a line for each difference, and the number of comparisons. Exits with 1 if anything differs. Use it before
 and after a change that should not change results.
 """
 
@@ -15,21 +15,10 @@ import subprocess
 import sys
 import tempfile
 
-OPTION_SETS = [
-    "--step-size 1e-5 --iterations 10",
-    "--depth 6 --step-size 1e-4 --iterations 3",
-    "--step-size 0.01 --absolute --iterations 2",
-    "--flow conformalized --step-size 1e-3 --iterations 4",
-    "--boundary free --step-size 1e-5 --iterations 3",
-    "--boundary free --flow conformalized --step-size 1e-2 --iterations 5",
-    "--method paper --step-size 1e-5 --iterations 3",
-    "--method paper --boundary free --cycles 2 --depth 6 --step-size 1e-5 --iterations 2",
-    "--tolerance 1e-6 --step-size 1e-5 --iterations 2",
-    "--method paper --cubature 1 --step-size 1e-5 --iterations 2",
-    "--method paper --cubature 12 --step-size 1e-5 --iterations 2 --depth 6",
-    "--threads 2 --step-size 1 --iterations 6",
-    "--step-size 5e-3 --iterations 20 --depth 6",
-]
+TESTS = next(folder for folder in pathlib.Path(__file__).resolve().parents if folder.name == "tests")
+sys.path.append(str(TESTS / "hosts"))
+import float_ply  # noqa: E402
+import runs  # noqa: E402
 
 NOT_RESULTS = ("seconds", "memory", "version", "input", "output", "cubature")
 
@@ -48,16 +37,25 @@ def numbers_of(report):
     return [report] if isinstance(report, (int, float)) else []
 
 
-def run(program, mesh, options, folder):
-    """What the program writes for a mesh: exit code, bytes and sorted numbers."""
+def run(program, command, options, folder):
+    """What the program writes for the mesh in.ply: exit code, bytes and sorted numbers."""
     output, report = folder / "out.ply", folder / "report.json"
     output.unlink(missing_ok=True)
     report.unlink(missing_ok=True)
-    command = [program, mesh, output, "--report", report, *options.split()]
-    done = subprocess.run(command, capture_output=True, check=False)
+    done = subprocess.run([program, command, folder / "in.ply", output, "--double", "--report", report, *options],
+                          capture_output=True, check=False)
     data = output.read_bytes() if output.exists() else b""
     numbers = numbers_of(json.loads(report.read_text())) if report.exists() else []
     return done.returncode, data, sorted(numbers)
+
+
+def options_of_runs(mesh, folder):
+    """Yields the command and the options of each run, after writing its mesh."""
+    shape = float_ply.read_mesh(mesh)
+    for command, table in runs.RUNS.items():
+        edge = runs.write_mesh(folder / "in.ply", command, *shape)
+        for words in table:
+            yield command, list(runs.program_options(runs.settings_of(command, words, edge)))
 
 
 def main():
@@ -66,14 +64,14 @@ def main():
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         for mesh in meshes:
-            for options in OPTION_SETS:
-                before, after = (run(program, mesh, options, folder) for program in (old, new))
+            for command, options in options_of_runs(mesh, folder):
+                before, after = (run(program, command, options, folder) for program in (old, new))
                 compared += 1
                 names = ("exit code", "bytes", "report")
                 unequal = [n for n, a, b in zip(names, before, after) if a != b]
                 if unequal:
                     different += 1
-                    print(f"{mesh} {options}: {', '.join(unequal)}")
+                    print(f"{mesh} {command} {' '.join(options)}: {', '.join(unequal)}")
     print(f"{compared} comparisons, {different} different")
     return 1 if different else 0
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Runs the plugin's filter on a PLY file in a host without a display:
-// apply_filter PLUGIN IN.ply OUT.ply [NAME=VALUE]...
+// Runs a filter of the plugin on a PLY file in a host without a display:
+// apply_filter PLUGIN FILTER IN.ply OUT.ply [NAME=VALUE]...
 //
 // Other parameters have the dialog's defaults. The value of a choice is its index. Prints the
 // host's log. Exits with 1 and the filter's message if the filter fails.
@@ -32,7 +32,8 @@ void read(const char* file, MeshModel& layer) {
 }
 
 void write(const char* file, MeshModel& layer) {
-    const int error = ExporterPLY<CMeshO>::Save(layer.cm, file);
+    const int error =
+        ExporterPLY<CMeshO>::Save(layer.cm, file, vcg::tri::io::Mask::IOM_VERTQUALITY);
     if (error != 0) throw std::runtime_error(ExporterPLY<CMeshO>::ErrorMsg(error));
 }
 
@@ -56,19 +57,21 @@ void print(const host::Outcome& outcome) {
 }
 
 void run(const QStringList& arguments) {
-    if (arguments.size() < 4) throw std::runtime_error("usage: PLUGIN IN.ply OUT.ply [NAME=VALUE]");
-    const host::Filter filter(arguments[1].toStdString());
+    if (arguments.size() < 5) {
+        throw std::runtime_error("usage: PLUGIN FILTER IN.ply OUT.ply [NAME=VALUE]...");
+    }
+    const host::Filter filter(arguments[1].toStdString(), arguments[2].toStdString());
     MeshDocument document;
     MeshModel& layer = host::add_layer(document, "layer");
-    read(qUtf8Printable(arguments[2]), layer);
+    read(qUtf8Printable(arguments[3]), layer);
     RichParameterList parameters = filter.parameters(document);
-    for (const QString& setting : arguments.mid(4)) {
+    for (const QString& setting : arguments.mid(5)) {
         set(parameters, setting.section('=', 0, 0), setting.section('=', 1));
     }
     const host::Outcome outcome = filter.apply(document, parameters);
     if (!outcome.succeeded) throw std::runtime_error(outcome.message);
     print(outcome);
-    write(qUtf8Printable(arguments[3]), layer);
+    write(qUtf8Printable(arguments[4]), layer);
 }
 
 }  // namespace

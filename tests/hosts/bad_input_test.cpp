@@ -7,7 +7,10 @@
 #include <limits>
 #include <utility>
 
+#include "filter_tracked_mcf/core/parameter_table.h"
+#include "filter_tracked_mcf/presentation/filter_names.h"
 #include "tests/hosts/plugin_fixture.h"
+#include "tests/support/values_outside.h"
 
 namespace tracked_mcf {
 
@@ -46,24 +49,9 @@ TEST_P(PluginRefuses, WithAMessageAndLeavesTheLayerUnchanged) {
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-/// Makes one parameter invalid.
-template <class ValueType, class Number>
-auto set(const char* name, Number value) {
-    return [=](MeshModel&, RichParameterList& list) { list.setValue(name, ValueType(value)); };
-}
-
-auto set_detail_size(float value) {
-    return
-        [=](MeshModel&, RichParameterList& list) { host::set_length(list, "detail_size", value); };
-}
-
 /// Makes one coordinate invalid.
 auto put(float value) {
     return [=](MeshModel& layer, RichParameterList&) { layer.cm.vert[17].P()[1] = value; };
-}
-
-auto set_choice(const char* name, int index) {
-    return [=](MeshModel&, RichParameterList& list) { list.setValue(name, *host::choice(index)); };
 }
 
 void remove_everything(MeshModel& layer, RichParameterList&) {
@@ -127,37 +115,53 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"InfiniteCoordinate", put(-kInfinity), "finite"},
         BadInput{"AllFacesDegenerate", flatten_every_face, "degenerate"},
         BadInput{"FaceWithoutAVertex", break_a_face, "does not exist"},
-        BadInput{"DepthNegative", set<IntValue>("depth", -1), "depth"},
-        BadInput{"DepthTooLarge", set<IntValue>("depth", 13), "depth"},
-        BadInput{"NoIterations", set<IntValue>("iterations", 0), "iterations"},
-        BadInput{"TooManyIterations", set<IntValue>("iterations", 1000001), "iterations"},
-        BadInput{"DetailSizeNegative", set_detail_size(-1.0f), "detail_size"},
-        BadInput{"DetailSizeNaN", set_detail_size(kNaN), "detail_size"},
-        BadInput{"DetailSizeInfinite", set_detail_size(kInfinity), "detail_size"},
         BadInput{"DetailSizeOfTheWrongType", replace<RichInt>("detail_size", 1), "detail_size"},
-        BadInput{"OrderZero", set<IntValue>("order", 0), "order is 0; give 1 to 4"},
-        BadInput{"OrderTooLarge", set<IntValue>("order", 5), "order is 5; give 1 to 4"},
         BadInput{"OrderOfTheWrongType", replace<RichBool>("order", true), "order is missing"},
-        BadInput{"StepSizeNegative", set<FloatValue>("step_size", -1e-5f), "step_size"},
-        BadInput{"StepSizeNaN", set<FloatValue>("step_size", kNaN), "step_size"},
-        BadInput{"StepSizeInfinite", set<FloatValue>("step_size", kInfinity), "step_size"},
-        BadInput{"BoundaryTooLarge", set_choice("boundary", 2), "boundary"},
-        BadInput{"BoundaryNegative", set_choice("boundary", -1), "boundary"},
-        BadInput{"FlowTooLarge", set_choice("flow", 2), "flow"},
-        BadInput{"FlowNegative", set_choice("flow", -1), "flow"},
-        BadInput{"PreserveTooLarge", set_choice("preserve", 3), "preserve"},
-        BadInput{"PreserveNegative", set_choice("preserve", -1), "preserve"},
-        BadInput{"QualityTooLarge", set_choice("quality", 3), "quality"},
-        BadInput{"QualityNegative", set_choice("quality", -1), "quality"},
         BadInput{"NothingSelected", select_nothing, "No face is selected"},
         BadInput{"AreaOfASelection", preserve_the_area_of_a_selection, "Preserving the area"},
         BadInput{"ConformalizedOpenVolume", conformalize_an_open_volume, "open"},
         BadInput{"VolumeOfATurnedFace", preserve_the_volume_of_a_turned_face, "oriented"},
         BadInput{"SelectedOfTheWrongType", replace<RichInt>("selected", 1), "selected"},
-        BadInput{"MethodTooLarge", set_choice("method", 2), "method"},
-        BadInput{"MethodNegative", set_choice("method", -1), "method"},
         BadInput{"DepthOfTheWrongType", replace<RichFloat>("depth", 5.0F), "depth"}),
     [](const auto& test) { return std::string(test.param.name); });
+
+/// Sets a parameter to a value of its type.
+void set(RichParameterList& list, const Parameter& row, const ParameterValue& value) {
+    const QString name = QString::fromStdString(row.name);
+    if (row.type == Parameter::Type::Choice) {
+        list.setValue(name, *host::choice(std::get<int>(value)));
+    } else if (row.type == Parameter::Type::Integer) {
+        list.setValue(name, IntValue(std::get<int>(value)));
+    } else if (row.type == Parameter::Type::Length) {
+        host::set_length(list, name, static_cast<float>(std::get<double>(value)));
+    } else {
+        list.setValue(name, FloatValue(static_cast<float>(std::get<double>(value))));
+    }
+}
+
+template <class Parameters>
+void expect_refused_outside_the_ranges(MeshDocument& document) {
+    const host::Filter filter(TRACKED_MCF_PLUGIN_FILE, kNames<Parameters>.name);
+    const auto before = position_bits(*document.mm());
+    for (const ParameterOf<Parameters>& row : parameter_table<Parameters>()) {
+        if (row.label.empty()) continue;
+        for (const ParameterValue& value : values_outside(row)) {
+            RichParameterList parameters = filter.parameters(document);
+            set(parameters, row, value);
+            const host::Outcome outcome = filter.apply(document, parameters);
+            EXPECT_FALSE(outcome.succeeded) << row.name;
+            EXPECT_EQ(outcome.message.rfind(row.name + " is ", 0), 0U) << outcome.message;
+            EXPECT_TRUE(contains(outcome.message, row.label)) << outcome.message;
+        }
+    }
+    EXPECT_EQ(position_bits(*document.mm()), before);
+}
+
+TEST_F(Plugin, WhatIsOutsideTheRangesIsRefusedAndNamed) {
+    expect_refused_outside_the_ranges<FlowParameters>(document);
+    expect_refused_outside_the_ranges<NoiseParameters>(document);
+    expect_refused_outside_the_ranges<FairParameters>(document);
+}
 
 }  // namespace
 

@@ -181,47 +181,6 @@ TEST_F(Plugin, MovesPositionsAndNothingElse) {
     EXPECT_TRUE(contains(outcome.log, "1800 vertices")) << outcome.log;
 }
 
-TEST_F(Plugin, EveryParameterHasAnEffect) {
-    const auto original = layer.cm.vert;
-    const auto smoothed = [&] {
-        for (std::size_t i = 0; i < original.size(); ++i) layer.cm.vert[i].P() = original[i].cP();
-        EXPECT_TRUE(apply()) << outcome.message;
-        return position_bits(layer);
-    };
-    const auto by_default = smoothed();
-    EXPECT_EQ(smoothed(), by_default);
-    const auto after = [&](const auto& change) {
-        const RichParameterList defaults = parameters;
-        change();
-        auto result = smoothed();
-        parameters = defaults;
-        return result;
-    };
-    const auto with = [&](const char* name, const Value& value) {
-        return after([&] { parameters.setValue(name, value); });
-    };
-    const auto with_detail_size_1 = [&] {
-        return after([&] { host::set_length(parameters, "detail_size", 1); });
-    };
-    EXPECT_NE(with_detail_size_1(), by_default);
-    EXPECT_NE(with("order", IntValue(1)), by_default);
-    EXPECT_EQ(with("order", IntValue(2)), by_default);
-    EXPECT_NE(with("order", IntValue(3)), with("order", IntValue(2)));
-    EXPECT_NE(with("order", IntValue(4)), with("order", IntValue(3)));
-    EXPECT_NE(with("depth", IntValue(3)), by_default);
-    EXPECT_NE(with("iterations", IntValue(1)), by_default);
-    EXPECT_NE(with("flow", *host::choice(1)), by_default);
-    EXPECT_NE(with("selected", BoolValue(true)), by_default);
-    EXPECT_NE(with("preserve", *host::choice(1)), by_default);
-    EXPECT_NE(with("preserve", *host::choice(2)), by_default);
-    EXPECT_NE(with("preserve", *host::choice(2)), with("preserve", *host::choice(1)));
-    EXPECT_NE(with("method", *host::choice(1)), by_default);
-    const auto by_step_size = with("step_size", FloatValue(1e-4f));
-    EXPECT_NE(by_step_size, by_default);
-    parameters.setValue("step_size", FloatValue(1e-4f));
-    EXPECT_EQ(with_detail_size_1(), by_step_size) << "the step size replaces it";
-}
-
 TEST_F(Plugin, WritesTheQualityThatIsAskedFor) {
     const auto quality = [&] {
         std::vector<double> numbers;
@@ -265,18 +224,6 @@ TEST_F(Plugin, TakesTheStrengthFromTheQuality) {
     ASSERT_FALSE(apply());
     EXPECT_TRUE(contains(outcome.message, "The strength of vertex 5 is 2.")) << outcome.message;
     EXPECT_EQ(position_bits(layer), after);
-}
-
-TEST_F(Plugin, EveryBoundaryHasAnEffectOnAnOpenMesh) {
-    delete_first_vertex(layer);
-    const auto original = layer.cm.vert;
-    const auto with_boundary = [&](int boundary) {
-        for (std::size_t i = 0; i < original.size(); ++i) layer.cm.vert[i].P() = original[i].cP();
-        parameters.setValue("boundary", *host::choice(boundary));
-        EXPECT_TRUE(apply()) << outcome.message;
-        return position_bits(layer);
-    };
-    EXPECT_NE(with_boundary(0), with_boundary(1));
 }
 
 TEST_F(Plugin, SelectedIsOnAtFirstIfFacesAreSelected) {

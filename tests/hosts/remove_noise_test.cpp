@@ -146,25 +146,6 @@ TEST_F(RemoveNoise, UsesTheSelectionTheStrengthAndTheQuality) {
     EXPECT_GT(std::count_if(layer.cm.vert.begin(), layer.cm.vert.end(), moved), 1700);
 }
 
-TEST_F(RemoveNoise, RefusesBadParametersAndNamesTheirLabels) {
-    const auto before = position_bits(layer);
-    parameters.setValue("crease_angle", FloatValue(200));
-    EXPECT_FALSE(apply());
-    EXPECT_TRUE(contains(outcome.message, "crease_angle is 200")) << outcome.message;
-    EXPECT_TRUE(contains(outcome.message, "Keep creases above")) << outcome.message;
-    EXPECT_EQ(position_bits(layer), before);
-}
-
-TEST(ParameterTables, ANameHasTheSameLabelInAllDialogs) {
-    for (const Parameter& noise : parameter_table<NoiseParameters>()) {
-        for (const Parameter& flow : parameter_table<FlowParameters>()) {
-            if (noise.name == flow.name) {
-                EXPECT_EQ(noise.label, flow.label) << noise.name;
-            }
-        }
-    }
-}
-
 }  // namespace
 
 }  // namespace tracked_mcf

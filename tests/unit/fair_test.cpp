@@ -403,9 +403,6 @@ TEST(Fair, RefusesWhatItCannotContinue) {
     Selection one(count, 0);
     one[0] = 1;
     EXPECT_THROW(fair(mesh, Selection(3, 1), {}), InvalidParameter);
-    FairParameters parameters;
-    parameters.threads = -1;
-    EXPECT_THROW(fair(mesh, one, parameters), InvalidParameter);
     mesh.positions[0][0] = std::numeric_limits<double>::quiet_NaN();
     EXPECT_THROW(fair(mesh, one, {}), InvalidMesh);
 }

@@ -40,19 +40,10 @@ refuses "no faces" no_faces
 refuses "not a finite number" nan
 refuses "not a finite number" infinite
 refuses "are degenerate" degenerate
-refuses "depth is -1" good depth=-1
 refuses "depth is 13" good depth=13
-refuses "iterations is 0" good iterations=0
-refuses "detail_size is -" good detail_size=-1
 refuses "detail_size is nan" good detail_size=nan
-refuses "detail_size is inf" good detail_size=inf
-refuses "step_size is -" good step_size=-1e-5
-refuses "step_size is nan" good step_size=nan
-refuses "step_size is inf" good step_size=inf
-for choice in order={0,5} {flow=2,boundary=3,preserve=3,method=3} \
-    {flow,boundary,preserve,method}=-1; do
-    refuses "${choice/=/ is }" good $choice
-done
+refuses "order is 5" good order=5
+refuses "flow is -1" good flow=-1
 refuses "No face is selected; select" good selected=true
 refuses "No face is selected; select" good --select "x0 > 5"
 refuses "surface is open" good flow=1 boundary=1 preserve=2

@@ -24,7 +24,7 @@ Eigen::Vector3d rounded(const Eigen::Vector3d& position) {
     return (steps_per_cell * position).array().round() / steps_per_cell;
 }
 
-unsigned corners_of(const Polygon& polygon) {
+unsigned corners_in(const Polygon& polygon) {
     unsigned corners = 0;
     for (int i = 0; i < polygon.size; ++i) {
         if (polygon.corner[i] != Polygon::kNone) corners |= 1U << polygon.corner[i];
@@ -32,7 +32,7 @@ unsigned corners_of(const Polygon& polygon) {
     return corners;
 }
 
-unsigned edges_of(const Polygon& polygon) {
+unsigned edges_in(const Polygon& polygon) {
     unsigned edges = 0;
     for (int i = 0; i < polygon.size; ++i) {
         if (polygon.edge[i] != Polygon::kNone &&
@@ -52,8 +52,8 @@ void add_fragments(const std::array<Eigen::Vector3d, 3>& corners, std::int32_t t
         fragment.cell = morton_code(cell) & kCellBits;
         fragment.split_triangles =
             degenerate ? 0U : static_cast<unsigned>(std::max(polygon.size - 2, 0)) & kCountBits;
-        fragment.corners = corners_of(polygon) & kFlagBits;
-        fragment.edges = edges_of(polygon) & kFlagBits;
+        fragment.corners = corners_in(polygon) & kFlagBits;
+        fragment.edges = edges_in(polygon) & kFlagBits;
         fragment.triangle = triangle;
         fragments.push_back(fragment);
         pacer.did(kItemsPerFragment);

@@ -1,17 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tests the code of the plugin that needs no host: it converts the values that hosts pass.
+// Tests summaries and warnings.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <exception>
-#include <limits>
-#include <map>
-
-#include "filter_tracked_mcf/core/errors.h"
-#include "filter_tracked_mcf/core/parameter_table.h"
-#include "filter_tracked_mcf/hosts/meshlab/run_filter.h"
 #include "filter_tracked_mcf/presentation/flow_warnings.h"
 #include "filter_tracked_mcf/presentation/noise_warnings.h"
 #include "filter_tracked_mcf/presentation/report_table.h"
@@ -23,95 +15,6 @@ namespace {
 
 using ::testing::EndsWith;
 using ::testing::HasSubstr;
-
-TEST(ParameterTable, NamesTheValuesOfEachChoiceInTheirOrder) {
-    const std::map<std::string, std::pair<ParameterValue, std::string>> labels = {
-        {"flow", {static_cast<int>(FlowKind::Conformalized), "Conformalized"}},
-        {"boundary", {static_cast<int>(BoundaryCondition::Free), "Free"}},
-        {"preserve", {static_cast<int>(Preserve::Volume), "Volume"}},
-        {"quality", {static_cast<int>(Quality::MeanCurvature), "Mean curvature"}},
-        {"method", {static_cast<int>(Method::Paper), "Paper"}}};
-    for (const auto& parameter : parameter_table<FlowParameters>()) {
-        if (parameter.type != Parameter::Type::Choice || parameter.label.empty()) continue;
-        const auto& [value, label] = labels.at(parameter.name);
-        EXPECT_EQ(parameter.choices.at(static_cast<std::size_t>(std::get<int>(value))).label,
-                  label);
-        FlowParameters parameters;
-        parameter.set(parameters, value);
-        EXPECT_EQ(parameter.get(parameters), value) << parameter.name;
-    }
-}
-
-TEST(ParameterTable, ANumberThatIsNoChoiceIsRefusedWithTheLabels) {
-    for (const int index : {-1, 2, std::numeric_limits<int>::max()}) {
-        FlowParameters parameters;
-        parameters.boundary = static_cast<BoundaryCondition>(index);
-        try {
-            validate(parameters);
-            ADD_FAILURE() << index << " was accepted";
-        } catch (const InvalidParameter& error) {
-            EXPECT_EQ(error.what(),
-                      "boundary is " + std::to_string(index) + "; give 0 to 1: Locked, Free.");
-        }
-    }
-}
-
-/// Returns the message of a filter that fails with this error.
-template <class Error>
-std::string message_of(const Error& error) {
-    const FilterOutcome outcome =
-        guard([&]() -> FilterOutcome { std::rethrow_exception(std::make_exception_ptr(error)); });
-    EXPECT_FALSE(outcome.succeeded);
-    return outcome.message;
-}
-
-TEST(Guard, AMessageAboutAParameterSaysItsLabel) {
-    EXPECT_EQ(message_of(InvalidParameter("depth", "is 13; give 0 to 12.", 13)),
-              "depth is 13; give 0 to 12. In the dialog it is \"Octree depth (expert)\".");
-    EXPECT_EQ(message_of(InvalidParameter("threads", "is -1; give more.", -1)),
-              "threads is -1; give more.");
-    EXPECT_EQ(message_of(InvalidMesh("depth is no word of this.")), "depth is no word of this.");
-}
-
-TEST(Guard, AZeroMayBeANumberThatMeshLabCouldNotRead) {
-    EXPECT_EQ(message_of(InvalidParameter("iterations", "is 0; give 1 to 9.", 0)),
-              "iterations is 0; give 1 to 9. In the dialog it is \"Smoothing steps\". MeshLab "
-              "reads a number with a decimal comma as 0: use a point.");
-}
-
-TEST(Outputs, AreAllNumbersOfTheReport) {
-    using run_filter_detail::outputs_of;
-    FlowReport report;
-    report.detail_size = 0.5;
-    report.unknowns = 1234;
-    report.volume_change = -1.5;
-    report.steps.resize(3);
-    report.peak_memory_bytes = std::int64_t{1} << 40;
-    const Outputs outputs = outputs_of(report);
-    EXPECT_EQ(outputs.at("detail_size"), Outputs::mapped_type(0.5));
-    EXPECT_EQ(outputs.at("unknowns"), Outputs::mapped_type(1234));
-    EXPECT_EQ(outputs.at("iterations"), Outputs::mapped_type(3));
-    EXPECT_EQ(outputs.at("stopped_early"), Outputs::mapped_type(0));
-    EXPECT_EQ(outputs.at("converged"), Outputs::mapped_type(1));
-    EXPECT_EQ(outputs.at("volume_change"), Outputs::mapped_type(-1.5));
-    EXPECT_TRUE(std::isnan(std::get<double>(outputs.at("volume_before"))));
-    EXPECT_EQ(outputs.at("peak_memory_bytes"), Outputs::mapped_type(std::pow(2.0, 40)));
-    EXPECT_EQ(outputs.count("stop") + outputs.count("steps"), 0U) << "they are no numbers";
-    EXPECT_EQ(outputs.size(), report_table<FlowReport>().size() - 2);
-}
-
-TEST(Message, NamesTheFirstStepAboveTheToleranceAndTheRemedy) {
-    using run_filter_detail::message_of;
-    FlowReport report;
-    report.steps.resize(5);
-    EXPECT_EQ(message_of(FlowParameters(), report).find("Warning"), std::string::npos);
-    report.steps[3].reached_tolerance = false;
-    report.steps[3].error_estimate = 0.02;
-    report.steps[3].solver_iterations = 100;
-    EXPECT_THAT(message_of(FlowParameters(), report),
-                HasSubstr("\nWarning: The solver stopped short of the tolerance 0.001 in 1 of 5 "
-                          "steps: step 4, at 0.02 after 100 iterations. Look at the result; "));
-}
 
 TEST(Summary, HasAFactInEachLine) {
     FlowParameters parameters;
@@ -257,24 +160,6 @@ TEST(NoiseWarnings, SayWhyNothingWasRemovedAndWhatToDo) {
     EXPECT_THAT(warning(report), HasSubstr("33 pairs of rim vertices are up to 0.0002 apart"));
 }
 
-TEST(DefaultDetailSize, IsThatOfTheSelectedTriangles) {
-    using run_filter_detail::default_detail_size_or_zero;
-    const TriangleMesh mesh = {{{0, 0, 0}, {3, 0, 0}, {0, 4, 0}, {0, 4, 6}},
-                               {{0, 1, 2}, {0, 2, 3}}};
-    const double second = 10 + std::sqrt(52);
-    EXPECT_DOUBLE_EQ(default_detail_size_or_zero(mesh, {1, 0}), kDefaultDetailInEdges * 4);
-    EXPECT_DOUBLE_EQ(default_detail_size_or_zero(mesh, {}),
-                     kDefaultDetailInEdges * (12 + second) / 6);
-}
-
-TEST(DefaultDetailSize, OfAMeshThatCannotFlowIsZero) {
-    using run_filter_detail::default_detail_size_or_zero;
-    EXPECT_EQ(default_detail_size_or_zero({}, {}), 0);
-    EXPECT_EQ(default_detail_size_or_zero({{{0, 0, 0}, {1, 0, 0}, {0, NAN, 0}}, {{0, 1, 2}}}, {}),
-              0);
-    EXPECT_EQ(default_detail_size_or_zero({{{0, 0, 0}}, {{0, 1, 2}}}, {}), 0);
-}
-
 TEST(EarlyStop, NamesTheStepTheReasonAndTheRemedy) {
     FlowParameters parameters;
     parameters.iterations = 10;
@@ -374,25 +259,6 @@ TEST(Warnings, TellOfALimitedStepAFineDetailAndASuddenLoss) {
     EXPECT_EQ(warnings()[0],
               "Step 2 removed 12 % of the area. If that is more than noise, take a smaller detail "
               "size, or a greater order to keep the shape.");
-}
-
-TEST(Guard, TurnsEveryExceptionIntoAMessage) {
-    const auto work = [] { return FilterOutcome{true, "done", {{"depth", 5}}}; };
-    const FilterOutcome done = guard(work);
-    EXPECT_TRUE(done.succeeded);
-    EXPECT_EQ(done.message, "done");
-    EXPECT_EQ(done.outputs.size(), 1u);
-    EXPECT_EQ(message_of(InvalidMesh("No faces.")), "No faces.");
-    EXPECT_NE(message_of(std::bad_alloc()).find("memory"), std::string::npos);
-    EXPECT_FALSE(message_of(42).empty());
-}
-
-TEST(Progress, IsInPercentAndStopsWhenTheHostAsks) {
-    EXPECT_FALSE(as_progress(nullptr));
-    const Progress progress = as_progress(
-        +[](int percent, const char* phase) { return percent == 50 && phase == std::string("x"); });
-    EXPECT_TRUE(progress(0.5, std::string_view("xyz").substr(0, 1)));
-    EXPECT_FALSE(progress(1.0, "x"));
 }
 
 }  // namespace

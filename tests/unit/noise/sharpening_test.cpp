@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "filter_tracked_mcf/core/noise/sharpening.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/unit/noise/noisy.h"
+
+namespace tracked_mcf {
+namespace {
+
+constexpr double kAnywhere = std::numeric_limits<double>::infinity();
+const Sharpening kBilateral = {0.4, 5};
+
+TEST(Sharpening, KeepsACube) {
+    const NoisySurface surface = surface_of_mesh(cube());
+    Positions positions = surface.positions;
+    sharpen(surface, kBilateral, kAnywhere, confinement(positions), positions);
+    for (std::size_t i = 0; i < positions.size(); ++i)
+        EXPECT_LT((positions[i] - surface.positions[i]).norm(), 1e-12) << i;
+}
+
+TEST(Sharpening, LeavesAPlaneFlatAndItsFixedVerticesWhereTheyAre) {
+    NoisySurface surface = surface_of_mesh(shapes::square(10));
+    surface.fidelity[17] = 0;
+    Positions positions = surface.positions;
+    positions[17][2] += 0.1;
+    const Eigen::Vector3d fixed = positions[17];
+    sharpen(surface, kBilateral, kAnywhere, confinement(positions), positions);
+    EXPECT_EQ(positions[17], fixed);
+}
+
+TEST(Sharpening, TurnsTheNormalsOfANoisyCubeTowardsItsFaces) {
+    const NoisySurface surface = surface_of_mesh(with_noise(cube(), 0.1));
+    Positions positions = surface.positions;
+    const auto error = [&] {
+        double squares = 0;
+        for (const Triangle& t : surface.stars.triangles) {
+            const auto [a, b, c] = corners_of(positions, t);
+            const double cosine = twice_vector_area(a, b, c).normalized().cwiseAbs().maxCoeff();
+            squares += 1 - cosine * cosine;
+        }
+        return std::sqrt(squares);
+    };
+    Smoothing smoothing(surface);
+    ASSERT_TRUE(smoothing.step({5, 1, 2, kAnywhere}, confinement(positions), positions));
+    const double before = error();
+    sharpen(surface, {0.4, 10}, kAnywhere, confinement(surface.positions), positions);
+    EXPECT_LT(error(), 0.5 * before);
+}
+
+}  // namespace
+}  // namespace tracked_mcf
