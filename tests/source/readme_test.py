@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tests that README's marked numbers are those of the kept pages of tests/research.
+"""Tests that the marked numbers of README and of the page "How good is it?" are those of the kept pages of tests/research.
 
 A comment follows one number, or several that are separated by commas or a table's lines: <!-- PAGE; NAME; NAME... -->.
 PAGE is a file of tests/research. Names that are heads of one of its tables select columns, the others must all be cells of
@@ -58,10 +58,12 @@ def problems_of(readme):
 
 class ReadmeTest(unittest.TestCase):
     def test_marked_numbers_are_those_of_the_pages(self):
-        readme = (TOP / "README.md").read_text(encoding="utf-8")
-        self.assertGreater(len(MARKED.findall(readme)), 0)
-        self.assertEqual(len(MARKED.findall(readme)), readme.count(".md; "), "a comment follows no number")
-        self.assertEqual(problems_of(readme), [])
+        for name in "README.md", "tests/research/how_good.md":
+            with self.subTest(name):
+                page = (TOP / name).read_text(encoding="utf-8")
+                self.assertGreater(len(MARKED.findall(page)), 0)
+                self.assertEqual(len(MARKED.findall(page)), page.count(".md; "), "a comment follows no number")
+                self.assertEqual(problems_of(page), [])
 
     def test_finds_wrong_numbers(self):
         right = "7,993 <!-- meshes.md; `hand_8k`; vertices, faces -->"
