@@ -31,7 +31,7 @@ double progress_before(int step, int iterations) {
 void check_no_inputs(const Inputs& inputs) {
     if (inputs.selection.empty() && inputs.strength.empty()) return;
     throw InvalidParameter("method",
-                           "is Paper, which smooths all faces alike, without a selection or a "
+                           "is Paper, which smooths all faces in the same way, without a selection or a "
                            "strength of vertices; take the method Converged.");
 }
 

@@ -47,7 +47,7 @@ struct FilterReport {
 struct SmoothingReport : FilterReport {
     std::int64_t boundary_edges = 0;
     std::int64_t held_vertices = 0;  ///< of the vertices, those that keep their bits
-    /// Waves of this length keep half of their height, mesh units; 0 if there was nothing to do.
+    /// Bumps of this size became half as high, mesh units; 0 if there was nothing to do.
     double detail_size = 0;
 };
 

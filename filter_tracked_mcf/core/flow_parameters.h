@@ -45,7 +45,7 @@ enum class Method {
     Paper
 };
 
-/// What a flow measures at each vertex, beside moving it.
+/// What a flow measures at each vertex, besides moving it.
 enum class Quality {
     None,
     /// How far the vertex has moved along the normal of the result, mesh units.

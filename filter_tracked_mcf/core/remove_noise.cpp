@@ -20,7 +20,7 @@ namespace tracked_mcf {
 
 namespace {
 
-/// Bytes for each vertex and each triangle, beside the mesh.
+/// Bytes for each vertex and each triangle, besides the mesh.
 constexpr double kBytesPerVertex = 450, kBytesPerTriangle = 90;
 
 void check_memory(const TriangleMesh& mesh) {

@@ -255,7 +255,7 @@ std::vector<ReportRow<NoiseReport>> noise_rows() {
         .add("bounded_vertices", &NoiseReport::bounded_vertices, Unit::None,
              "vertices that stopped at the largest movement")
         .add("shrunken_parts", &NoiseReport::shrunken_parts, Unit::None,
-             "connected parts that have lost more than 3 % of their area or volume, beside their "
+             "connected parts that have lost more than 3 % of their area or volume, besides their "
              "noise")
         .add("lost_area", &NoiseReport::lost_area, Unit::Share,
              "the largest share of its area that a part has lost")

@@ -53,7 +53,7 @@ struct ReportRow : ReportKey {
     std::function<ReportValue(const Report&)> value;
 };
 
-/// Returns all that the reports of a filter, or of a step of a flow, have beside parameters and
+/// Returns all that the reports of a filter, or of a step of a flow, have besides parameters and
 /// warnings. A key has the same meaning in all reports.
 ///
 /// To add a number, add a member to the report and a row to the table. The program's report,

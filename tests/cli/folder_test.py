@@ -52,7 +52,8 @@ class Folder(unittest.TestCase):
         self.folder = pathlib.Path(folder.name)
         self.meshes, self.output = self.folder / "all scans", self.folder / "smooth"
         self.meshes.mkdir()
-        for name, height in (("1.off", 1), ("two words.OFF", 2), ("killed.off", 3)):
+        (self.meshes / "sub").mkdir()
+        for name, height in (("1.off", 1), ("sub/two words.OFF", 2), ("killed.off", 3)):
             (self.meshes / name).write_text(MESH.format(height=height), encoding="ascii")
 
     @contextlib.contextmanager
@@ -76,7 +77,11 @@ class Folder(unittest.TestCase):
         return done.returncode, done.stderr
 
     def outputs(self):
-        return {path.name: (path.stat().st_ino, path.read_bytes()) for path in self.output.iterdir()}
+        """Returns the meshes by name. Each must have a report."""
+        found = {str(path.relative_to(self.output)): path for path in self.output.rglob("*") if path.is_file()}
+        reports = {name for name in found if name.endswith(".json")}
+        self.assertEqual({f"{name}.json" for name in found.keys() - reports}, reports)
+        return {name: (found[name].stat().st_ino, found[name].read_bytes()) for name in found.keys() - reports}
 
     def test_a_second_run_makes_what_has_failed(self):
         wrapper = self.folder / "bin" / "tracked_mcf"
@@ -90,7 +95,7 @@ class Folder(unittest.TestCase):
         self.assertRegex(messages, r"(?m)^broken.off: tracked_mcf: .*broken.off cannot be used.* \(failed, exit code 1\)$")
         self.assertRegex(messages, r"(?m)^killed.off:  \(failed, exit code (137|-9)\)$")
         first = self.outputs()
-        self.assertEqual(set(first), {"1.off", "two words.OFF"}, messages)
+        self.assertEqual(set(first), {"1.off", "sub/two words.OFF"}, messages)
 
         (self.meshes / "broken.off").write_text(MESH.format(height=4), encoding="ascii")
         code, messages = self.smooth()
@@ -110,6 +115,13 @@ class Folder(unittest.TestCase):
                            check=True)
             self.assertEqual(data, (self.folder / "expected.off").read_bytes())
         self.assertEqual(len(self.outputs()), 3)
+
+    def test_leaves_out_an_output_that_lies_among_the_meshes(self):
+        self.output = self.meshes / "smooth"
+        for _ in range(2):
+            code, messages = self.smooth()
+            self.assertEqual(code, 0, messages)
+            self.assertEqual(set(self.outputs()), {"1.off", "sub/two words.OFF", "killed.off"})
 
     def test_each_worker_has_its_share_of_the_memory(self):
         """A flow at depth 10 needs more than 2 GB."""

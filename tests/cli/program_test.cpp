@@ -70,8 +70,8 @@ TEST_F(Program, AMisspeltCommandIsNamed) {
           std::pair{"Fair", "fair"}, std::pair{"smoth", "smooth"}}) {
         const ProgramRun result = run(std::string(typed) + " a.off b.ply");
         EXPECT_EQ(result.exit_code, 2);
-        EXPECT_EQ(result.errors, "tracked_mcf: " + std::string(typed) +
-                                     " is no command; do you mean " + meant + "?\n");
+        EXPECT_EQ(result.errors, "tracked_mcf: unknown command " + std::string(typed) +
+                                     "; did you mean " + meant + "?\n");
     }
     write_file(folder_ / "fair.off", kTetrahedron);
     EXPECT_EQ(run("fair.off b.ply --quiet").exit_code, 0) << "a file may have the name";

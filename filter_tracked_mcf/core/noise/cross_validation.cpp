@@ -226,7 +226,7 @@ private:
         });
     }
 
-    /// Returns the treatments beside the best one that suit some places of the sample better.
+    /// Returns the treatments besides the best one that suit some places of the sample better.
     std::vector<Treatment> others(double noise) {
         if (wishes_.crease > 0 && !wishes_.is_quick) {
             for (const double ratio : {1 / kBetweenStepSizes, kBetweenStepSizes}) {

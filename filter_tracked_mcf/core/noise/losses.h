@@ -7,7 +7,7 @@
 
 namespace tracked_mcf {
 
-/// What connected parts of a surface have lost, beside their noise.
+/// What connected parts of a surface have lost, besides their noise.
 struct Losses {
     std::int64_t parts = 0;  ///< number of parts that have lost too much
     double area = 0;         ///< largest share of a part's area

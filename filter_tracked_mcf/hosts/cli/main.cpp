@@ -148,7 +148,7 @@ void refuse_misspelt_command(const std::string& word) {
     for (const Command& command : kCommands) names.emplace_back(command.name);
     const std::string nearest = nearest_name(word, names);
     if (nearest.empty()) return;
-    throw InvalidParameter(word + " is no command; do you mean " + nearest + "?");
+    throw InvalidParameter("unknown command " + word + "; did you mean " + nearest + "?");
 }
 
 /// Does what the arguments ask.

@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Smooths the meshes of a folder that another folder does not have yet, or removes their noise:
-# smooth_folder.sh INPUT OUTPUT [remove-noise] [OPTION]...
+# Smooths the meshes of a folder and its subfolders that another folder does not have yet, or removes their noise:
+# smooth_folder.sh INPUT OUTPUT [smooth|remove-noise|fair] [OPTION]...
 #
-# Runs the program tracked_mcf, which must be in the PATH, on each mesh. OPTIONs go to the program. Variables:
+# Runs the program tracked_mcf, which must be in the PATH, on each mesh, and writes the mesh and its report, NAME.json, under
+# the same name. OPTIONs go to the program. Variables:
 #   WORKERS  meshes at the same time; by default, as many as cores
 #   THREADS  of each worker; by default, the workers share the cores
 #   MEMORY   of all workers, in MB; by default, what is free. Each worker may have an equal share
@@ -15,7 +16,7 @@ set -euo pipefail
 input=$1 output=$2
 shift 2
 export COMMAND=
-[ "${1:-}" != remove-noise ] || { COMMAND=$1 && shift; }
+[[ ! ${1:-} =~ ^(smooth|remove-noise|fair)$ ]] || { COMMAND=$1 && shift; }
 mkdir -p "$output"
 [ ! "$input" -ef "$output" ] || { echo "smooth_folder.sh: INPUT and OUTPUT are the same folder." >&2 && exit 1; }
 cores=$(nproc) workers=${WORKERS:-$cores}
@@ -24,14 +25,17 @@ memory=${MEMORY:-$(awk '/^MemAvailable:/ { print int($2 / 1024) }' /proc/meminfo
 # The program refuses a flow that needs more than this limit leaves.
 ulimit -d $((memory * 1024 / workers))
 
-smooth() { # MESH OUTPUT [OPTION]...
-    local name=${1##*/} messages status=0
-    [ ! -e "$2/$name" ] || return 0
-    messages=$(tracked_mcf $COMMAND "$1" "$2/$name" --quiet --threads "$THREADS" "${@:3}" 2>&1) || status=$?
+smooth() { # NAME INPUT OUTPUT [OPTION]...
+    local target=$3/$1 messages status=0
+    [ ! -e "$target" ] || return 0
+    mkdir -p "$(dirname "$target")"
+    messages=$(tracked_mcf $COMMAND "$2/$1" "$target" --quiet --threads "$THREADS" --report "$target.json" "${@:4}" 2>&1) ||
+        status=$?
     [ "$status" = 0 ] || messages+=" (failed, exit code $status)"
-    [ -z "$messages" ] || echo "$name: $messages" >&2
+    [ -z "$messages" ] || echo "$1: $messages" >&2
     [ "$status" = 0 ]
 }
 export -f smooth
-find "$input" -maxdepth 1 -type f -iregex '.*\.\(ply\|obj\|off\|stl\)' -print0 |
-    xargs -0 -P "$workers" -I '{}' bash -c 'smooth "$@"' smooth '{}' "$output" "$@" || exit 1
+# OUTPUT may lie in INPUT.
+find "$input" -type d -samefile "$output" -prune -o -type f -iregex '.*\.\(ply\|obj\|off\|stl\)' -printf '%P\0' |
+    xargs -0 -P "$workers" -I '{}' bash -c 'smooth "$@"' smooth '{}' "$input" "$output" "$@" || exit 1

@@ -79,7 +79,7 @@ void check_preservable(const Domain& domain, Preserve preserve, FlowKind flow) {
 /// a closed surface. In squared mean edge lengths, and in squared sides of the paper's cells.
 constexpr double kLargestStepSizeInEdges = 5e4, kLargestStepSizeInCells = 1e5;
 
-/// Bytes for each vertex and each triangle of a flow on the mesh's own elements, beside the mesh.
+/// Bytes for each vertex and each triangle of a flow on the mesh's own elements, besides the mesh.
 constexpr double kBytesPerVertex = 370, kBytesPerTriangle = 120;
 
 /// The side of a cell of the paper's octree, in mean edge lengths, if its depth is automatic. A
