@@ -190,13 +190,8 @@ def check_results(meshes, work):
 
 
 def draw(output, *meshes, options=()):
-    subprocess.run([TOP / "tests" / "demo" / "render.py", "--output", output, "--height", "400",
+    subprocess.run([TOP / "tests" / "demo" / "render.py", "--output", output, "--height", "600",
                     *options, "--", *meshes], check=True)
-
-
-def as_palette(path, colours=128):
-    subprocess.run(["convert", path, "-strip", "+dither", "-colors", str(colours), f"PNG8:{path}"],
-                   check=True)
 
 
 def colour_by_quality(meshes, work):
@@ -218,18 +213,17 @@ def draw_all(meshes, work):
     draw(PICTURES / "film.png", work / "frame.ply", work / "film.ply",
          options=["--view", "0.2", "1", "-0.6", "--up", "0", "0", "1"])
     draw(PICTURES / "seams.png", work / "charts.ply", work / "smooth_charts.ply", options=["--colours"])
-    draw(PICTURES / "patch.png", work / "patched_bear.ply", work / "blended.ply",
-         options=["--zoom", "2", "--center", "0", "-0.2", "--view", "0.5", "0", "-1"])
-    draw(PICTURES / "hole.png", work / "patched_bear.ply", work / "fair_bear.ply",
-         options=["--zoom", "2", "--center", "0", "-0.2", "--view", "0.5", "0", "-1"])
+    draw(PICTURES / "hole.png", *(work / f"{name}.ply" for name in ("bear", "patched_bear", "blended", "fair_bear")),
+         options=["--zoom", "2", "--center", "0", "-0.2", "--view", "0.5", "0", "-1", "--labels", "a belly",
+                  "a flat patch", "blended by the flow", "faired"])
+    draw(PICTURES / "ladder.png", work / "lion.ply", *(work / f"lion_{size}.ply" for size in (4, 8, 16)),
+         options=[*side, "--labels", "as it is", "4 %", "8 %", "16 %"])
     colour_by_quality(meshes, work)
     draw(PICTURES / "curvature.png", work / "bear.ply", work / "coloured.ply", options=["--colours"])
-    for picture in ("creases", "noise", "selection", "strength", "seams", "patch", "hole", "film", "curvature"):
-        as_palette(PICTURES / f"{picture}.png")
     frames = []
     for i, mesh in enumerate([work / "bear.ply", *sorted(work.glob("sphere_*.ply"))]):
         picture = work / f"frame_{i:02d}.png"
-        draw(picture, work / "bear.ply", mesh, options=["--zoom", "0.85"])
+        draw(picture, work / "bear.ply", mesh, options=["--zoom", "0.85", "--height", "400"])
         frames.append(picture)
     subprocess.run(["convert", "-delay", "12", *frames, "-gravity", "east", "-crop", "50%x100%+0+0",
                     "+repage", "-resize", "320x", "-set", "delay", "12", "-colors", "32", "+dither",
