@@ -190,20 +190,15 @@ void Checker::check_result() {
 }
 
 void Checker::check_finite() {
-    const FlowReport& report = base_.report;
-    std::vector<double> numbers = {report.detail_size,          report.step_size,
-                                   report.area_after,           report.volume_change,
-                                   report.largest_displacement, report.rms_displacement};
-    numbers.insert(numbers.end(), report.quality.begin(), report.quality.end());
+    std::vector<double> numbers = base_.report.quality;
     for (std::size_t i = 0; i < flows_.size(); ++i) {
         if (flows_[i]) numbers.push_back(base_.mesh.positions[i].sum());
-    }
-    for (const StepReport& step : report.steps) {
-        numbers.insert(numbers.end(), {step.area, step.error_estimate, step.residual_after});
     }
     const auto bad = std::count_if(numbers.begin(), numbers.end(),
                                    [](double result) { return !std::isfinite(result); });
     if (bad > 0) fail(Property::Finite, std::to_string(bad) + " numbers");
+    const std::string key = key_without_number(base_.values);
+    if (!key.empty()) fail(Property::Finite, key);
 }
 
 /// Both flows obey a maximum principle for each coordinate. On the mesh, steps of order 1 keep it;

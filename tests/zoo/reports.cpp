@@ -15,16 +15,27 @@ namespace tracked_mcf::zoo {
 
 namespace {
 
-/// Returns what is known of a key of any report, or null for parameters and warnings.
+/// Returns the key of this name in a table, or null.
+template <class Report>
+const ReportKey* key_in(const std::string& name) {
+    const auto& rows = report_table<Report>();
+    const auto row = std::find_if(rows.begin(), rows.end(),
+                                  [&](const ReportKey& key) { return key.name == name; });
+    return row == rows.end() ? nullptr : &*row;
+}
+
+/// Returns what is known of a key of a filter's report, or null for parameters and warnings.
 const ReportKey* key_of(const std::string& name) {
-    const auto find = [&](const auto& rows) -> const ReportKey* {
-        const auto row = std::find_if(rows.begin(), rows.end(),
-                                      [&](const ReportKey& key) { return key.name == name; });
-        return row == rows.end() ? nullptr : &*row;
-    };
-    if (const ReportKey* const key = find(report_table<FlowReport>())) return key;
-    if (const ReportKey* const key = find(report_table<NoiseReport>())) return key;
-    return find(report_table<FairReport>());
+    if (const ReportKey* const key = key_in<FlowReport>(name)) return key;
+    if (const ReportKey* const key = key_in<NoiseReport>(name)) return key;
+    return key_in<FairReport>(name);
+}
+
+/// Returns whether a value is a number as its key allows it: finite, or null.
+bool is_number(const ReportValue& value, const ReportKey* key) {
+    if (const auto* const number = std::get_if<double>(&value.value)) return std::isfinite(*number);
+    const bool may_be_null = key == nullptr || key->type.rfind("Optional", 0) == 0;
+    return may_be_null || !std::holds_alternative<std::monostate>(value.value);
 }
 
 /// Returns the dimension of a number, as the power of a length; nothing if it is none of these.
@@ -127,6 +138,19 @@ std::string wrong_number(const Case& filtered, const TriangleMesh& after,
          {std::pair{"area_before", area_before}, std::pair{"area_after", area_after}}) {
         const double reported = number_of(report, name);
         if (!is_near(reported, area, 1e-9 * area_before)) return difference(name, reported, area);
+    }
+    return {};
+}
+
+std::string key_without_number(const ReportObject& report) {
+    for (const auto& [name, value] : report) {
+        if (!is_number(value, key_of(name))) return name;
+        if (name != "steps") continue;
+        for (const ReportValue& step : std::get<ReportList>(value.value)) {
+            for (const auto& [key, of_step] : std::get<ReportObject>(step.value)) {
+                if (!is_number(of_step, key_in<StepReport>(key))) return "steps: " + key;
+            }
+        }
     }
     return {};
 }

@@ -13,6 +13,10 @@ namespace tracked_mcf::zoo {
 std::string wrong_number(const Case& filtered, const TriangleMesh& after,
                          const ReportObject& report);
 
+/// Returns the key of a number that is not finite, or null although its table does not allow that;
+/// empty if there is none.
+std::string key_without_number(const ReportObject& report);
+
 /// Returns which number differs in the report of the same mesh, of which the lengths are `unit`
 /// times as many; empty if none does. `size` is that of the first mesh. With another order of
 /// vertices, what a sample of them estimates may differ. Counts must be equal,
