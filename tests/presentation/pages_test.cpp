@@ -66,7 +66,7 @@ void expect_table(const std::string& file, const std::string& heading, const std
     const std::string text = page(file);
     const std::size_t begin = text.find(heading);
     const std::string section = text.substr(begin, text.find("\n## ", begin + 1) - begin);
-    EXPECT_EQ(matches(section, pattern), expected);
+    EXPECT_EQ(matches(section, pattern), expected) << file;
 }
 
 TEST(Pages, TablesHaveTheNamesAndDefaultsOfAllParameters) {
@@ -95,12 +95,14 @@ void expect_script() {
     for (const Input& input : input_table<Parameters>()) {
         if (!input.label.empty()) expected.emplace_back(input.name, "false");
     }
-    const std::string text = page("filter_tracked_mcf/hosts/meshlab/README.md");
+    const std::string file = "filter_tracked_mcf/hosts/meshlab/README.md";
+    const std::string text = page(file);
     const std::size_t begin =
         text.find("<filter name=\"" + std::string(kNames<Parameters>.name) + "\">");
     ASSERT_LT(begin, text.size());
     const std::string script = text.substr(begin, text.find("</filter>", begin) - begin);
-    EXPECT_EQ(matches(script, "<Param type=\"\\w+\" name=\"(\\w+)\" value=\"([^\"]*)\""), expected);
+    EXPECT_EQ(matches(script, "<Param type=\"\\w+\" name=\"(\\w+)\" value=\"([^\"]*)\""), expected)
+        << file;
 }
 
 TEST(Pages, TheFilterScriptsSetAllParametersToTheirDefaults) {
