@@ -104,18 +104,18 @@ using Place = std::array<int, 2>;
 /// Tries treatments on a sample.
 class Trials {
 public:
-    Trials(const Sample& sample, const NoiseWishes& wishes)
+    Trials(const Sample& sample, const NoiseRequest& request)
         : sample_(sample),
-          wishes_(wishes),
-          width_(wishes.width),
-          detail_size_(std::min(wishes.detail_size, kLargestDetailSize)),
+          request_(request),
+          width_(request.width),
+          detail_size_(std::min(request.detail_size, kLargestDetailSize)),
           signs_(sample.signs),
           box_(confinement(sample.surface.positions)),
           smoothing_(sample.surface),
-          unit_length_(wishes.crease > 0
-                           ? std::max(1.0, detail_size_ / kDetailOfNormalLengths) / wishes.crease
+          unit_length_(request.crease > 0
+                           ? std::max(1.0, detail_size_ / kDetailOfNormalLengths) / request.crease
                            : 0),
-          noise_(wishes.noise > 0 ? wishes.noise : wishes.measured_noise) {
+          noise_(request.noise > 0 ? request.noise : request.measured_noise) {
         count_ = std::count(sample.counts.begin(), sample.counts.end(), 1);
         widen_signs();
         perturb(kTrialPerturbation * width_);
@@ -128,27 +128,27 @@ public:
         Choice choice;
         choice.noise = noise_;
         const bool may_be_none =
-            wishes_.detail_size == 0 && wishes_.noise == 0 && !wishes_.is_certain;
+            request_.detail_size == 0 && request_.noise == 0 && !request_.is_certain;
         if (may_be_none && noise_ < kNoNoise) return choice;
-        if (wishes_.detail_size > 0) {
+        if (request_.detail_size > 0) {
             for (const double length : kNormalLengths) try_detail_size(length);
         } else {
             descend();
-            const double least = wishes_.is_doubtful ? kLeastTakenIfDoubtful : kLeastTaken;
+            const double least = request_.is_doubtful ? kLeastTakenIfDoubtful : kLeastTaken;
             if (may_be_none && std::sqrt(best_.effect.square) < least * noise_) {
                 if (noise_ > kLargeNoise) choice.kind = NoiseKind::Varying;
                 return choice;
             }
         }
         if (best_.treatment.steps == 0) return choice;
-        if (wishes_.crease > 0) {
+        if (request_.crease > 0) {
             const Attempt smooth = best_;
             for (const Sharpening& sharpening : kSharpenings) {
                 keep(sharpened(smooth, sharpening));
             }
         }
         choice.treatment = best_.treatment;
-        const bool is_known = wishes_.noise > 0 || wishes_.measured_noise > 0;
+        const bool is_known = request_.noise > 0 || request_.measured_noise > 0;
         choice.noise = is_known ? noise_ : noise_of(best_.effect);
         choice.kind = kind_of_noise(sample_.surface.stars, heights_of(best_.twins), sample_.counts);
         if (may_be_none && choice.kind == NoiseKind::Even &&
@@ -160,7 +160,7 @@ public:
 
     NoiseOfWidth of_width() {
         for (const double step_size : kStepSizesOfWidth) {
-            try_steps(settings_for(wishes_.crease > 0 ? kNormalLengthOfWidth : 0, step_size),
+            try_steps(settings_for(request_.crease > 0 ? kNormalLengthOfWidth : 0, step_size),
                       kMostStepsOfWidth);
         }
         if (best_.treatment.steps == 0) return {};
@@ -228,7 +228,7 @@ private:
 
     /// Returns the treatments besides the best one that suit some places of the sample better.
     std::vector<Treatment> others(double noise) {
-        if (wishes_.crease > 0 && !wishes_.is_quick) {
+        if (request_.crease > 0 && !request_.is_quick) {
             for (const double ratio : {1 / kBetweenStepSizes, kBetweenStepSizes}) {
                 const Attempt* const neighbour = best_with_step_size(ratio);
                 if (neighbour == nullptr) continue;
@@ -236,7 +236,7 @@ private:
             }
         }
         const auto is_slow = [&](const Attempt& attempt) {
-            return wishes_.is_quick && !share_steps(attempt.treatment, best_.treatment);
+            return request_.is_quick && !share_steps(attempt.treatment, best_.treatment);
         };
         attempts_.erase(std::remove_if(attempts_.begin(), attempts_.end(), is_slow),
                         attempts_.end());
@@ -253,7 +253,7 @@ private:
         }
         std::vector<Treatment> treatments;
         for (const std::size_t i : best_few(
-                 sample_, risks, best, wishes_.is_quick ? kFewQuickTreatments : kFewTreatments)) {
+                 sample_, risks, best, request_.is_quick ? kFewQuickTreatments : kFewTreatments)) {
             if (i != best) treatments.push_back(attempts_[i].treatment);
         }
         return treatments;
@@ -275,7 +275,7 @@ private:
     }
 
     void measure_noise() {
-        if (wishes_.noise > 0 || wishes_.measured_noise > 0) return;
+        if (request_.noise > 0 || request_.measured_noise > 0) return;
         Twins twins = untreated_;
         step(settings_for(kTrialNormalLength, kTrialStepSize), twins);
         noise_ = noise_of(effect_of(twins));
@@ -335,7 +335,7 @@ private:
     }
 
     double score_of(const Effect& effect) const {
-        if (wishes_.noise > 0) {
+        if (request_.noise > 0) {
             return effect.square + 2 * noise_ * noise_ * effect.divergence;
         }
         const double rest = std::max(1 - effect.divergence, kLeastRest);
@@ -387,7 +387,7 @@ private:
 
     /// Walks over the grid of treatments, to a better neighbour each time.
     void descend() {
-        const Place sizes = {wishes_.crease > 0 ? static_cast<int>(kNormalLengths.size()) : 1,
+        const Place sizes = {request_.crease > 0 ? static_cast<int>(kNormalLengths.size()) : 1,
                              static_cast<int>(kStepSizes.size())};
         std::set<Place> tried;
         const auto improves = [&](const Place& place) {
@@ -416,7 +416,7 @@ private:
     }
 
     Attempt sharpened(const Attempt& smooth, Sharpening sharpening) const {
-        sharpening.width *= wishes_.crease;
+        sharpening.width *= request_.crease;
         sharpening.iterations =
             static_cast<int>(std::lround(sharpening.iterations * width_ * width_));
         Treatment treatment = smooth.treatment;
@@ -429,7 +429,7 @@ private:
     }
 
     const Sample& sample_;
-    const NoiseWishes wishes_;
+    const NoiseRequest request_;
     const double width_;  ///< of the noise
     const double detail_size_;
     std::vector<float> signs_;  ///< per vertex; with a width, averaged over it
@@ -451,12 +451,12 @@ StepSettings trial_settings() {
     return {0, kTrialStepSize, kNormalStepSize};
 }
 
-Choice best_treatment(const Sample& sample, const NoiseWishes& wishes) {
-    return Trials(sample, wishes).best();
+Choice best_treatment(const Sample& sample, const NoiseRequest& request) {
+    return Trials(sample, request).best();
 }
 
-NoiseOfWidth noise_of_width(const Sample& sample, const NoiseWishes& wishes) {
-    return Trials(sample, wishes).of_width();
+NoiseOfWidth noise_of_width(const Sample& sample, const NoiseRequest& request) {
+    return Trials(sample, request).of_width();
 }
 
 }  // namespace tracked_mcf

@@ -10,7 +10,7 @@
 namespace tracked_mcf {
 
 /// What the user asks for. Lengths are in edges.
-struct NoiseWishes {
+struct NoiseRequest {
     double crease = 0;  ///< difference of unit normals across the least crease; 0: no creases
     double noise = 0;   ///< standard deviation; 0: unknown
     double measured_noise = 0;  ///< what a sample has shown of it; 0: not yet measured
@@ -28,7 +28,7 @@ struct Choice {
     /// If it varies, a treatment suits only a sample with fidelities, and there may be none.
     NoiseKind kind = NoiseKind::Even;
     /// Treatments that suit some places better, the most useful ones first. None if the noise is
-    /// not even, or if one of the wishes sets how much is removed.
+    /// not even, or if the request sets how much is removed.
     std::vector<Treatment> others;
 };
 
@@ -41,7 +41,7 @@ struct Choice {
 /// place, |F(x) - x|² / n + 2 σ² div F / n (1981). Differences F(x + ε z) - F(x) for random signs z
 /// tell the divergence and the norm (Ramani, Blu and Unser, "Monte-Carlo SURE", 2008).
 ///
-/// Without wishes, a treatment that takes little of what seems to be noise is none: then it is
+/// Without a request, a treatment that takes little of what seems to be noise is none: then it is
 /// detail.
 ///
 /// Noise of some width is like white noise on a mesh with edges of this length: all lengths of a
@@ -49,7 +49,7 @@ struct Choice {
 ///
 /// Where the sample's vertices have fidelities, heights count by their roots, so that the noise is
 /// the same everywhere.
-Choice best_treatment(const Sample& sample, const NoiseWishes& wishes);
+Choice best_treatment(const Sample& sample, const NoiseRequest& request);
 
 /// What a sample shows of noise of some width. Lengths are in edges.
 struct NoiseOfWidth {
@@ -63,6 +63,6 @@ struct NoiseOfWidth {
 StepSettings trial_settings();
 
 /// Tries a few treatments on a sample whose noise may have the width that is wished.
-NoiseOfWidth noise_of_width(const Sample& sample, const NoiseWishes& wishes);
+NoiseOfWidth noise_of_width(const Sample& sample, const NoiseRequest& request);
 
 }  // namespace tracked_mcf

@@ -105,10 +105,10 @@ NoiseStop obstacle(const Sample& sample) {
 }
 
 /// Looks for what may be noise though there is none from vertex to vertex.
-void report_unevenness(const NoisySurface& surface, const NoiseWishes& wishes, double edge,
+void report_unevenness(const NoisySurface& surface, const NoiseRequest& request, double edge,
                        NoiseReport& report) {
     enter_phase(0.4, "Looking for stairs and lumps");
-    const Unevenness found = unevenness_of(surface, wishes);
+    const Unevenness found = unevenness_of(surface, request);
     report.stairs = edge * found.stairs;
     report.lump_width = edge * found.width;
     report.lump_height = edge * found.height;
@@ -155,13 +155,13 @@ Clusters clusters_of_width(const NoisySurface& surface, double width) {
 }
 
 /// Returns the treatment of noise wider than an edge, as clusters show it.
-Choice treatment_of_width(const Clusters& clusters, NoiseWishes wishes) {
+Choice treatment_of_width(const Clusters& clusters, NoiseRequest request) {
     const double edge = clusters.edge;
-    wishes.noise /= edge;
-    wishes.measured_noise /= edge;
-    wishes.detail_size /= edge;
-    wishes.width = std::max(1.0, wishes.width / edge);
-    Choice choice = best_treatment(clusters.sample, wishes);
+    request.noise /= edge;
+    request.measured_noise /= edge;
+    request.detail_size /= edge;
+    request.width = std::max(1.0, request.width / edge);
+    Choice choice = best_treatment(clusters.sample, request);
     StepSettings& settings = choice.treatment.settings;
     settings.normal_length *= edge;
     settings.step_size *= edge * edge;
@@ -196,14 +196,14 @@ public:
           along_normals_(parameters.along_normals),
           report_(report),
           sample_(sample_of(surface, kSample, {}, kPatch)) {
-        wishes_.crease = crease_of(parameters.crease_angle);
-        wishes_.noise = parameters.noise / edge;
-        wishes_.detail_size = parameters.detail_size / edge;
-        wishes_.is_quick = surface.stars.count() > kLargeSurface;
-        wishes_.width = width_of_noise(surface, sample_, parameters.noise_size / edge, report);
-        wishes_.is_certain = wishes_.width > 1 || report.stairs > 0;
+        request_.crease = crease_of(parameters.crease_angle);
+        request_.noise = parameters.noise / edge;
+        request_.detail_size = parameters.detail_size / edge;
+        request_.is_quick = surface.stars.count() > kLargeSurface;
+        request_.width = width_of_noise(surface, sample_, parameters.noise_size / edge, report);
+        request_.is_certain = request_.width > 1 || report.stairs > 0;
         report.stairs *= edge;
-        report.noise_size = edge * wishes_.width;
+        report.noise_size = edge * request_.width;
     }
 
     Positions result() {
@@ -220,7 +220,7 @@ public:
                 perturbation = perturbation_of(surface_, choice.treatment.settings, choice.noise);
             }
             const ProgressSpan span(0.2, 0.5);
-            treat_with(treatments, wishes_.is_quick ? perturbation : Perturbation());
+            treat_with(treatments, request_.is_quick ? perturbation : Perturbation());
         }
         if (report_.stop != NoiseStop::None) return surface_.positions;
         const ProgressSpan span(0.5, 1);
@@ -245,52 +245,53 @@ public:
 private:
     /// Returns whether the mesh itself says what its noise is, from vertex to vertex.
     bool is_measured() const {
-        return wishes_.noise == 0 && wishes_.detail_size == 0 && !wishes_.is_certain;
+        return request_.noise == 0 && request_.detail_size == 0 && !request_.is_certain;
     }
 
     /// Returns the treatment that the sample shows, or sets why there is none. Reports the noise,
     /// as measured with the usual creases and nothing else that the user may ask for.
     Choice first_choice() {
         enter_phase(0, "Measuring the noise");
-        const bool is_wide = wishes_.width > 1;
+        const bool is_wide = request_.width > 1;
         Clusters clusters{{{{{}, 0}, {}, {}}, {}, {}}, 1};
-        if (is_wide) clusters = clusters_of_width(surface_, wishes_.width);
+        if (is_wide) clusters = clusters_of_width(surface_, request_.width);
         const NoiseStop hindrance = obstacle(is_wide ? clusters.sample : sample_);
-        const bool is_told = wishes_.noise > 0 || wishes_.detail_size > 0;
+        const bool is_told = request_.noise > 0 || request_.detail_size > 0;
         report_.stop = is_told && !is_wide ? NoiseStop::None : hindrance;
         if (report_.stop != NoiseStop::None) return {};
-        const auto choice_for = [&](const NoiseWishes& wishes) {
-            return is_wide ? treatment_of_width(clusters, wishes) : best_treatment(sample_, wishes);
+        const auto choice_for = [&](const NoiseRequest& request) {
+            return is_wide ? treatment_of_width(clusters, request)
+                           : best_treatment(sample_, request);
         };
         const double usual = crease_of(NoiseParameters().crease_angle);
-        if (!is_told && wishes_.crease == usual) {
-            usual_ = choice_for(wishes_);
+        if (!is_told && request_.crease == usual) {
+            usual_ = choice_for(request_);
             report_.noise = edge_ * usual_.noise;
             return usual_;
         }
         if (hindrance == NoiseStop::None) {
-            NoiseWishes wishes = wishes_;
-            wishes.crease = usual;
-            wishes.noise = wishes.detail_size = 0;
-            usual_ = choice_for(wishes);
-            wishes_.measured_noise = usual_.noise;
+            NoiseRequest request = request_;
+            request.crease = usual;
+            request.noise = request.detail_size = 0;
+            usual_ = choice_for(request);
+            request_.measured_noise = usual_.noise;
             report_.noise = edge_ * usual_.noise;
         }
-        return choice_for(wishes_);
+        return choice_for(request_);
     }
 
     /// Returns whether there is a treatment. If not, it is detail that the surface has, or the
     /// creases that the user asks for are everywhere.
     bool has_treatment(const Choice& choice) {
         if (choice.treatment.steps > 0) return true;
-        if (wishes_.crease > 0 && usual_.treatment.steps > 0) {
+        if (request_.crease > 0 && usual_.treatment.steps > 0) {
             const Vectors normals =
                 Smoothing(surface_).smooth_normals(surface_.positions, usual_.treatment.settings);
             if (has_too_many_creases(Turns(surface_.stars, surface_.positions, normals)))
                 return false;
         }
         report_.stop = NoiseStop::NoNoise;
-        report_unevenness(surface_, wishes_, edge_, report_);
+        report_unevenness(surface_, request_, edge_, report_);
         return false;
     }
 
@@ -302,18 +303,18 @@ private:
         const int iterations = treated_.iterations;
         treated_ = treat(surface_, treatments_, surface_.positions, perturbation);
         treated_.iterations += iterations;
-        if (wishes_.crease == 0) return;
+        if (request_.crease == 0) return;
         Turns turns(surface_.stars, treated_.positions[0], treated_.normals);
         if (is_measured()) {
             has_too_many_creases(std::move(turns));
         } else {
-            report_.crease_share = turns.share_of(wishes_.crease);
+            report_.crease_share = turns.share_of(request_.crease);
         }
     }
 
     /// Returns whether creases are so many that they are noise, and reports them.
     bool has_too_many_creases(Turns turns) {
-        report_.crease_share = turns.share_of(wishes_.crease);
+        report_.crease_share = turns.share_of(request_.crease);
         if (report_.crease_share <= kMostCreases) return false;
         report_.stop = NoiseStop::TooManyCreases;
         report_.median_turn = turns.median_angle();
@@ -321,9 +322,9 @@ private:
     }
 
     /// Treats the surface with fidelities, as suits a sample that has them, too.
-    void treat_with_fidelities(const std::vector<float>& fidelities, NoiseWishes wishes) {
-        wishes.measured_noise = 0;  // with fidelities it is another
-        const Choice choice = best_treatment(sample_of(surface_, kSample, fidelities), wishes);
+    void treat_with_fidelities(const std::vector<float>& fidelities, NoiseRequest request) {
+        request.measured_noise = 0;  // with fidelities it is another
+        const Choice choice = best_treatment(sample_of(surface_, kSample, fidelities), request);
         if (!has_treatment(choice)) return;
         const std::vector<float> strengths = surface_.fidelity;
         for (std::size_t i = 0; i < fidelities.size(); ++i) surface_.fidelity[i] *= fidelities[i];
@@ -334,21 +335,21 @@ private:
     void treat_by_local_noise(bool is_certain) {
         Positions moved = surface_.positions;
         Smoothing(surface_).step(trial_settings(), confinement(surface_.positions), moved);
-        NoiseWishes wishes = wishes_;
-        wishes.is_certain = is_certain;
-        wishes.is_doubtful = !is_certain;
+        NoiseRequest request = request_;
+        request.is_certain = is_certain;
+        request.is_doubtful = !is_certain;
         treat_with_fidelities(fidelities_to_noise(surface_.stars, heights_of(surface_, moved)),
-                              wishes);
+                              request);
     }
 
     void treat_without_outliers() {
-        NoiseWishes wishes = wishes_;
-        wishes.is_certain = true;
+        NoiseRequest request = request_;
+        request.is_certain = true;
         for (int round = 0; round < kRounds; ++round) {
             const ProgressSpan span(1.0 * round / kRounds, (round + 1.0) / kRounds);
             const std::vector<float> fidelities =
                 fidelities_to_outliers(surface_.stars, heights_of(surface_, treated_.positions[0]));
-            treat_with_fidelities(fidelities, wishes);
+            treat_with_fidelities(fidelities, request);
             report_.outliers = std::count_if(fidelities.begin(), fidelities.end(), is_outlier);
         }
     }
@@ -368,8 +369,8 @@ private:
     const bool along_normals_;
     NoiseReport& report_;
     const Sample sample_;
-    NoiseWishes wishes_;
-    Choice usual_;  ///< with the usual creases, and without wishes; empty if it cannot be measured
+    NoiseRequest request_;
+    Choice usual_;  ///< with the usual creases, and without request; empty if it cannot be measured
     double sideways_ = 0;
     std::vector<Treatment> treatments_;  ///< of treated_
     Treated treated_;

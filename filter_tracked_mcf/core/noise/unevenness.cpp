@@ -127,14 +127,14 @@ Stairs stairs_of(const NoisySurface& surface) {
     return {farthest, even >= kEvenDirections && !has_long_edges(surface)};
 }
 
-Unevenness unevenness_of(const NoisySurface& surface, const NoiseWishes& wishes) {
+Unevenness unevenness_of(const NoisySurface& surface, const NoiseRequest& request) {
     Unevenness found;
     const Sample sample = sample_of(surface, kLumpSample, {}, kLumpPatch);
     // All of a large surface takes long.
     if (stairs_of(sample.surface).height > 0) found.stairs = stairs_of(surface).height;
     if (found.stairs > 0) return found;
     for (const double width : kLumpWidths) {
-        NoiseWishes of_width = wishes;
+        NoiseRequest of_width = request;
         of_width.width = width;
         const NoiseOfWidth noise = noise_of_width(sample, of_width);
         if (noise.taken >= kLeastTakenOfLumps && noise.correlation <= kMostCorrelated &&

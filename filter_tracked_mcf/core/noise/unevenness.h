@@ -28,6 +28,6 @@ struct Unevenness {
 
 /// Looks for stairs, and for lumps and waves on a sample. Lumps cannot be told from detail for
 /// certain, so this is for a message, not for moving vertices.
-Unevenness unevenness_of(const NoisySurface& surface, const NoiseWishes& wishes);
+Unevenness unevenness_of(const NoisySurface& surface, const NoiseRequest& request);
 
 }  // namespace tracked_mcf

@@ -17,10 +17,10 @@ Sample sample_of_mesh(const TriangleMesh& mesh) {
     return sample_of(surface_of_mesh(mesh), 4000);
 }
 
-NoiseWishes automatic() {
-    NoiseWishes wishes;
-    wishes.crease = kCrease;
-    return wishes;
+NoiseRequest automatic() {
+    NoiseRequest request;
+    request.crease = kCrease;
+    return request;
 }
 
 TEST(CrossValidation, FindsNoTreatmentForACleanSurface) {
@@ -59,19 +59,19 @@ TEST(CrossValidation, NamesOthersOnlyWithoutWishes) {
     const Choice choice = best_treatment(sample, automatic());
     EXPECT_GT(choice.others.size(), 0U);
     EXPECT_LT(choice.others.size(), 5U);
-    NoiseWishes wishes = automatic();
-    wishes.noise = 0.2;
-    EXPECT_TRUE(best_treatment(sample, wishes).others.empty());
-    wishes = automatic();
-    wishes.detail_size = 6;
-    EXPECT_TRUE(best_treatment(sample, wishes).others.empty());
+    NoiseRequest request = automatic();
+    request.noise = 0.2;
+    EXPECT_TRUE(best_treatment(sample, request).others.empty());
+    request = automatic();
+    request.detail_size = 6;
+    EXPECT_TRUE(best_treatment(sample, request).others.empty());
 }
 
 TEST(CrossValidation, NamesOthersThatShareTheStepsIfItIsToBeQuick) {
     const Sample sample = sample_of_mesh(with_noise(shapes::box(25, {1, 1, 1}), 0.2));
-    NoiseWishes wishes = automatic();
-    wishes.is_quick = true;
-    const Choice choice = best_treatment(sample, wishes);
+    NoiseRequest request = automatic();
+    request.is_quick = true;
+    const Choice choice = best_treatment(sample, request);
     EXPECT_GT(choice.others.size(), 0U);
     EXPECT_LT(choice.others.size(), 3U);
     for (const Treatment& other : choice.others) {
@@ -92,9 +92,9 @@ TEST(CrossValidation, WhitensHeightsByTheirFidelities) {
         fidelities.push_back(is_noisy ? 0.01F : 1);
     }
     const NoisySurface surface = surface_of_mesh(mesh);
-    NoiseWishes wishes = automatic();
-    wishes.is_certain = true;
-    const Choice choice = best_treatment(sample_of(surface, 10000, fidelities), wishes);
+    NoiseRequest request = automatic();
+    request.is_certain = true;
+    const Choice choice = best_treatment(sample_of(surface, 10000, fidelities), request);
     EXPECT_NEAR(choice.noise, 0.05, 0.01);
 }
 
