@@ -37,7 +37,7 @@ number() { # LABEL X Y: of the badge's centre
 number 1 36 34
 number 2 121 34
 number 3 $((X - 18)) $((Y + 138))
-number 4 $((X - 18)) $((Y + HEIGHT - 130))
+number 4 $((X - 18)) $((Y + HEIGHT - 84))
 number 5 $((X + WIDTH - 40)) $((Y + HEIGHT - 22))
 font=$(fc-match -f '%{file}' sans:bold)
 convert "$out/before.png" -resize 40% -bordercolor white -border 2 -font "$font" -pointsize 18 -fill white \
