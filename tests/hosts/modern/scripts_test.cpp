@@ -35,18 +35,14 @@ TEST(Scripts, GetResultsOfTypesThatPythonKnows) {
     parameters.setValue("selected", BoolValue(false));
     const auto outputs = filter().apply(document, parameters).outputs;
 
-    const auto type_of = [&](const char* name) { return outputs.at(name).type(); };
-    EXPECT_EQ(outputs.size(), 14u);
-    for (const char* name : {"depth", "steps", "unknowns", "stopped_early", "converged"}) {
-        EXPECT_EQ(type_of(name), QVariant::Int) << name;
+    EXPECT_GT(outputs.size(), 25u);
+    for (const auto& [name, value] : outputs) {
+        const auto type = value.type();
+        EXPECT_TRUE(type == QVariant::Int || type == QVariant::Double) << name;
     }
-    for (const char* name :
-         {"detail_size", "step_size", "cell_size", "error_estimate", "largest_displacement",
-          "rms_displacement", "area_before", "area_after", "volume_change"}) {
-        EXPECT_EQ(type_of(name), QVariant::Double) << name;
-    }
+    EXPECT_EQ(outputs.at("detail_size").type(), QVariant::Double);
     EXPECT_EQ(outputs.at("depth").toInt(), 5);
-    EXPECT_EQ(outputs.at("steps").toInt(), 3);
+    EXPECT_EQ(outputs.at("iterations").toInt(), 3);
     EXPECT_GT(outputs.at("unknowns").toInt(), 500);
     EXPECT_EQ(outputs.at("stopped_early").toInt(), 0);
     EXPECT_EQ(outputs.at("converged").toInt(), 1);
