@@ -30,9 +30,10 @@ double progress_before(int step, int iterations) {
 /// Throws InvalidParameter if there are inputs, which the paper's method does not have.
 void check_no_inputs(const Inputs& inputs) {
     if (inputs.selection.empty() && inputs.strength.empty()) return;
-    throw InvalidParameter("method",
-                           "is Paper, which smooths all faces in the same way, without a selection or a "
-                           "strength of vertices; take the method Converged.");
+    throw InvalidParameter(
+        "method",
+        "is Paper, which smooths all faces in the same way, without a selection or a "
+        "strength of vertices; take the method Converged.");
 }
 
 std::unique_ptr<SurfaceFlow> set_up(const TriangleMesh& mesh, const Inputs& inputs,

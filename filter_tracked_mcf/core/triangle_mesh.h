@@ -26,7 +26,8 @@ struct TriangleMesh {
 /// One flag per triangle of a mesh: nonzero if the triangle flows. Empty if all triangles flow.
 using Selection = std::vector<std::uint8_t>;
 
-/// What a call takes besides the mesh and the parameters: data of the mesh's triangles and vertices.
+/// What a call takes besides the mesh and the parameters: data of the mesh's triangles and
+/// vertices.
 struct Inputs {
     Inputs(Selection selected = {}, std::vector<double> strengths = {})
         : selection(std::move(selected)), strength(std::move(strengths)) {}
