@@ -67,14 +67,6 @@ void make_steps(SurfaceFlow& flow, const TriangleMesh& mesh, int iterations,
     }
 }
 
-/// Returns whether hardly any area is left at these positions.
-bool has_vanished(const SurfaceFlow& flow, const TriangleMesh& mesh,
-                  const std::vector<Eigen::Vector3d>& positions) {
-    const Selection& moving = flow.part().triangles;
-    return surface_area({positions, mesh.triangles}, moving) <=
-           kVanishedArea * surface_area(mesh, moving);
-}
-
 }  // namespace
 
 double default_detail_size(const TriangleMesh& mesh, const Selection& selection) {
@@ -96,18 +88,19 @@ FlowReport evolve(TriangleMesh& mesh, const Inputs& inputs, const FlowParameters
     const double setup_seconds = setup.seconds();
 
     make_steps(*flow, mesh, parameters.iterations, on_step);
+    enter_phase(progress_before(parameters.iterations, parameters.iterations),
+                "Moving the vertices");
     std::vector<Eigen::Vector3d> after = moved_by(*flow, mesh);
-    if (flow->report().stop == Stop::None && has_vanished(*flow, mesh, after)) {
+    FlowReport report = flow->report();
+    report_change(mesh, after, flow->part(), parameters.quality, report);
+    if (report.stop == Stop::None && report.area_after <= kVanishedArea * report.area_before) {
         // The flow itself would notice only in the next step.
         flow->end_before_last_step(Stop::Vanished);
         after = moved_by(*flow, mesh);
+        report = flow->report();
+        report_change(mesh, after, flow->part(), parameters.quality, report);
     }
-
-    enter_phase(progress_before(parameters.iterations, parameters.iterations),
-                "Moving the vertices");
-    FlowReport report = flow->report();
     report.setup_seconds = setup_seconds;
-    report_change(mesh, after, flow->part(), parameters.quality, report);
     if (parameters.quality == Quality::MeanCurvature)
         report.quality = flow->mean_curvatures({after, mesh.triangles});
     report.estimated_memory_bytes += memory_before;
