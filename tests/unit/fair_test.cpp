@@ -13,6 +13,7 @@
 
 #include "filter_tracked_mcf/core/mesh/measures.h"
 #include "tests/support/shapes.h"
+#include "tests/unit/cancelling.h"
 #include "tests/unit/flows.h"
 
 namespace tracked_mcf {
@@ -433,28 +434,9 @@ TEST(Fair, ReportsTheVolumeThatItsPatchesSweep) {
 
 TEST(Fair, LeavesTheMeshIfItIsCancelledAtAnyCall) {
     const Filled filled(shapes::geodesic_sphere(10), cap(40));
-    const auto run = [&](int last_call) {
-        TriangleMesh mesh = filled.mesh;
-        int calls = 0;
-        double done = 0;
-        const auto progress = [&](double fraction, std::string_view /*phase*/) {
-            EXPECT_GE(fraction, done);
-            done = fraction;
-            return ++calls < last_call;
-        };
-        try {
-            fair(mesh, filled.selection, {}, progress);
-            EXPECT_EQ(done, 1);
-            return calls;
-        } catch (const Cancelled&) {
-            EXPECT_EQ(calls, last_call);
-        }
-        EXPECT_TRUE(same_bits(mesh, filled.mesh));
-        return 0;
-    };
-    const int calls = run(std::numeric_limits<int>::max());
-    EXPECT_GE(calls, 3);
-    for (int call = 1; call <= calls; ++call) run(call);
+    expect_unchanged_if_cancelled(filled.mesh, [&](TriangleMesh& mesh, const Progress& progress) {
+        fair(mesh, filled.selection, {}, progress);
+    });
 }
 
 TEST(Fair, ReportsTheMovement) {

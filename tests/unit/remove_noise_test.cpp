@@ -12,6 +12,7 @@
 #include "filter_tracked_mcf/core/mesh/measures.h"
 #include "tests/support/shapes.h"
 #include "tests/support/surface_distance.h"
+#include "tests/unit/cancelling.h"
 #include "tests/unit/flows.h"
 #include "tests/unit/noise/noisy.h"
 
@@ -363,29 +364,9 @@ TEST(RemoveNoise, ReportsWhatItHasDone) {
 }
 
 TEST(RemoveNoise, LeavesTheMeshIfItIsCancelledAtAnyCall) {
-    const TriangleMesh before = with_noise(cube(), 0.2);
-    const auto run = [&](int last_call) {
-        TriangleMesh mesh = before;
-        int calls = 0;
-        double done = 0;
-        const auto progress = [&](double fraction, std::string_view /*phase*/) {
-            EXPECT_GE(fraction, done);
-            done = fraction;
-            return ++calls < last_call;
-        };
-        try {
-            remove_noise(mesh, {}, {}, progress);
-            EXPECT_EQ(done, 1);
-            return calls;
-        } catch (const Cancelled&) {
-            EXPECT_EQ(calls, last_call);
-        }
-        EXPECT_TRUE(same_bits(mesh, before));
-        return 0;
-    };
-    const int calls = run(std::numeric_limits<int>::max());
-    EXPECT_GE(calls, 5);
-    for (int call = 1; call <= 5; ++call) run(call);
+    expect_unchanged_if_cancelled(
+        with_noise(cube(), 0.2),
+        [](TriangleMesh& mesh, const Progress& progress) { remove_noise(mesh, {}, {}, progress); });
 }
 
 TEST(RemoveNoise, RefusesWhatItCannotDo) {

@@ -14,7 +14,7 @@ import tempfile
 import pymeshlab
 
 RENDER = pathlib.Path(__file__).resolve().parents[2] / "demo" / "render.py"
-VIEW = ["--up", "0", "-1", "0", "--zoom", "2.2", "--center", "0.05", "-0.1", "--height", "640"]
+VIEW = ["--up", "0", "-1", "0", "--zoom", "2.2", "--center", "0.05", "-0.1", "--height", "420"]
 
 
 def main(scan, program, picture):
