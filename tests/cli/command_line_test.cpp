@@ -36,10 +36,10 @@ std::string unwrapped(const std::string& text) {
 }
 
 TEST(CommandLine, DefaultsAreThoseOfTheFlow) {
-    const auto line = parse({"a.ply", "b.obj"});
+    const auto line = parse({"a.ply", "b.stl"});
     const FlowParameters defaults;
     EXPECT_EQ(line.input, "a.ply");
-    EXPECT_EQ(line.output, "b.obj");
+    EXPECT_EQ(line.output, "b.stl");
     EXPECT_EQ(line.report, "");
     EXPECT_FALSE(line.quiet);
     EXPECT_TRUE(line.lengths.empty());
@@ -144,8 +144,8 @@ TEST(CommandLine, WhatIsNoLengthIsRefusedWithTwoExamples) {
 TEST(CommandLine, OnlyAPlyHasPropertiesToSelectBy) {
     EXPECT_THAT(complaint({"a.obj", "b.ply", "--selected", "q"}),
                 HasSubstr("--selected needs a PLY file as INPUT"));
-    EXPECT_EQ(complaint({"a.Ply", "b.obj", "--selected", "q"}), "none");
-    EXPECT_THAT(complaint({"a.ply", "b.obj", "--selected", ""}), HasSubstr("--selected"));
+    EXPECT_EQ(complaint({"a.Ply", "b.stl", "--selected", "q"}), "none");
+    EXPECT_THAT(complaint({"a.ply", "b.stl", "--selected", ""}), HasSubstr("--selected"));
 }
 
 TEST(CommandLine, InvalidArgumentsAreNamed) {
@@ -167,6 +167,9 @@ TEST(CommandLine, TheExtensionTellsTheFormat) {
               "b.xyz: the extension tells the format; give .ply, .obj, .off or .stl.");
     EXPECT_EQ(complaint({"scan", "b.ply"}),
               "scan: the extension tells the format; give .ply, .obj, .off or .stl.");
+    EXPECT_EQ(complaint({"a.ply", "b.obj"}),
+              "b.obj: only PLY and STL can be written from another format; give OUTPUT the "
+              "extension of INPUT, .ply or .stl.");
 }
 
 TEST(CommandLine, TheReportMustNotReplaceAMesh) {

@@ -90,14 +90,12 @@ TEST_P(EachCommand, ChangesPositionsAlone) {
     EXPECT_THAT(changed, ::testing::Contains(2));
 }
 
-TEST_P(EachCommand, WritesEveryFormat) {
+TEST_P(EachCommand, ConvertsToStl) {
     ASSERT_EQ(run_on_wave("out.ply --quiet").exit_code, 0);
-    for (const char* name : {"out.obj", "out.off", "out.stl"}) {
-        const ProgramRun result = run_on_wave(std::string(name) + " --quiet");
-        EXPECT_EQ(result.exit_code, 0) << result.errors;
-        EXPECT_THAT(result.errors, HasSubstr("does not keep everything of"));
-        EXPECT_NEAR(area(name), area("out.ply"), 1e-5 * area("out.ply")) << name;
-    }
+    const ProgramRun result = run_on_wave("out.stl --quiet");
+    EXPECT_EQ(result.exit_code, 0) << result.errors;
+    EXPECT_THAT(result.errors, HasSubstr("does not keep everything of"));
+    EXPECT_NEAR(area("out.stl"), area("out.ply"), 1e-5 * area("out.ply"));
 }
 
 TEST_P(EachCommand, ReplacesItsInput) {

@@ -33,28 +33,6 @@ TEST(Off, AttributesOfVerticesStayAndNormalsAreThoseOfTheNewShape) {
               "0 1 0 0 0 1 0 0 255 0 1\n3 0 1 2\n");
 }
 
-TEST(Off, QuadranglesAreSplitAsMeshLabDoes) {
-    const auto triangles = [](const std::string& content) {
-        const TemporaryFolder folder;
-        write_file(folder / "in.off", content);
-        return MeshFile(folder / "in.off").triangle_mesh().triangles;
-    };
-    using Triangles = std::vector<Triangle>;
-    EXPECT_EQ(triangles("OFF\n4 1 0\n0 0 0\n3 0 0\n4 1 0\n1 1 0\n4 0 1 2 3\n"),
-              (Triangles{{1, 2, 3}, {1, 3, 0}}))
-        << "along the shorter diagonal of a parallelogram";
-    EXPECT_EQ(triangles("OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n"),
-              (Triangles{{0, 1, 2}, {0, 2, 3}}))
-        << "from the first corner if both diagonals are as good";
-    EXPECT_EQ(triangles("OFF\n4 1 0\n0 0 0\n2 1 0\n4 0 0\n2 3 0\n4 0 1 2 3\n"),
-              (Triangles{{1, 2, 3}, {1, 3, 0}}))
-        << "inside a quadrangle that is not convex";
-    EXPECT_EQ(triangles("OFF\n5 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 9\n"
-                        "4 0 1 2 3\n4 0 3 2 1\n"),
-              (Triangles{{0, 1, 2}, {0, 2, 3}, {3, 2, 1}, {3, 1, 0}}))
-        << "two quadrangles do not share a diagonal";
-}
-
 TEST(Off, QuadranglesAndPentagonsBecomeTriangles) {
     const TemporaryFolder folder;
     write_file(folder / "in.off",

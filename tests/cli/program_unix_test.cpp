@@ -19,12 +19,13 @@ using ::testing::StartsWith;
 
 using ProgramOnUnix = ProgramFixture;
 
+const std::string kTriangleObj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+
 TEST_F(ProgramOnUnix, MaterialsAreNotOpened) {
-    const std::string rest = "\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
     ASSERT_EQ(mkfifo((folder_ / "pipe.mtl").c_str(), 0600), 0);
     // Both would be read without end.
     for (const char* material : {"/dev/zero", "pipe.mtl"}) {
-        write_file(folder_ / "a.obj", "mtllib " + std::string(material) + rest);
+        write_file(folder_ / "a.obj", "mtllib " + std::string(material) + '\n' + kTriangleObj);
         const ProgramRun result = run_program(folder_, "a.obj b.obj --depth 3", "timeout 60");
         EXPECT_EQ(result.exit_code, 0) << result.errors;
         EXPECT_THAT(read_file(folder_ / "b.obj"),
@@ -33,17 +34,18 @@ TEST_F(ProgramOnUnix, MaterialsAreNotOpened) {
 }
 
 TEST_F(ProgramOnUnix, PipesAreReadInEveryFormat) {
+    write_file(folder_ / "a.obj", kTriangleObj);
     for (const std::string extension : {"ply", "obj", "off", "stl"}) {
         const std::string file = "a." + extension, pipe = "pipe." + extension;
-        if (extension != "off") {
+        if (extension == "ply" || extension == "stl") {
             ASSERT_EQ(run("a.off " + file + " --depth 3").exit_code, 0);
         }
         std::filesystem::create_symlink("/dev/stdin", folder_ / pipe);
-        ASSERT_EQ(run(file + " b.off --depth 3").exit_code, 0);
+        ASSERT_EQ(run(file + " b.ply --depth 3").exit_code, 0);
         const ProgramRun result =
-            run_program(folder_, pipe + " c.off --depth 3", "cat " + file + " | timeout 60");
+            run_program(folder_, pipe + " c.ply --depth 3", "cat " + file + " | timeout 60");
         EXPECT_EQ(result.exit_code, 0) << result.errors;
-        EXPECT_EQ(read_file(folder_ / "c.off"), read_file(folder_ / "b.off")) << extension;
+        EXPECT_EQ(read_file(folder_ / "c.ply"), read_file(folder_ / "b.ply")) << extension;
     }
     const ProgramRun result = run_program(folder_, "/dev/stdin c.off", "cat a.off | timeout 60");
     EXPECT_EQ(result.exit_code, 2);
@@ -51,11 +53,13 @@ TEST_F(ProgramOnUnix, PipesAreReadInEveryFormat) {
 }
 
 TEST_F(ProgramOnUnix, PipesAreWrittenInEveryFormat) {
+    write_file(folder_ / "a.obj", kTriangleObj);
     for (const std::string extension : {"ply", "obj", "off", "stl"}) {
         const std::string file = "b." + extension, pipe = "out." + extension;
+        const std::string input = extension == "obj" ? "a.obj " : "a.off ";
         std::filesystem::create_symlink("/dev/stdout", folder_ / pipe);
-        ASSERT_EQ(run("a.off " + file + " --depth 3").exit_code, 0);
-        const ProgramRun result = run("a.off " + pipe + " --depth 3 --quiet | cat >piped");
+        ASSERT_EQ(run(input + file + " --depth 3").exit_code, 0);
+        const ProgramRun result = run(input + pipe + " --depth 3 --quiet | cat >piped");
         EXPECT_EQ(read_file(folder_ / "piped"), read_file(folder_ / file)) << extension;
         EXPECT_TRUE(std::filesystem::is_symlink(folder_ / pipe));
     }
@@ -73,7 +77,7 @@ TEST_F(ProgramOnUnix, AFullStandardOutputExitsWith3) {
 
 TEST_F(ProgramOnUnix, FullDiskExitsWith3AndLeavesTheOldFile) {
     write_file(folder_ / "grid.off", grid(20));
-    for (const char* name : {"b.ply", "b.obj", "b.off", "b.stl"}) {
+    for (const char* name : {"b.ply", "b.off", "b.stl"}) {
         write_file(folder_ / name, "before");
         // `ulimit -f 1` limits each file to one block, so writing fails as on a full disk.
         const ProgramRun result =

@@ -117,12 +117,16 @@ TEST(Selection, SelectingNothingIsAnError) {
 
 /// Returns the positions of the smoothed pyramid as rows of text.
 std::vector<std::string> vertex_lines(const TemporaryFolder& folder, const std::string& options) {
-    const ProgramRun run = run_program(folder, "a.ply b.off --depth 4 --quiet " + options);
+    const ProgramRun run = run_program(folder, "a.ply b.ply --depth 4 --quiet " + options);
     EXPECT_EQ(run.exit_code, 0) << run.errors;
-    std::istringstream text(read_file(folder / "b.off"));
+    const std::string written = read_file(folder / "b.ply");
+    std::istringstream text(written.substr(written.find("end_header\n") + 11));
     std::vector<std::string> lines;
-    for (std::string line; std::getline(text, line);) lines.push_back(line);
-    return {lines.begin() + 2, lines.begin() + 7};
+    for (std::string x, y, z, rest; lines.size() < 5 && text >> x >> y >> z;) {
+        lines.push_back(x + ' ' + y + ' ' + z);
+        std::getline(text, rest);
+    }
+    return lines;
 }
 
 TEST(Selection, OnlySelectedFacesMove) {

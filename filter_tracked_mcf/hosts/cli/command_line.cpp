@@ -97,8 +97,8 @@ const char* const kFooter =
     "\n"
     "Files: PLY, OBJ, OFF and STL, by extension. If OUTPUT has the format of INPUT, only the\n"
     "positions and the normals around them change: text stays text, and binary stays binary.\n"
-    "Another format gets the positions, the faces and the colours of the vertices (PLY: binary;\n"
-    "STL: binary triangles without colours), and a warning names everything that is left out.\n"
+    "Another format, PLY or STL in binary, gets only the positions and the faces, and a warning\n"
+    "names everything that is left out.\n"
     "Only a PLY file can hold a quality: the property quality of its vertices. INPUT and OUTPUT\n"
     "may be the same file: it is replaced only after everything has succeeded.\n"
     "\n"
@@ -280,6 +280,11 @@ void check_paths(const CommandLine& line, bool has_quality) {
         if (property.empty() || format_of(line.input)->has_numbers) continue;
         throw InvalidParameter(option_of(name) +
                                " needs a PLY file as INPUT: only PLY has properties.");
+    }
+    if (format_of(line.input) != format_of(line.output) && !format_of(line.output)->convert) {
+        throw InvalidParameter(line.output.u8string() +
+                               ": only PLY and STL can be written from another format; give " +
+                               "OUTPUT the extension of INPUT, .ply or .stl.");
     }
     if (has_quality && !format_of(line.output)->has_numbers) {
         throw InvalidParameter("--quality needs a PLY file as OUTPUT: only PLY can hold it.");

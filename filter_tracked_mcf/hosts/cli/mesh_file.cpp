@@ -37,7 +37,7 @@ std::string property_names(const FileDocument& document, NumbersOf items) {
 MeshFile::MeshFile(const fs::path& path) : path_(path), document_(open_document(path)) {}
 
 TriangleMesh MeshFile::triangle_mesh() const {
-    return {document_->positions(), document_->triangles()};
+    return {document_->positions(), fans(document_->polygons())};
 }
 
 Selection MeshFile::selection_by(const std::string& name) const {
@@ -105,8 +105,6 @@ std::string MeshFile::conversion_warning(const fs::path& file) const {
     const Format *const from = format_of(path_), *const to = format_of(file);
     if (from == to) return {};
     std::vector<std::string> losses = document_->extras();
-    const bool has_colors = !document_->vertex_colors().empty();
-    if (has_colors && !to->keeps_colors) losses.insert(losses.begin(), "colours of vertices");
     const Polygons& polygons = document_->polygons();
     if (polygons.size_with_triangles() < polygons.size()) {
         losses.emplace_back("faces of fewer than 3 corners");

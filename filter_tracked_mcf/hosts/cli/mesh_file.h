@@ -16,8 +16,8 @@ class FileDocument;
 /// A mesh that was read from a PLY, OBJ, OFF or STL file.
 ///
 /// Written in its own format, the file keeps everything but positions and normals to the letter,
-/// as text or binary. Another format gets the positions, the polygons and the colours of vertices.
-/// STL has triangles, in floats, and no colours of vertices.
+/// as text or binary. Another format, PLY or STL, gets the positions and the polygons. STL has
+/// triangles, in floats.
 class MeshFile {
 public:
     /// Reads a file in the format of its extension. Throws UnreadableFile.

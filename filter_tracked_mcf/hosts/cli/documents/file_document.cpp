@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "filter_tracked_mcf/hosts/cli/documents/file_document.h"
 
-#include <algorithm>
+#include <array>
 #include <cerrno>
-#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <system_error>
@@ -17,10 +16,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::array<Format, 4> kFormats = {{{".ply", parse_ply, convert_to_ply, true, true},
-                                             {".obj", parse_obj, convert_to_obj, true, false},
-                                             {".off", parse_off, convert_to_off, true, false},
-                                             {".stl", parse_stl, convert_to_stl, false, false}}};
+constexpr std::array<Format, 4> kFormats = {{{".ply", parse_ply, convert_to_ply, true},
+                                             {".obj", parse_obj, nullptr, false},
+                                             {".off", parse_off, nullptr, false},
+                                             {".stl", parse_stl, convert_to_stl, false}}};
 
 [[noreturn]] void fail_to_read(const fs::path& path, const std::string& why) {
     throw UnreadableFile("cannot read " + path.u8string() + ": " + why +
@@ -54,16 +53,6 @@ std::string read_whole_file(const fs::path& path) {
 }
 
 }  // namespace
-
-Color make_color(const std::array<double, 4>& channels, double full) {
-    Color color;
-    for (std::size_t i = 0; i < channels.size(); ++i) {
-        // A channel that is not a number becomes 0.
-        const double share = channels[i] > 0 ? std::min(channels[i] / full, 1.0) : 0;
-        color[i] = static_cast<std::uint8_t>(std::lround(share * 255));
-    }
-    return color;
-}
 
 const Format* format_of(const fs::path& path) {
     const std::string extension = lower_case(path.extension().u8string());

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <array>
 #include <cfloat>
 #include <cstdint>
 #include <filesystem>
@@ -15,14 +14,6 @@
 #include "filter_tracked_mcf/hosts/cli/documents/polygons.h"
 
 namespace tracked_mcf {
-
-/// Red, green, blue and alpha, 0 to 255.
-using Color = std::array<std::uint8_t, 4>;
-
-inline constexpr Color kWhite = {255, 255, 255, 255};
-
-/// Returns the colour with these channels. The value `full` becomes 255.
-Color make_color(const std::array<double, 4>& channels, double full);
 
 /// A mesh file, kept whole so that it can be written again with new positions and nothing else
 /// changed. It has been checked: every number is a number, every index of a vertex is in range, a
@@ -41,12 +32,6 @@ public:
 
     /// The faces, in the order of the file.
     const Polygons& polygons() const { return polygons_; }
-
-    /// Returns the triangles into which the polygons are split, in the order of the polygons.
-    virtual std::vector<Triangle> triangles() const { return fans(polygons()); }
-
-    /// Returns one colour per vertex, or none if the file has no colours of vertices.
-    virtual std::vector<Color> vertex_colors() const { return {}; }
 
     /// What may have properties: numbers under names, which only PLY files have.
     enum class NumbersOf { Vertices, Faces };
@@ -69,8 +54,7 @@ public:
     /// Returns whether write() writes coordinates as floats.
     virtual bool writes_floats() const { return false; }
 
-    /// Names what the file has besides positions, polygons and colours of vertices: what other
-    /// formats do not keep.
+    /// Names what the file has besides positions and polygons: what other formats do not keep.
     virtual std::vector<std::string> extras() const = 0;
 
     /// Writes the file with other positions. The normals of faces with a moved vertex become those
@@ -98,12 +82,11 @@ struct Format {
     /// Makes a document of a file's whole content, see parse_document().
     std::unique_ptr<FileDocument> (*parse)(std::string&& content);
 
-    /// Writes `positions` with the polygons and the colours of vertices of `source`, which may have
-    /// any format.
+    /// Writes `positions` with the polygons of `source`, which may have any format; null if only a
+    /// file of this format can be written in it.
     void (*convert)(std::ostream& out, const FileDocument& source, const Points& positions);
 
-    bool keeps_colors;  ///< whether `convert` writes colours of vertices
-    bool has_numbers;   ///< whether files may have numbers under names
+    bool has_numbers;  ///< whether files may have numbers under names
 };
 
 /// Returns the format of a path by its extension, in upper or lower case; null if it is unknown.
@@ -121,8 +104,6 @@ std::unique_ptr<FileDocument> parse_obj(std::string&& content);
 std::unique_ptr<FileDocument> parse_off(std::string&& content);
 std::unique_ptr<FileDocument> parse_stl(std::string&& content);
 void convert_to_ply(std::ostream& out, const FileDocument& source, const Points& positions);
-void convert_to_obj(std::ostream& out, const FileDocument& source, const Points& positions);
-void convert_to_off(std::ostream& out, const FileDocument& source, const Points& positions);
 void convert_to_stl(std::ostream& out, const FileDocument& source, const Points& positions);
 
 }  // namespace tracked_mcf

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
-#include <cmath>
 #include <map>
-#include <ostream>
 #include <set>
 
 #include "filter_tracked_mcf/hosts/cli/documents/text_document.h"
@@ -47,6 +45,7 @@ public:
             extras.insert(name == names.end() ? std::string(keyword) : name->second);
         }
         if (!normals_.empty()) extras.insert(names.at("vn"));
+        if (has_colors_) extras.insert("colours of vertices");
         return {extras.begin(), extras.end()};
     }
 
@@ -67,13 +66,12 @@ private:
             keywords_.insert(words[0]);
     }
 
-    /// "v x y z", and in many files red, green and blue as well, up to 1 or up to 255. z may be
-    /// missing.
+    /// "v x y z", and in many files red, green and blue as well. z may be missing.
     void read_vertex(const Words& words) {
         if (words.size() < 3) throw UnreadableFile("a vertex has fewer than 2 coordinates");
         const std::string_view y = words[2];
         read_point({words[1], y, words.size() > 3 ? words[3] : y.substr(y.size())}, positions_);
-        if (words.size() >= 7) read_color(&words[4], 3);
+        has_colors_ = has_colors_ || words.size() >= 7;
     }
 
     void read_face(const Words& words, std::size_t line) {
@@ -114,6 +112,7 @@ private:
     }
 
     std::set<std::string_view> keywords_;  ///< the first words of other lines
+    bool has_colors_ = false;              ///< of vertices
     std::int32_t last_index_ = -1;
     std::size_t line_of_last_index_ = 0;
 };
@@ -122,28 +121,6 @@ private:
 
 std::unique_ptr<FileDocument> parse_obj(std::string&& content) {
     return std::make_unique<ObjDocument>(std::move(content));
-}
-
-void convert_to_obj(std::ostream& out, const FileDocument& source, const Points& positions) {
-    const std::vector<Color> colors = source.vertex_colors();
-    for (std::size_t i = 0; i < positions.size(); ++i) {
-        out << 'v';
-        for (int axis = 0; axis < 3; ++axis) out << ' ' << format_number(positions[i][axis]);
-        // Four digits tell 256 levels apart.
-        for (std::size_t channel = 0; channel < 3 && !colors.empty(); ++channel) {
-            out << ' ' << format_number(std::round(colors[i][channel] / 255.0 * 1e4) / 1e4);
-        }
-        out << '\n';
-    }
-    const Polygons& polygons = source.polygons();
-    for (std::size_t i = 0; i < polygons.size(); ++i) {
-        if (polygons.triangle_count(i) == 0) continue;
-        out << 'f';
-        for (std::size_t corner = polygons.first[i]; corner < polygons.first[i + 1]; ++corner) {
-            out << ' ' << polygons.corners[corner] + 1;
-        }
-        out << '\n';
-    }
 }
 
 }  // namespace tracked_mcf

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <ostream>
-
 #include "filter_tracked_mcf/hosts/cli/documents/binary.h"
 #include "filter_tracked_mcf/hosts/cli/documents/text_document.h"
 #include "filter_tracked_mcf/hosts/cli/file_error.h"
@@ -13,7 +11,6 @@ class OffDocument : public TextDocument {
 public:
     explicit OffDocument(std::string content)
         : TextDocument(std::move(content)), reader_(content_, TextReader::Syntax::Comments) {
-        are_bytes_ = true;
         reader_.advance();
         if (reader_.next_word().find_first_not_of("0123456789") != std::string_view::npos) {
             read_keyword(reader_.word());
@@ -39,18 +36,12 @@ public:
         if (has_normals_) normal_of_corner_ = polygons_.corners;
     }
 
-    std::vector<Triangle> triangles() const override {
-        Polygons polygons = polygons_;
-        choose_diagonals(positions_, polygons);
-        return fans(polygons);
-    }
-
     std::vector<std::string> extras() const override {
         std::vector<std::string> extras;
         if (has_normals_) extras.emplace_back("normals");
         if (texture_size_ > 0) extras.emplace_back("texture coordinates");
         if (has_face_colors_) extras.emplace_back("colours of faces");
-        if (has_vertex_colors_ && !has_colors()) extras.emplace_back("indices of colours");
+        if (has_vertex_colors_) extras.emplace_back("colours of vertices");
         return extras;
     }
 
@@ -133,13 +124,11 @@ private:
         }
     }
 
-    /// Only the end of the line tells the length of a colour. One number is an index.
+    /// Only the end of the line tells the length of a colour.
     void read_vertex_color() {
         const std::size_t left = reader_.words_left() - texture_size_;
         if (own_lines_ && left > 4) throw UnreadableFile("a colour has 0 to 4 numbers");
-        Words words(own_lines_ ? left : 4);
-        for (std::string_view& word : words) word = next();
-        if (words.size() >= 3) read_color(words.data(), words.size());
+        for (std::size_t i = 0; i < (own_lines_ ? left : 4); ++i) next();
     }
 
     void read_face() {
@@ -173,29 +162,6 @@ private:
 
 std::unique_ptr<FileDocument> parse_off(std::string&& content) {
     return std::make_unique<OffDocument>(std::move(content));
-}
-
-void convert_to_off(std::ostream& out, const FileDocument& source, const Points& positions) {
-    const std::vector<Color> colors = source.vertex_colors();
-    const Polygons& polygons = source.polygons();
-    out << (colors.empty() ? "OFF\n" : "COFF\n") << positions.size() << ' '
-        << polygons.size_with_triangles() << " 0\n";
-    for (std::size_t i = 0; i < positions.size(); ++i) {
-        const Eigen::Vector3d& p = positions[i];
-        out << format_number(p.x()) << ' ' << format_number(p.y()) << ' ' << format_number(p.z());
-        for (std::size_t channel = 0; channel < 4 && !colors.empty(); ++channel) {
-            out << ' ' << int{colors[i][channel]};
-        }
-        out << '\n';
-    }
-    for (std::size_t i = 0; i < polygons.size(); ++i) {
-        if (polygons.triangle_count(i) == 0) continue;
-        out << polygons.corner_count(i);
-        for (std::size_t corner = polygons.first[i]; corner < polygons.first[i + 1]; ++corner) {
-            out << ' ' << polygons.corners[corner];
-        }
-        out << '\n';
-    }
 }
 
 }  // namespace tracked_mcf

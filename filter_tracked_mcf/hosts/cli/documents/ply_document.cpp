@@ -15,23 +15,13 @@ namespace {
 
 constexpr std::array<std::string_view, 3> kCoordinates = {"x", "y", "z"};
 constexpr std::array<std::string_view, 3> kNormal = {"nx", "ny", "nz"};
-constexpr std::array<std::string_view, 4> kChannels = {"red", "green", "blue", "alpha"};
 constexpr std::string_view kQuality = "quality";
 
-/// What a property means. The axis is that of a point, or the channel of a colour.
+/// What a property means. The axis is that of a point.
 struct Role {
-    enum Kind { None, Coordinate, Normal, Channel, Corners, Strips } kind = None;
+    enum Kind { None, Coordinate, Normal, Corners, Strips } kind = None;
     int axis = 0;
 };
-
-/// Returns the channel of a colour that a property is, or -1.
-int channel_of(const PlyProperty& property) {
-    if (property.type != PlyType::U8 || property.is_list()) return -1;
-    std::string name = lower_case(property.name);
-    if (name.rfind("diffuse_", 0) == 0) name.erase(0, 8);
-    const auto found = std::find(kChannels.begin(), kChannels.end(), name);
-    return found == kChannels.end() ? -1 : static_cast<int>(found - kChannels.begin());
-}
 
 /// Returns the list of vertices of faces or strips. It has one of the names that programs use, or
 /// is the only list of whole numbers.
@@ -84,10 +74,6 @@ public:
         }
         vertices_have_normals_ = set_roles(vertices_, Role::Normal, kNormal);
         faces_have_normals_ = set_roles(faces_, Role::Normal, kNormal);
-        for (const PlyProperty& property : vertices_->properties) {
-            const int channel = channel_of(property);
-            if (channel >= 0) roles_[property.index] = {Role::Channel, channel};
-        }
         if (faces_ && faces_->count > 0) roles_[find_indices(*faces_).index].kind = Role::Corners;
         if (strips) roles_[find_indices(*strips).index].kind = Role::Strips;
         read();
@@ -98,22 +84,6 @@ public:
         return !doubles() && std::all_of(properties.begin(), properties.end(), [&](const auto& p) {
             return roles_[p.index].kind != Role::Coordinate || p.type == PlyType::Float;
         });
-    }
-
-    std::vector<Color> vertex_colors() const override {
-        std::vector<Color> colors;
-        const auto is_channel = [](const Role& role) { return role.kind == Role::Channel; };
-        if (std::none_of(roles_.begin(), roles_.end(), is_channel)) return colors;
-        colors.resize(positions_.size(), kWhite);
-        table_.for_each_field([&](const PlyElement&, std::size_t row, const PlyProperty& property,
-                                  const Words& words) {
-            const Role role = roles_[property.index];
-            if (!is_channel(role)) return;
-            const double number = table_.number(words[0], property.type);
-            colors[row][static_cast<std::size_t>(role.axis)] =
-                static_cast<std::uint8_t>(number > 0 ? std::lround(std::min(number, 255.0)) : 0);
-        });
-        return colors;
     }
 
     std::vector<double> numbers(NumbersOf items, const std::string& name) const override {
@@ -301,7 +271,6 @@ std::unique_ptr<FileDocument> parse_ply(std::string&& content) {
 }
 
 void convert_to_ply(std::ostream& out, const FileDocument& source, const Points& positions) {
-    const std::vector<Color> colors = source.vertex_colors();
     const Polygons& polygons = source.polygons();
     std::size_t most_corners = 0;
     for (std::size_t i = 0; i < polygons.size(); ++i) {
@@ -311,16 +280,12 @@ void convert_to_ply(std::ostream& out, const FileDocument& source, const Points&
     const bool short_lists = most_corners < 256;
     out << "ply\nformat binary_little_endian 1.0\nelement vertex " << positions.size() << '\n';
     for (const std::string_view name : kCoordinates) out << "property double " << name << '\n';
-    for (const std::string_view name : kChannels) {
-        if (!colors.empty()) out << "property uchar " << name << '\n';
-    }
     const std::vector<double>& quality = source.quality();
     if (!quality.empty()) out << "property double " << kQuality << '\n';
     out << "element face " << polygons.size_with_triangles() << "\nproperty list "
         << (short_lists ? "uchar" : "int") << " int vertex_indices\nend_header\n";
     for (std::size_t i = 0; i < positions.size(); ++i) {
         out << as_bytes(positions[i]);
-        if (!colors.empty()) out << as_bytes(colors[i]);
         if (!quality.empty()) out << as_bytes(quality[i]);
     }
     for (std::size_t i = 0; i < polygons.size(); ++i) {

@@ -3,38 +3,10 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <set>
-#include <utility>
 
 namespace tracked_mcf {
 
 namespace {
-
-/// Returns 2 * inradius / circumradius: 1 for an equilateral triangle, 0 for a degenerate one. The
-/// order of the operations is MeshLab's, because rounding chooses a diagonal of a rectangle.
-double shape_quality(const Eigen::Vector3d& p, const Eigen::Vector3d& q, const Eigen::Vector3d& r) {
-    const auto length = [](const Eigen::Vector3d& v) {
-        return std::sqrt(v.x() * v.x() + v.y() * v.y() + v.z() * v.z());
-    };
-    const double a = length(q - p), b = length(r - p), c = length(q - r);
-    const double s = (a + b + c) * 0.5;
-    const double squared_area = s * (a + b - s) * (a + c - s) * (b + c - s);
-    return squared_area <= 0 ? 0 : 8 * squared_area / (a * b * c * s);
-}
-
-/// Returns whether the diagonal from q to s is better than the one from p to r.
-bool other_diagonal_is_better(const Eigen::Vector3d& p, const Eigen::Vector3d& q,
-                              const Eigen::Vector3d& r, const Eigen::Vector3d& s) {
-    // The normals of the triangles abc and acd.
-    const auto scalar_product = [](const auto& a, const auto& b, const auto& c, const auto& d) {
-        return (b - a).cross(c - a).dot((c - a).cross(d - a));
-    };
-    const bool only_other_folds = scalar_product(q, r, s, p) < 0 && scalar_product(p, q, r, s) >= 0;
-    return !only_other_folds && std::min(shape_quality(p, q, r), shape_quality(p, r, s)) <
-                                    std::min(shape_quality(q, r, s), shape_quality(q, s, p));
-}
 
 /// Returns the normal of a triangle, twice as long as its area; zero if rounding its coordinates to
 /// this relative precision may flatten it.
@@ -60,20 +32,6 @@ std::vector<Triangle> fans(const Polygons& polygons) {
         }
     }
     return triangles;
-}
-
-void choose_diagonals(const Points& positions, Polygons& polygons) {
-    std::set<std::pair<std::int32_t, std::int32_t>> diagonals;
-    for (std::size_t i = 0; i < polygons.size(); ++i) {
-        if (polygons.corner_count(i) != 4) continue;
-        std::int32_t* const corners = &polygons.corners[polygons.first[i]];
-        const auto point = [&](int k) { return positions[static_cast<std::size_t>(corners[k])]; };
-        if (other_diagonal_is_better(point(0), point(1), point(2), point(3))) {
-            std::rotate(corners, corners + 1, corners + 4);
-        }
-        const bool is_new = diagonals.insert(std::minmax({corners[0], corners[2]})).second;
-        if (!is_new) std::rotate(corners, corners + 1, corners + 4);
-    }
 }
 
 Points moved_normals(const Points& before, const Points& after, double precision,

@@ -39,11 +39,6 @@ struct Polygons {
 /// Returns the triangles of all polygons in order; each polygon is a fan about its first corner.
 std::vector<Triangle> fans(const Polygons& polygons);
 
-/// Rotates the corners of each quadrangle so that fans() splits it as MeshLab's OFF reader does:
-/// along the diagonal that gives the better shaped triangles, unless that folds the surface or
-/// another quadrangle already uses this diagonal.
-void choose_diagonals(const Points& positions, Polygons& polygons);
-
 /// Returns `count` unit normals of the shape `after`. Corner c contributes the area vector of its
 /// polygon to normal normal_of_corner[c], or to none if that is -1. One normal per vertex gives
 /// area-weighted vertex normals; a vertex with several normals keeps its crease sharp.

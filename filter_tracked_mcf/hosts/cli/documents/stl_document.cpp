@@ -148,7 +148,7 @@ std::unique_ptr<FileDocument> parse_stl(std::string&& content) {
 }
 
 void convert_to_stl(std::ostream& out, const FileDocument& source, const Points& positions) {
-    const std::vector<Triangle> triangles = source.triangles();
+    const std::vector<Triangle> triangles = fans(source.polygons());
     std::string header = "binary STL by tracked_mcf";
     header.resize(kHeaderSize, ' ');
     out << header << as_bytes(static_cast<std::uint32_t>(triangles.size()));

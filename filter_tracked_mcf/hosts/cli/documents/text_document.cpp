@@ -8,14 +8,6 @@
 
 namespace tracked_mcf {
 
-std::vector<Color> TextDocument::vertex_colors() const {
-    std::vector<Color> colors(has_colors() ? positions_.size() : 0, kWhite);
-    for (std::size_t i = 0; i < channels_.size(); ++i) {
-        colors[i] = make_color(channels_[i], largest_channel_ > 1 || are_bytes_ ? 255 : 1);
-    }
-    return colors;
-}
-
 void TextDocument::write(std::ostream& out, const Points& positions) const {
     const Points normals = moved_normals(positions_, positions, precision(), polygons_,
                                          normal_of_corner_, normals_.size());
@@ -39,15 +31,6 @@ void TextDocument::read_point(const PointWords& words, Points& points) {
     Eigen::Vector3d& point = points.emplace_back(Eigen::Vector3d::Zero());
     for (std::size_t axis = 0; axis < 3; ++axis) {
         if (!words[axis].empty()) point[static_cast<int>(axis)] = parse(words[axis]);
-    }
-}
-
-void TextDocument::read_color(const std::string_view* words, std::size_t count) {
-    channels_.resize(positions_.size(), {HUGE_VAL, HUGE_VAL, HUGE_VAL, HUGE_VAL});
-    for (std::size_t i = 0; i < count; ++i) {
-        channels_.back()[i] = parse(words[i]);
-        largest_channel_ = std::max(largest_channel_, channels_.back()[i]);
-        if (words[i].find('.') != std::string_view::npos) are_bytes_ = false;
     }
 }
 

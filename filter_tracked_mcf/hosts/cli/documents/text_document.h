@@ -10,7 +10,6 @@ namespace tracked_mcf {
 /// coordinates that have changed.
 class TextDocument : public FileDocument {
 public:
-    std::vector<Color> vertex_colors() const override;
     bool writes_floats() const override { return numbers_ != Numbers::Doubles; }
     void write(std::ostream& out, const Points& positions) const override;
 
@@ -26,15 +25,10 @@ protected:
     /// without a blank, is a zero that is missing.
     void read_point(const PointWords& words, Points& points);
 
-    /// Gives the last vertex the colour of these three or four words; others are white.
-    void read_color(const std::string_view* words, std::size_t count);
-    bool has_colors() const { return !channels_.empty(); }
-
     std::string content_;
     Numbers numbers_ = Numbers::Doubles;
     Points normals_;
     std::vector<std::int32_t> normal_of_corner_;  ///< or -1; may be empty without normals
-    bool are_bytes_ = false;  ///< whether colours without a point are numbers up to 255
 
 private:
     struct Point {
@@ -46,9 +40,7 @@ private:
     double parse(std::string_view word) const;
     std::string format(double number) const;
 
-    std::vector<Point> points_;                    ///< in the order of the content
-    std::vector<std::array<double, 4>> channels_;  ///< as in the file; infinite is white
-    double largest_channel_ = 0;
+    std::vector<Point> points_;  ///< in the order of the content
 };
 
 }  // namespace tracked_mcf
