@@ -31,8 +31,8 @@ void check_memory(const TriangleMesh& mesh) {
 
 /// Returns the positions of the surface's vertices after they have moved as the parameters ask, and
 /// reports how.
-Positions treated(NoisySurface& surface, double edge, const NoiseParameters& parameters,
-                  NoiseReport& report) {
+Positions without_noise(NoisySurface& surface, double edge, const NoiseParameters& parameters,
+                        NoiseReport& report) {
     const ProgressSpan span(0.3, 0.95);
     Positions positions = denoised(surface, edge, parameters, report);
     if (parameters.boundary == NoiseBoundary::Smooth) {
@@ -137,7 +137,7 @@ NoiseReport remove_noise(TriangleMesh& mesh, const Inputs& inputs,
     const std::vector<float>& fidelity = from.surface.fidelity;
     const bool moves = std::any_of(fidelity.begin(), fidelity.end(), [](float f) { return f > 0; });
     const Positions to =
-        moves ? treated(from.surface, from.edge, parameters, report) : from.surface.positions;
+        moves ? without_noise(from.surface, from.edge, parameters, report) : from.surface.positions;
     enter_phase(0.95, "Moving the vertices");
     std::vector<Eigen::Vector3d> after =
         moved_positions(mesh, from, to, parameters.largest_movement, report);

@@ -18,12 +18,12 @@ enum class NoiseStop {
     NothingMoves,    ///< all vertices are constrained
     TooFewVertices,  ///< fewer than 100 may move: too few to measure noise
     TooManyCreases,  ///< creases cross more than half of the area: noise cannot be told from them
-    NoNoise          ///< treatments take little of what might be noise, so it is detail
+    NoNoise          ///< smoothing takes little of what might be noise, so it is detail
 };
 
 /// What remove_noise() has measured and done.
 ///
-/// Its detail size is that of the treatment that suits the whole surface best; places may have
+/// Its detail size is that of the steps that suit the whole surface best; places may have
 /// chosen others. See NoiseParameters::detail_size.
 struct NoiseReport : SmoothingReport {
     NoiseStop stop = NoiseStop::None;

@@ -55,7 +55,7 @@ std::string stairs_text(const NoiseReport& report) {
 }
 
 /// Empty unless the size of the noise that the user gives is too small for what the mesh has. Then
-/// treatments take less than a quarter of the noise, RMS, else more than half.
+/// smoothing takes less than a quarter of the noise, RMS, else more than half.
 std::string too_small(const NoiseParameters& parameters, const NoiseReport& report) {
     constexpr double least = 0.4;
     if (report.stop != NoiseStop::None || parameters.noise_size == 0 ||

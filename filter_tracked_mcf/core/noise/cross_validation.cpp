@@ -13,7 +13,7 @@ namespace tracked_mcf {
 
 namespace {
 
-// The treatments that are tried. They were chosen on fandisk, cube, hand_8k, nefertiti_50k and
+// The candidates that are tried. They were chosen on fandisk, cube, hand_8k, nefertiti_50k and
 // armadillo_50k with noise of 0.05 to 0.7 edges.
 
 /// Lengths s of the metric, relative to that at which the least crease is as wide as an edge.
@@ -38,15 +38,15 @@ constexpr double kTrialNormalLength = 2.6, kTrialStepSize = 0.15;
 
 /// The weight γ of robust cross-validation; without it, noise is sometimes taken for detail.
 constexpr double kRobustness = 0.8;
-/// Treatments that do next to nothing are not told apart.
+/// Candidates that do next to nothing are not told apart.
 constexpr double kLeastRest = 0.02;
 /// With less noise than this, in edges, nothing is to be removed: steps would only move vertices
 /// along the surface.
 constexpr double kNoNoise = 1e-4;
-/// Where the best treatment takes less than this share of the noise, it is detail: at most 0.51 on
+/// Where the best candidate takes less than this share of the noise, it is detail: at most 0.51 on
 /// 20 clean meshes, 0.02 to 0.31 on 9 with lumps or waves, at least 0.58 on 105 noisy ones.
 constexpr double kLeastTaken = 0.55;
-/// More noise than this that passes for detail may be noise that varies. If so, a treatment with
+/// More noise than this that passes for detail may be noise that varies. If so, a candidate with
 /// fidelities takes more than this share of it: at least 0.81 on a depth camera's map and on sheets
 /// with five times the noise in a corner, at most 0.69 on clean meshes.
 constexpr double kLargeNoise = 0.1, kLeastTakenIfDoubtful = 0.75;
@@ -60,10 +60,10 @@ constexpr int kMostStepsOfWidth = 1;
 constexpr double kPerturbation = 0.05, kLeastPerturbation = 1e-4;
 constexpr double kTrialPerturbation = 5e-3;
 
-/// Places choose among so many treatments, and only if the best one keeps less than this share of
+/// Places choose among so many candidates, and only if the best one keeps less than this share of
 /// random heights: else it may be detail that it takes. The best of the whole sample has at most
 /// 0.54 with noise of 0.1 edges or more, and at least 0.60 on clean meshes.
-constexpr std::size_t kFewTreatments = 5, kFewQuickTreatments = 3;
+constexpr std::size_t kFewCandidates = 5, kFewQuickCandidates = 3;
 constexpr double kMostDivergence = 0.5;
 /// Neighbouring step sizes are these times each other. With them, this sharpening is tried, too.
 constexpr double kBetweenStepSizes = 2;
@@ -73,35 +73,35 @@ double square_of(double number) {
     return number * number;
 }
 
-/// What a treatment does to the heights of the sample's vertices.
+/// What a candidate does to the heights of the sample's vertices.
 struct Effect {
     double square = 0;       ///< mean square of the movement
     double divergence = 0;   ///< mean
     double sign_square = 0;  ///< mean square of what is taken from heights of random sign
 };
 
-/// Returns the noise that a treatment shows: it takes from noise what it takes from random signs.
+/// Returns the noise that a candidate shows: it takes from noise what it takes from random signs.
 double noise_of(const Effect& effect) {
     return effect.sign_square > 0 ? std::sqrt(effect.square / effect.sign_square) : 0;
 }
 
-/// Positions of the sample, and of the sample with perturbed heights, before or after a treatment.
-struct Twins {
+/// Positions of the sample, and of the sample with perturbed heights, before or after a candidate.
+struct PerturbedPair {
     Positions plain, perturbed;
 };
 
-/// A treatment that was tried.
+/// A candidate that was tried.
 struct Attempt {
-    Treatment treatment;
-    Twins twins;
+    Candidate candidate;
+    PerturbedPair pair;
     Effect effect;
     double score = std::numeric_limits<double>::infinity();
 };
 
-/// A place on the grid of treatments: in kNormalLengths and in kStepSizes.
+/// A place on the grid of candidates: in kNormalLengths and in kStepSizes.
 using Place = std::array<int, 2>;
 
-/// Tries treatments on a sample.
+/// Tries candidates on a sample.
 class Trials {
 public:
     Trials(const Sample& sample, const NoiseRequest& request)
@@ -140,17 +140,17 @@ public:
                 return choice;
             }
         }
-        if (best_.treatment.steps == 0) return choice;
+        if (best_.candidate.steps == 0) return choice;
         if (request_.crease > 0) {
             const Attempt smooth = best_;
             for (const Sharpening& sharpening : kSharpenings) {
                 keep(sharpened(smooth, sharpening));
             }
         }
-        choice.treatment = best_.treatment;
+        choice.candidate = best_.candidate;
         const bool is_known = request_.noise > 0 || request_.measured_noise > 0;
         choice.noise = is_known ? noise_ : noise_of(best_.effect);
-        choice.kind = kind_of_noise(sample_.surface.stars, heights_of(best_.twins), sample_.counts);
+        choice.kind = kind_of_noise(sample_.surface.stars, heights_of(best_.pair), sample_.counts);
         if (may_be_none && choice.kind == NoiseKind::Even &&
             best_.effect.divergence < kMostDivergence) {
             choice.others = others(choice.noise);
@@ -163,11 +163,11 @@ public:
             try_steps(settings_for(request_.crease > 0 ? kNormalLengthOfWidth : 0, step_size),
                       kMostStepsOfWidth);
         }
-        if (best_.treatment.steps == 0) return {};
+        if (best_.candidate.steps == 0) return {};
         std::vector<float> taken(signs_.size()), of_signs(signs_.size());
         parallel_for_rows(sample_.surface.stars.count(), [&](std::int32_t vertex) {
-            taken[vertex] = static_cast<float>(height(best_.twins, vertex));
-            of_signs[vertex] = signs_[vertex] - static_cast<float>(response(best_.twins, vertex));
+            taken[vertex] = static_cast<float>(height(best_.pair, vertex));
+            of_signs[vertex] = signs_[vertex] - static_cast<float>(response(best_.pair, vertex));
         });
         const double moved = std::sqrt(best_.effect.square), found = noise_of(best_.effect);
         const double least = correlation(of_signs);
@@ -219,15 +219,15 @@ private:
         const Positions& positions = sample_.surface.positions;
         normals_ = smoothing_.smooth_normals(positions, settings_for(kTrialNormalLength, 0));
         perturbation_ = perturbation;
-        untreated_ = {positions, positions};
+        before_ = {positions, positions};
         parallel_for_rows(sample_.surface.stars.count(), [&](std::int32_t vertex) {
-            untreated_.perturbed[vertex] +=
+            before_.perturbed[vertex] +=
                 perturbation / root(vertex) * signs_[vertex] * normal(vertex);
         });
     }
 
-    /// Returns the treatments besides the best one that suit some places of the sample better.
-    std::vector<Treatment> others(double noise) {
+    /// Returns the candidates besides the best one that suit some places of the sample better.
+    std::vector<Candidate> others(double noise) {
         if (request_.crease > 0 && !request_.is_quick) {
             for (const double ratio : {1 / kBetweenStepSizes, kBetweenStepSizes}) {
                 const Attempt* const neighbour = best_with_step_size(ratio);
@@ -236,7 +236,7 @@ private:
             }
         }
         const auto is_slow = [&](const Attempt& attempt) {
-            return request_.is_quick && !share_steps(attempt.treatment, best_.treatment);
+            return request_.is_quick && !share_steps(attempt.candidate, best_.candidate);
         };
         attempts_.erase(std::remove_if(attempts_.begin(), attempts_.end(), is_slow),
                         attempts_.end());
@@ -246,29 +246,29 @@ private:
             if (attempt.score == best_.score) best = risks.size();
             risks.emplace_back(signs_.size());
             parallel_for_rows(sample_.surface.stars.count(), [&](std::int32_t vertex) {
-                const double divergence = signs_[vertex] * response(attempt.twins, vertex);
-                risks.back()[vertex] = static_cast<float>(square_of(height(attempt.twins, vertex)) +
+                const double divergence = signs_[vertex] * response(attempt.pair, vertex);
+                risks.back()[vertex] = static_cast<float>(square_of(height(attempt.pair, vertex)) +
                                                           2 * noise * noise * divergence);
             });
         }
-        std::vector<Treatment> treatments;
+        std::vector<Candidate> candidates;
         for (const std::size_t i : best_few(
-                 sample_, risks, best, request_.is_quick ? kFewQuickTreatments : kFewTreatments)) {
-            if (i != best) treatments.push_back(attempts_[i].treatment);
+                 sample_, risks, best, request_.is_quick ? kFewQuickCandidates : kFewCandidates)) {
+            if (i != best) candidates.push_back(attempts_[i].candidate);
         }
-        return treatments;
+        return candidates;
     }
 
     /// Returns the best attempt whose step size is so many times the best one's, without
     /// sharpening, or a null pointer.
     const Attempt* best_with_step_size(double ratio) const {
-        const StepSettings& settings = best_.treatment.settings;
+        const StepSettings& settings = best_.candidate.settings;
         const Attempt* best = nullptr;
         for (const Attempt& attempt : attempts_) {
-            const StepSettings& other = attempt.treatment.settings;
+            const StepSettings& other = attempt.candidate.settings;
             const bool fits = other.normal_length == settings.normal_length &&
                               std::abs(other.step_size / settings.step_size / ratio - 1) < 0.1 &&
-                              attempt.treatment.sharpening.iterations == 0;
+                              attempt.candidate.sharpening.iterations == 0;
             if (fits && (best == nullptr || attempt.score < best->score)) best = &attempt;
         }
         return best;
@@ -276,34 +276,34 @@ private:
 
     void measure_noise() {
         if (request_.noise > 0 || request_.measured_noise > 0) return;
-        Twins twins = untreated_;
-        step(settings_for(kTrialNormalLength, kTrialStepSize), twins);
-        noise_ = noise_of(effect_of(twins));
+        PerturbedPair pair = before_;
+        step(settings_for(kTrialNormalLength, kTrialStepSize), pair);
+        noise_ = noise_of(effect_of(pair));
     }
 
     Eigen::Vector3d normal(std::int32_t vertex) const {
         return normals_[vertex].head<3>().cast<double>();
     }
 
-    /// Makes a step of both twins. Returns false and makes none if it would take a vertex away.
-    bool step(const StepSettings& settings, Twins& twins) {
-        Twins moved = twins;
+    /// Makes a step of the pair. Returns false and makes none if it would take a vertex away.
+    bool step(const StepSettings& settings, PerturbedPair& pair) {
+        PerturbedPair moved = pair;
         if (!smoothing_.step(settings, box_, moved.plain) ||
             !smoothing_.step(settings, box_, moved.perturbed)) {
             return false;
         }
-        twins = std::move(moved);
+        pair = std::move(moved);
         return true;
     }
 
-    Effect effect_of(const Twins& twins) const {
+    Effect effect_of(const PerturbedPair& pair) const {
         Effect effect;
         effect.square =
-            mean_of([&](std::int32_t vertex) { return square_of(height(twins, vertex)); });
+            mean_of([&](std::int32_t vertex) { return square_of(height(pair, vertex)); });
         effect.divergence =
-            mean_of([&](std::int32_t vertex) { return signs_[vertex] * response(twins, vertex); });
+            mean_of([&](std::int32_t vertex) { return signs_[vertex] * response(pair, vertex); });
         effect.sign_square = mean_of([&](std::int32_t vertex) {
-            return square_of(signs_[vertex] - response(twins, vertex));
+            return square_of(signs_[vertex] - response(pair, vertex));
         });
         return effect;
     }
@@ -314,23 +314,23 @@ private:
         return fidelity > 0 ? std::sqrt(double{fidelity}) : 1;
     }
 
-    std::vector<float> heights_of(const Twins& twins) const {
+    std::vector<float> heights_of(const PerturbedPair& pair) const {
         std::vector<float> heights(signs_.size());
         parallel_for_rows(sample_.surface.stars.count(), [&](std::int32_t vertex) {
-            heights[vertex] = static_cast<float>(height(twins, vertex));
+            heights[vertex] = static_cast<float>(height(pair, vertex));
         });
         return heights;
     }
 
     /// Returns how far a vertex has moved along its normal, relative to its noise.
-    double height(const Twins& twins, std::int32_t vertex) const {
+    double height(const PerturbedPair& pair, std::int32_t vertex) const {
         return root(vertex) *
-               (twins.plain[vertex] - sample_.surface.positions[vertex]).dot(normal(vertex));
+               (pair.plain[vertex] - sample_.surface.positions[vertex]).dot(normal(vertex));
     }
 
     /// Returns what is left of a vertex's sign.
-    double response(const Twins& twins, std::int32_t vertex) const {
-        return root(vertex) * (twins.perturbed[vertex] - twins.plain[vertex]).dot(normal(vertex)) /
+    double response(const PerturbedPair& pair, std::int32_t vertex) const {
+        return root(vertex) * (pair.perturbed[vertex] - pair.plain[vertex]).dot(normal(vertex)) /
                perturbation_;
     }
 
@@ -345,9 +345,9 @@ private:
     }
 
     /// Judges an attempt.
-    Attempt attempt_of(const Treatment& treatment, const Twins& twins) const {
-        const Effect effect = effect_of(twins);
-        return {treatment, twins, effect, score_of(effect)};
+    Attempt attempt_of(const Candidate& candidate, const PerturbedPair& pair) const {
+        const Effect effect = effect_of(pair);
+        return {candidate, pair, effect, score_of(effect)};
     }
 
     /// Keeps an attempt. Returns its score.
@@ -359,13 +359,13 @@ private:
 
     /// Tries steps with these settings, one more after the other until they do not get better.
     void try_steps(const StepSettings& settings, int most) {
-        Twins twins = untreated_;
-        Treatment treatment;
-        treatment.settings = settings;
-        for (double last = std::numeric_limits<double>::infinity(); treatment.steps < most;) {
-            if (!step(settings, twins)) return;
-            ++treatment.steps;
-            const double score = keep(attempt_of(treatment, twins));
+        PerturbedPair pair = before_;
+        Candidate candidate;
+        candidate.settings = settings;
+        for (double last = std::numeric_limits<double>::infinity(); candidate.steps < most;) {
+            if (!step(settings, pair)) return;
+            ++candidate.steps;
+            const double score = keep(attempt_of(candidate, pair));
             if (!(score < last)) return;
             last = score;
         }
@@ -373,19 +373,19 @@ private:
 
     /// Tries as many steps as reach the detail size that the user gives.
     void try_detail_size(double normal_length) {
-        Treatment treatment;
-        treatment.settings =
-            settings_for(normal_length, step_size_of_treatment(detail_size_, kStepsToDetailSize));
-        Twins twins = untreated_;
+        Candidate candidate;
+        candidate.settings =
+            settings_for(normal_length, step_size_of_candidate(detail_size_, kStepsToDetailSize));
+        PerturbedPair pair = before_;
         for (int i = 0; i < kStepsToDetailSize; ++i) {
             const bool is_made =
-                make_step(treatment.settings, [&] { return step(treatment.settings, twins); });
-            treatment.steps += is_made ? 1 : 0;
+                make_step(candidate.settings, [&] { return step(candidate.settings, pair); });
+            candidate.steps += is_made ? 1 : 0;
         }
-        if (treatment.steps > 0) keep(attempt_of(treatment, twins));
+        if (candidate.steps > 0) keep(attempt_of(candidate, pair));
     }
 
-    /// Walks over the grid of treatments, to a better neighbour each time.
+    /// Walks over the grid of candidates, to a better neighbour each time.
     void descend() {
         const Place sizes = {request_.crease > 0 ? static_cast<int>(kNormalLengths.size()) : 1,
                              static_cast<int>(kStepSizes.size())};
@@ -419,13 +419,13 @@ private:
         sharpening.width *= request_.crease;
         sharpening.iterations =
             static_cast<int>(std::lround(sharpening.iterations * width_ * width_));
-        Treatment treatment = smooth.treatment;
-        treatment.sharpening = sharpening;
-        Twins twins = smooth.twins;
-        const double no_limit = treatment.settings.sideways;
-        sharpen(sample_.surface, sharpening, no_limit, box_, twins.plain);
-        sharpen(sample_.surface, sharpening, no_limit, box_, twins.perturbed);
-        return attempt_of(treatment, twins);
+        Candidate candidate = smooth.candidate;
+        candidate.sharpening = sharpening;
+        PerturbedPair pair = smooth.pair;
+        const double no_limit = candidate.settings.sideways;
+        sharpen(sample_.surface, sharpening, no_limit, box_, pair.plain);
+        sharpen(sample_.surface, sharpening, no_limit, box_, pair.perturbed);
+        return attempt_of(candidate, pair);
     }
 
     const Sample& sample_;
@@ -440,7 +440,7 @@ private:
     std::int64_t count_ = 0;
     Vectors normals_;
     double perturbation_ = 0;
-    Twins untreated_;
+    PerturbedPair before_;
     std::vector<Attempt> attempts_;
     Attempt best_;
 };
@@ -451,7 +451,7 @@ StepSettings trial_settings() {
     return {0, kTrialStepSize, kNormalStepSize};
 }
 
-Choice best_treatment(const Sample& sample, const NoiseRequest& request) {
+Choice best_candidate(const Sample& sample, const NoiseRequest& request) {
     return Trials(sample, request).best();
 }
 

@@ -3,9 +3,9 @@
 
 #include <vector>
 
+#include "filter_tracked_mcf/core/noise/candidate.h"
 #include "filter_tracked_mcf/core/noise/fidelities.h"
 #include "filter_tracked_mcf/core/noise/noisy_surface.h"
-#include "filter_tracked_mcf/core/noise/treatment.h"
 
 namespace tracked_mcf {
 
@@ -18,42 +18,42 @@ struct NoiseRequest {
     double width = 1;           ///< of the noise, at least 1
     bool is_certain = false;    ///< whether noise is removed even if it may be detail
     bool is_doubtful = false;   ///< whether what may be detail passed for detail before
-    bool is_quick = false;      ///< whether Choice::others are few and share the treatment's steps
+    bool is_quick = false;      ///< whether Choice::others are few and share the candidate's steps
 };
 
 /// How to remove the noise of a surface, as a sample shows.
 struct Choice {
-    Treatment treatment;  ///< without steps if there is hardly any noise
+    Candidate candidate;  ///< without steps if there is hardly any noise
     double noise = 0;     ///< its standard deviation, in edges
-    /// If it varies, a treatment suits only a sample with fidelities, and there may be none.
+    /// If it varies, a candidate suits only a sample with fidelities, and there may be none.
     NoiseKind kind = NoiseKind::Even;
-    /// Treatments that suit some places better, the most useful ones first. None if the noise is
+    /// Candidates that suit some places better, the most useful ones first. None if the noise is
     /// not even, or if the request sets how much is removed.
-    std::vector<Treatment> others;
+    std::vector<Candidate> others;
 };
 
-/// Returns the treatment that suits a sample best.
+/// Returns the candidate that suits a sample best.
 ///
-/// A treatment F, a function of n noisy heights x, is the better the smaller its robust generalised
+/// A candidate F, a function of n noisy heights x, is the better the smaller its robust generalised
 /// cross-validation is, |F(x) - x|² / n / (1 - div F / n)² (γ + (1 - γ) |F'|² / n) with the
 /// Frobenius norm of the derivative F' (Lukas, "Robust generalized cross-validation", 2006). It
 /// needs no knowledge of the noise. If the noise σ is known, Stein's estimate of the risk takes its
 /// place, |F(x) - x|² / n + 2 σ² div F / n (1981). Differences F(x + ε z) - F(x) for random signs z
 /// tell the divergence and the norm (Ramani, Blu and Unser, "Monte-Carlo SURE", 2008).
 ///
-/// Without a request, a treatment that takes little of what seems to be noise is none: then it is
+/// Without a request, a candidate that takes little of what seems to be noise is none: then it is
 /// detail.
 ///
 /// Noise of some width is like white noise on a mesh with edges of this length: all lengths of a
-/// treatment are in units of the width, and random signs are averaged over it.
+/// candidate are in units of the width, and random signs are averaged over it.
 ///
 /// Where the sample's vertices have fidelities, heights count by their roots, so that the noise is
 /// the same everywhere.
-Choice best_treatment(const Sample& sample, const NoiseRequest& request);
+Choice best_candidate(const Sample& sample, const NoiseRequest& request);
 
 /// What a sample shows of noise of some width. Lengths are in edges.
 struct NoiseOfWidth {
-    double height = 0;  ///< standard deviation of what the best treatment takes
+    double height = 0;  ///< standard deviation of what the best candidate takes
     double taken = 0;   ///< share of the noise that this is
     /// Correlation of what it takes over twice the width, relative to that of noise of this width.
     double correlation = 0;
@@ -62,7 +62,7 @@ struct NoiseOfWidth {
 /// Returns a short step that keeps no creases.
 StepSettings trial_settings();
 
-/// Tries a few treatments on a sample whose noise may have the width that is wished.
+/// Tries a few candidates on a sample whose noise may have the width that is wished.
 NoiseOfWidth noise_of_width(const Sample& sample, const NoiseRequest& request);
 
 }  // namespace tracked_mcf

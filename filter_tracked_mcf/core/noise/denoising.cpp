@@ -17,7 +17,7 @@ namespace tracked_mcf {
 
 namespace {
 
-/// Vertices of the sample on which treatments are tried.
+/// Vertices of the sample on which candidates are tried.
 constexpr std::int32_t kSample = 4000, kPatch = 500;
 
 /// Stairs are noise of this width, relative to their height.
@@ -38,10 +38,10 @@ constexpr double kMostCreases = 0.5;
 /// directions needs no more.
 constexpr double kSideways = 2;
 
-/// Larger surfaces have fewer treatments to choose from, and only such as share their steps.
+/// Larger surfaces have fewer candidates to choose from, and only such as share their steps.
 constexpr std::int32_t kLargeSurface = 100000;
 
-/// How often a surface with outliers is treated anew.
+/// How often a surface with outliers is smoothed anew.
 constexpr int kRounds = 3;
 
 /// The size of normals' smoothing along which residuals are measured.
@@ -130,15 +130,15 @@ void fill_fixed(const NoisySurface& surface, std::vector<float>& heights) {
     }
 }
 
-/// Returns how far a treatment has moved each vertex along the normals of its result.
-std::vector<float> heights_of(const NoisySurface& surface, const Positions& treated) {
+/// Returns how far a candidate has moved each vertex along the normals of its result.
+std::vector<float> heights_of(const NoisySurface& surface, const Positions& smoothed) {
     Smoothing smoothing(surface);
-    const Vectors& normals = smoothing.smooth_normals(treated, {0, 0, kStepOfNormals});
-    std::vector<float> heights(treated.size());
+    const Vectors& normals = smoothing.smooth_normals(smoothed, {0, 0, kStepOfNormals});
+    std::vector<float> heights(smoothed.size());
     parallel_for_rows(surface.stars.count(), [&](std::int32_t vertex) {
         const Eigen::Vector3d normal = normals[vertex].head<3>().cast<double>();
         heights[vertex] =
-            static_cast<float>((treated[vertex] - surface.positions[vertex]).dot(normal));
+            static_cast<float>((smoothed[vertex] - surface.positions[vertex]).dot(normal));
     });
     fill_fixed(surface, heights);
     return heights;
@@ -154,19 +154,19 @@ Clusters clusters_of_width(const NoisySurface& surface, double width) {
     return clusters_of(sample_of(surface, times(kSample), {}, times(kPatch)), radius);
 }
 
-/// Returns the treatment of noise wider than an edge, as clusters show it.
-Choice treatment_of_width(const Clusters& clusters, NoiseRequest request) {
+/// Returns the candidate of noise wider than an edge, as clusters show it.
+Choice candidate_of_width(const Clusters& clusters, NoiseRequest request) {
     const double edge = clusters.edge;
     request.noise /= edge;
     request.measured_noise /= edge;
     request.detail_size /= edge;
     request.width = std::max(1.0, request.width / edge);
-    Choice choice = best_treatment(clusters.sample, request);
-    StepSettings& settings = choice.treatment.settings;
+    Choice choice = best_candidate(clusters.sample, request);
+    StepSettings& settings = choice.candidate.settings;
     settings.normal_length *= edge;
     settings.step_size *= edge * edge;
     settings.normal_step_size *= edge * edge;
-    int& sharpenings = choice.treatment.sharpening.iterations;
+    int& sharpenings = choice.candidate.sharpening.iterations;
     sharpenings =
         static_cast<int>(std::min(std::round(sharpenings * edge * edge), kMostSharpenings));
     choice.noise *= edge;
@@ -213,33 +213,33 @@ public:
         sideways_ = along_normals_ ? 0 : kSideways * choice.noise;
         Perturbation perturbation;
         if (kind != NoiseKind::Varying) {
-            if (!has_treatment(choice)) return surface_.positions;
-            std::vector<Treatment> treatments = {choice.treatment};
-            treatments.insert(treatments.end(), choice.others.begin(), choice.others.end());
-            if (treatments.size() > 1) {
-                perturbation = perturbation_of(surface_, choice.treatment.settings, choice.noise);
+            if (!has_candidate(choice)) return surface_.positions;
+            std::vector<Candidate> candidates = {choice.candidate};
+            candidates.insert(candidates.end(), choice.others.begin(), choice.others.end());
+            if (candidates.size() > 1) {
+                perturbation = perturbation_of(surface_, choice.candidate.settings, choice.noise);
             }
             const ProgressSpan span(0.2, 0.5);
-            treat_with(treatments, request_.is_quick ? perturbation : Perturbation());
+            apply_candidates(candidates, request_.is_quick ? perturbation : Perturbation());
         }
         if (report_.stop != NoiseStop::None) return surface_.positions;
         const ProgressSpan span(0.5, 1);
-        if (treated_.positions.size() > 1) {
-            if (is_uneven(surface_, perturbation, treated_.positions[0])) {
+        if (results_.positions.size() > 1) {
+            if (is_uneven(surface_, perturbation, results_.positions[0])) {
                 kind = NoiseKind::Varying;
             } else {
                 choose_locally(perturbation);
             }
         }
-        if (kind == NoiseKind::Varying) treat_by_local_noise(choice.treatment.steps > 0);
-        if (kind == NoiseKind::Outliers) treat_without_outliers();
+        if (kind == NoiseKind::Varying) smooth_by_local_noise(choice.candidate.steps > 0);
+        if (kind == NoiseKind::Outliers) smooth_without_outliers();
         if (report_.stop != NoiseStop::None) return surface_.positions;
-        const Treatment& made = treated_.made[0];
+        const Candidate& made = results_.made[0];
         report_.smoothing_steps = made.steps;
         report_.sharpening_steps = made.sharpening.iterations;
-        report_.solver_iterations = treated_.iterations;
+        report_.solver_iterations = results_.iterations;
         report_.detail_size = edge_ * detail_size_of(made);
-        return std::move(treated_.positions[0]);
+        return std::move(results_.positions[0]);
     }
 
 private:
@@ -248,7 +248,7 @@ private:
         return request_.noise == 0 && request_.detail_size == 0 && !request_.is_certain;
     }
 
-    /// Returns the treatment that the sample shows, or sets why there is none. Reports the noise,
+    /// Returns the candidate that the sample shows, or sets why there is none. Reports the noise,
     /// as measured with the usual creases and nothing else that the user may ask for.
     Choice first_choice() {
         enter_phase(0, "Measuring the noise");
@@ -260,8 +260,8 @@ private:
         report_.stop = is_told && !is_wide ? NoiseStop::None : hindrance;
         if (report_.stop != NoiseStop::None) return {};
         const auto choice_for = [&](const NoiseRequest& request) {
-            return is_wide ? treatment_of_width(clusters, request)
-                           : best_treatment(sample_, request);
+            return is_wide ? candidate_of_width(clusters, request)
+                           : best_candidate(sample_, request);
         };
         const double usual = crease_of(NoiseParameters().crease_angle);
         if (!is_told && request_.crease == usual) {
@@ -280,13 +280,13 @@ private:
         return choice_for(request_);
     }
 
-    /// Returns whether there is a treatment. If not, it is detail that the surface has, or the
+    /// Returns whether there is a candidate. If not, it is detail that the surface has, or the
     /// creases that the user asks for are everywhere.
-    bool has_treatment(const Choice& choice) {
-        if (choice.treatment.steps > 0) return true;
-        if (request_.crease > 0 && usual_.treatment.steps > 0) {
+    bool has_candidate(const Choice& choice) {
+        if (choice.candidate.steps > 0) return true;
+        if (request_.crease > 0 && usual_.candidate.steps > 0) {
             const Vectors normals =
-                Smoothing(surface_).smooth_normals(surface_.positions, usual_.treatment.settings);
+                Smoothing(surface_).smooth_normals(surface_.positions, usual_.candidate.settings);
             if (has_too_many_creases(Turns(surface_.stars, surface_.positions, normals)))
                 return false;
         }
@@ -295,16 +295,17 @@ private:
         return false;
     }
 
-    /// Treats the surface, and reports the creases that the first treatment leaves. Too many of
-    /// them are noise.
-    void treat_with(std::vector<Treatment> treatments, const Perturbation& perturbation = {}) {
-        for (Treatment& treatment : treatments) treatment.settings.sideways = sideways_;
-        treatments_ = std::move(treatments);
-        const int iterations = treated_.iterations;
-        treated_ = treat(surface_, treatments_, surface_.positions, perturbation);
-        treated_.iterations += iterations;
+    /// Applies candidates to the surface, and reports the creases that the first candidate leaves.
+    /// Too many of them are noise.
+    void apply_candidates(std::vector<Candidate> candidates,
+                          const Perturbation& perturbation = {}) {
+        for (Candidate& candidate : candidates) candidate.settings.sideways = sideways_;
+        candidates_ = std::move(candidates);
+        const int iterations = results_.iterations;
+        results_ = apply(surface_, candidates_, surface_.positions, perturbation);
+        results_.iterations += iterations;
         if (request_.crease == 0) return;
-        Turns turns(surface_.stars, treated_.positions[0], treated_.normals);
+        Turns turns(surface_.stars, results_.positions[0], results_.normals);
         if (is_measured()) {
             has_too_many_creases(std::move(turns));
         } else {
@@ -321,47 +322,47 @@ private:
         return true;
     }
 
-    /// Treats the surface with fidelities, as suits a sample that has them, too.
-    void treat_with_fidelities(const std::vector<float>& fidelities, NoiseRequest request) {
+    /// Smooths the surface with fidelities, as suits a sample that has them, too.
+    void smooth_with_fidelities(const std::vector<float>& fidelities, NoiseRequest request) {
         request.measured_noise = 0;  // with fidelities it is another
-        const Choice choice = best_treatment(sample_of(surface_, kSample, fidelities), request);
-        if (!has_treatment(choice)) return;
+        const Choice choice = best_candidate(sample_of(surface_, kSample, fidelities), request);
+        if (!has_candidate(choice)) return;
         const std::vector<float> strengths = surface_.fidelity;
         for (std::size_t i = 0; i < fidelities.size(); ++i) surface_.fidelity[i] *= fidelities[i];
-        treat_with({choice.treatment});
+        apply_candidates({choice.candidate});
         surface_.fidelity = strengths;
     }
 
-    void treat_by_local_noise(bool is_certain) {
+    void smooth_by_local_noise(bool is_certain) {
         Positions moved = surface_.positions;
         Smoothing(surface_).step(trial_settings(), confinement(surface_.positions), moved);
         NoiseRequest request = request_;
         request.is_certain = is_certain;
         request.is_doubtful = !is_certain;
-        treat_with_fidelities(fidelities_to_noise(surface_.stars, heights_of(surface_, moved)),
-                              request);
+        smooth_with_fidelities(fidelities_to_noise(surface_.stars, heights_of(surface_, moved)),
+                               request);
     }
 
-    void treat_without_outliers() {
+    void smooth_without_outliers() {
         NoiseRequest request = request_;
         request.is_certain = true;
         for (int round = 0; round < kRounds; ++round) {
             const ProgressSpan span(1.0 * round / kRounds, (round + 1.0) / kRounds);
             const std::vector<float> fidelities =
-                fidelities_to_outliers(surface_.stars, heights_of(surface_, treated_.positions[0]));
-            treat_with_fidelities(fidelities, request);
+                fidelities_to_outliers(surface_.stars, heights_of(surface_, results_.positions[0]));
+            smooth_with_fidelities(fidelities, request);
             report_.outliers = std::count_if(fidelities.begin(), fidelities.end(), is_outlier);
         }
     }
 
     void choose_locally(const Perturbation& perturbation) {
-        if (treated_.twins.empty()) {
-            Treated twins =
-                treat(surface_, treatments_, perturbed(surface_.positions, perturbation));
-            treated_.twins.swap(twins.positions);
-            treated_.iterations += twins.iterations;
+        if (results_.perturbed.empty()) {
+            Results again =
+                apply(surface_, candidates_, perturbed(surface_.positions, perturbation));
+            results_.perturbed.swap(again.positions);
+            results_.iterations += again.iterations;
         }
-        treated_.positions[0] = chosen_locally(surface_, perturbation, treated_);
+        results_.positions[0] = chosen_locally(surface_, perturbation, results_);
     }
 
     NoisySurface& surface_;
@@ -372,8 +373,8 @@ private:
     NoiseRequest request_;
     Choice usual_;  ///< with the usual creases, and without request; empty if it cannot be measured
     double sideways_ = 0;
-    std::vector<Treatment> treatments_;  ///< of treated_
-    Treated treated_;
+    std::vector<Candidate> candidates_;  ///< of results_
+    Results results_;
 };
 
 }  // namespace

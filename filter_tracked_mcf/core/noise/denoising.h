@@ -9,8 +9,8 @@ namespace tracked_mcf {
 /// Returns the positions of a surface's vertices without their noise, and reports on it. `edge` is
 /// the length of an edge in mesh units. Changes fidelities meanwhile.
 ///
-/// A sample shows which treatment suits the whole surface. Single places then choose among a few.
-/// Where noise varies, or single vertices have much more of it, the surface is treated with
+/// A sample shows which candidate suits the whole surface. Single places then choose among a few.
+/// Where noise varies, or single vertices have much more of it, the surface is smoothed with
 /// fidelities instead.
 Positions denoised(NoisySurface& surface, double edge, const NoiseParameters& parameters,
                    NoiseReport& report);

@@ -15,7 +15,7 @@ enum class NoiseKind {
     Outliers  ///< single vertices have much more than those around them
 };
 
-/// Returns which noise a treatment has taken from a surface. `heights` are how far it has moved
+/// Returns which noise a candidate has taken from a surface. `heights` are how far it has moved
 /// each vertex along its normal, in edges; only those of vertices that count decide.
 NoiseKind kind_of_noise(const Stars& stars, const std::vector<float>& heights,
                         const std::vector<std::uint8_t>& counts);
@@ -25,7 +25,7 @@ NoiseKind kind_of_noise(const Stars& stars, const std::vector<float>& heights,
 /// along its normal: a short step that keeps no creases, as large noise passes for them.
 std::vector<float> fidelities_to_noise(const Stars& stars, const std::vector<float>& heights);
 
-/// Returns how much each vertex should keep its position in a new treatment, relative to others, by
+/// Returns how much each vertex should keep its position in a new candidate, relative to others, by
 /// how far the last one has moved it along its normal: the weight of Geman and McClure,
 /// (1 + (h / c)²)⁻², where c is three deviations of the heights around the vertex, so that detail,
 /// which moves whole neighbourhoods, does not count as outliers.

@@ -24,7 +24,7 @@ constexpr std::size_t kFields = 4;
 constexpr double kUneven = 0.28;
 
 /// The perturbation of heights relative to the noise.
-constexpr double kPerturbationOfTwins = 0.05;
+constexpr double kLocalPerturbation = 0.05;
 
 /// Averages four fields over windows of a surface.
 class Windows {
@@ -49,25 +49,25 @@ double height_of(const NoisySurface& surface, const Vectors& normals, const Posi
         .dot(normals[vertex].head<3>().cast<double>());
 }
 
-/// Returns the risks of treatments, in units of the noise's square.
+/// Returns the risks of candidates, in units of the noise's square.
 std::vector<Risks> risks_of(const NoisySurface& surface, const Perturbation& perturbation,
-                            const Treated& treated) {
-    std::vector<Risks> risks(treated.positions.size(), Risks(surface.positions.size()));
+                            const Results& results) {
+    std::vector<Risks> risks(results.positions.size(), Risks(surface.positions.size()));
     parallel_for_rows(surface.stars.count(), [&](std::int32_t vertex) {
         const double height = double{perturbation.heights[vertex]};  // of the noise
         for (std::size_t i = 0; i < risks.size(); ++i) {
             const auto moved = [&](const std::vector<Positions>& positions) {
                 return height_of(surface, perturbation.normals, positions[i], vertex) / height;
             };
-            const double plain = moved(treated.positions);
-            const double divergence = (moved(treated.twins) - plain) / perturbation.scale;
+            const double plain = moved(results.positions);
+            const double divergence = (moved(results.perturbed) - plain) / perturbation.scale;
             risks[i][vertex] = static_cast<float>(plain * plain + 2 * divergence);
         }
     });
     return risks;
 }
 
-/// Returns per vertex the index of the treatment with the least upper bound of its risk.
+/// Returns per vertex the index of the candidate with the least upper bound of its risk.
 std::vector<std::uint8_t> best_of(const NoisySurface& surface, const std::vector<Risks>& risks,
                                   Windows& windows) {
     const std::size_t count = surface.positions.size();
@@ -151,17 +151,17 @@ Perturbation perturbation_of(const NoisySurface& surface, const StepSettings& se
                              double noise) {
     Perturbation perturbation{random_signs(surface.positions),
                               Smoothing(surface).smooth_normals(surface.positions, settings),
-                              kPerturbationOfTwins};
+                              kLocalPerturbation};
     for (float& height : perturbation.heights) height *= static_cast<float>(noise);
     return perturbation;
 }
 
 bool is_uneven(const NoisySurface& surface, const Perturbation& perturbation,
-               const Positions& treated) {
+               const Positions& smoothed) {
     const std::int32_t count = surface.stars.count();
-    Vectors squares(treated.size());
+    Vectors squares(smoothed.size());
     parallel_for_rows(count, [&](std::int32_t vertex) {
-        const double moved = height_of(surface, perturbation.normals, treated, vertex);
+        const double moved = height_of(surface, perturbation.normals, smoothed, vertex);
         squares[vertex] << static_cast<float>(moved * moved), 0, 0, 0;
     });
     Windows(surface).average(kWindowOfChoice, kToleranceOfSquares, squares);
@@ -177,22 +177,22 @@ bool is_uneven(const NoisySurface& surface, const Perturbation& perturbation,
 }
 
 Positions chosen_locally(const NoisySurface& surface, const Perturbation& perturbation,
-                         const Treated& treated) {
+                         const Results& results) {
     Windows windows(surface);
     const std::vector<std::uint8_t> best =
-        best_of(surface, risks_of(surface, perturbation, treated), windows);
-    Vectors weights(best.size());  // of the treatments after the first one
+        best_of(surface, risks_of(surface, perturbation, results), windows);
+    Vectors weights(best.size());  // of the candidates after the first one
     parallel_for_rows(surface.stars.count(), [&](std::int32_t vertex) {
         weights[vertex].setZero();
         if (best[vertex] > 0) weights[vertex][best[vertex] - 1] = 1;
     });
     windows.average(kTransition, kToleranceOfWeights, weights);
-    Positions between = treated.positions[0];
+    Positions between = results.positions[0];
     parallel_for_rows(surface.stars.count(), [&](std::int32_t vertex) {
-        for (std::size_t i = 1; i < treated.positions.size(); ++i) {
+        for (std::size_t i = 1; i < results.positions.size(); ++i) {
             const double weight = double{weights[vertex][static_cast<Eigen::Index>(i) - 1]};
             between[vertex] += std::clamp(weight, 0.0, 1.0) *
-                               (treated.positions[i][vertex] - treated.positions[0][vertex]);
+                               (results.positions[i][vertex] - results.positions[0][vertex]);
         }
     });
     return between;

@@ -46,7 +46,7 @@ Eigen::AlignedBox3d confinement(const Positions& positions);
 struct Sample {
     NoisySurface surface;
     /// Per vertex: whether the sample has all of its star and of its neighbours' stars, and it may
-    /// move. Beside the border of a sample, a treatment does less than inside.
+    /// move. Beside the border of a sample, a candidate does less than inside.
     std::vector<std::uint8_t> counts;
     std::vector<float> signs;  ///< per vertex: 1 or -1, at random
 };

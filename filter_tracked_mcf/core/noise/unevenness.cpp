@@ -35,7 +35,7 @@ constexpr double kLeastEven = 0.9, kToleranceOfGaps = 0.05, kLongestEdge = 3.6;
 constexpr std::array<double, 4> kLumpWidths = {1.4, 2, 2.8, 4};
 /// A sample for these: its patches must be several widths across.
 constexpr std::int32_t kLumpSample = 2000, kLumpPatch = 1000;
-/// Noise of a width is found if treatments take this share of it, if what they take is hardly more
+/// Noise of a width is found if candidates take this share of it, if what they take is hardly more
 /// correlated than noise of this width is, and if it is as high as this, in edges.
 constexpr double kLeastTakenOfLumps = 0.5, kMostCorrelated = 1.1, kLeastHeight = 0.02;
 

@@ -23,21 +23,21 @@ NoiseRequest automatic() {
     return request;
 }
 
-TEST(CrossValidation, FindsNoTreatmentForACleanSurface) {
-    const Choice choice = best_treatment(sample_of_mesh(shapes::bumpy_sphere(30)), automatic());
-    EXPECT_EQ(choice.treatment.steps, 0);
+TEST(CrossValidation, FindsNoCandidateForACleanSurface) {
+    const Choice choice = best_candidate(sample_of_mesh(shapes::bumpy_sphere(30)), automatic());
+    EXPECT_EQ(choice.candidate.steps, 0);
     EXPECT_TRUE(choice.others.empty());
 }
 
 TEST(CrossValidation, SmoothsTheMoreTheMoreNoiseThereIs) {
     double last = 0;
     for (const double deviation : {0.05, 0.1, 0.3}) {
-        const Choice choice = best_treatment(
+        const Choice choice = best_candidate(
             sample_of_mesh(with_noise(shapes::bumpy_sphere(30), deviation)), automatic());
         EXPECT_NEAR(choice.noise, deviation, 0.1 * deviation);
         EXPECT_EQ(choice.kind, NoiseKind::Even);
-        EXPECT_GT(detail_size_of(choice.treatment), last);
-        last = detail_size_of(choice.treatment);
+        EXPECT_GT(detail_size_of(choice.candidate), last);
+        last = detail_size_of(choice.candidate);
     }
 }
 
@@ -48,7 +48,7 @@ TEST(CrossValidation, FindsTheNoiseOfKnownShapes) {
             const TriangleMesh mesh = with_noise(clean, deviation);
             // Noise makes edges longer, in which it is measured.
             const double expected = deviation * mean_edge_length(clean) / mean_edge_length(mesh);
-            const Choice choice = best_treatment(sample_of_mesh(mesh), automatic());
+            const Choice choice = best_candidate(sample_of_mesh(mesh), automatic());
             EXPECT_NEAR(choice.noise, expected, 0.05 * expected) << deviation;
         }
     }
@@ -56,26 +56,26 @@ TEST(CrossValidation, FindsTheNoiseOfKnownShapes) {
 
 TEST(CrossValidation, NamesOthersOnlyWithoutWishes) {
     const Sample sample = sample_of_mesh(with_noise(shapes::box(25, {1, 1, 1}), 0.2));
-    const Choice choice = best_treatment(sample, automatic());
+    const Choice choice = best_candidate(sample, automatic());
     EXPECT_GT(choice.others.size(), 0U);
     EXPECT_LT(choice.others.size(), 5U);
     NoiseRequest request = automatic();
     request.noise = 0.2;
-    EXPECT_TRUE(best_treatment(sample, request).others.empty());
+    EXPECT_TRUE(best_candidate(sample, request).others.empty());
     request = automatic();
     request.detail_size = 6;
-    EXPECT_TRUE(best_treatment(sample, request).others.empty());
+    EXPECT_TRUE(best_candidate(sample, request).others.empty());
 }
 
 TEST(CrossValidation, NamesOthersThatShareTheStepsIfItIsToBeQuick) {
     const Sample sample = sample_of_mesh(with_noise(shapes::box(25, {1, 1, 1}), 0.2));
     NoiseRequest request = automatic();
     request.is_quick = true;
-    const Choice choice = best_treatment(sample, request);
+    const Choice choice = best_candidate(sample, request);
     EXPECT_GT(choice.others.size(), 0U);
     EXPECT_LT(choice.others.size(), 3U);
-    for (const Treatment& other : choice.others) {
-        EXPECT_TRUE(share_steps(other, choice.treatment));
+    for (const Candidate& other : choice.others) {
+        EXPECT_TRUE(share_steps(other, choice.candidate));
     }
 }
 
@@ -94,7 +94,7 @@ TEST(CrossValidation, WhitensHeightsByTheirFidelities) {
     const NoisySurface surface = surface_of_mesh(mesh);
     NoiseRequest request = automatic();
     request.is_certain = true;
-    const Choice choice = best_treatment(sample_of(surface, 10000, fidelities), request);
+    const Choice choice = best_candidate(sample_of(surface, 10000, fidelities), request);
     EXPECT_NEAR(choice.noise, 0.05, 0.01);
 }
 

@@ -45,34 +45,34 @@ struct HalfWavy {
     double origin = 0;
 };
 
-const Treatment kWeak = {{0, 0.3, 2}, 1, {}}, kStrong = {{0, 2.4, 2}, 4, {}};
+const Candidate kWeak = {{0, 0.3, 2}, 1, {}}, kStrong = {{0, 2.4, 2}, 4, {}};
 
-TEST(LocalChoice, GivesEachPlaceTheTreatmentThatSuitsIt) {
+TEST(LocalChoice, GivesEachPlaceTheCandidateThatSuitsIt) {
     const double noise = 0.2;
     const HalfWavy wavy(noise);
-    const std::vector<Treatment> treatments = {kWeak, kStrong};
+    const std::vector<Candidate> candidates = {kWeak, kStrong};
     const Perturbation perturbation = perturbation_of(wavy.surface, kWeak.settings, noise);
     for (const bool has_own_metric : {false, true}) {
-        Treated treated = treat(wavy.surface, treatments, wavy.surface.positions,
+        Results results = apply(wavy.surface, candidates, wavy.surface.positions,
                                 has_own_metric ? Perturbation() : perturbation);
         if (has_own_metric) {
-            treated.twins =
-                treat(wavy.surface, treatments, perturbed(wavy.surface.positions, perturbation))
+            results.perturbed =
+                apply(wavy.surface, candidates, perturbed(wavy.surface.positions, perturbation))
                     .positions;
         }
         const double best =
-            std::min(wavy.error(treated.positions[0]), wavy.error(treated.positions[1]));
-        EXPECT_LT(wavy.error(chosen_locally(wavy.surface, perturbation, treated)), 0.85 * best);
+            std::min(wavy.error(results.positions[0]), wavy.error(results.positions[1]));
+        EXPECT_LT(wavy.error(chosen_locally(wavy.surface, perturbation, results)), 0.85 * best);
     }
 }
 
-TEST(LocalChoice, KeepsTheFirstTreatmentWhereNoOtherIsBetter) {
+TEST(LocalChoice, KeepsTheFirstCandidateWhereNoOtherIsBetter) {
     const double noise = 0.2;
     const NoisySurface surface = surface_of_mesh(with_noise(shapes::geodesic_sphere(20), noise));
     const Perturbation perturbation = perturbation_of(surface, kStrong.settings, noise);
-    const Treatment none = {{0, 1e-3, 2}, 1, {}};
-    const Treated treated = treat(surface, {kStrong, none}, surface.positions, perturbation);
-    EXPECT_EQ(chosen_locally(surface, perturbation, treated), treated.positions[0]);
+    const Candidate none = {{0, 1e-3, 2}, 1, {}};
+    const Results results = apply(surface, {kStrong, none}, surface.positions, perturbation);
+    EXPECT_EQ(chosen_locally(surface, perturbation, results), results.positions[0]);
 }
 
 TEST(LocalChoice, KnowsNoiseThatVaries) {
@@ -86,12 +86,12 @@ TEST(LocalChoice, KnowsNoiseThatVaries) {
         }
         const NoisySurface surface = surface_of_mesh(mesh);
         const Perturbation perturbation = perturbation_of(surface, kStrong.settings, 0.2);
-        const Treated treated = treat(surface, {kStrong}, surface.positions);
-        EXPECT_EQ(is_uneven(surface, perturbation, treated.positions[0]), varies);
+        const Results results = apply(surface, {kStrong}, surface.positions);
+        EXPECT_EQ(is_uneven(surface, perturbation, results.positions[0]), varies);
     }
 }
 
-TEST(LocalChoice, TakesFewTreatmentsThatComplementEachOther) {
+TEST(LocalChoice, TakesFewCandidatesThatComplementEachOther) {
     const HalfWavy wavy(0.2);
     const Sample sample = sample_of(wavy.surface, 10000);
     const std::size_t count = sample.counts.size();
@@ -107,24 +107,24 @@ TEST(LocalChoice, TakesFewTreatmentsThatComplementEachOther) {
     EXPECT_EQ(best_few(sample, {middle, worse}, 0, 5), std::vector<std::size_t>{0});
 }
 
-TEST(Treatments, ShareTheirSteps) {
+TEST(Candidates, ShareTheirSteps) {
     const NoisySurface surface = surface_of_mesh(with_noise(shapes::geodesic_sphere(10), 0.2));
-    const Treatment once = {{0.5, 0.3, 2}, 1, {}};
-    Treatment twice = once, sharp = once, other = once;
+    const Candidate once = {{0.5, 0.3, 2}, 1, {}};
+    Candidate twice = once, sharp = once, other = once;
     twice.steps = 2;
     sharp.sharpening = {0.3, 3};
     other.settings.step_size = 1;
-    const std::vector<Treatment> all = {once, other, twice, sharp};
-    const Treated together = treat(surface, all, surface.positions);
+    const std::vector<Candidate> all = {once, other, twice, sharp};
+    const Results together = apply(surface, all, surface.positions);
     EXPECT_TRUE(share_steps(once, twice));
     EXPECT_FALSE(share_steps(once, other));
     for (std::size_t i = 0; i < all.size(); ++i) {
-        const Treated alone = treat(surface, {all[i]}, surface.positions);
+        const Results alone = apply(surface, {all[i]}, surface.positions);
         EXPECT_EQ(together.positions[i], alone.positions[0]) << i;
     }
-    EXPECT_LT(together.iterations, treat(surface, {once}, surface.positions).iterations +
-                                       treat(surface, {other}, surface.positions).iterations +
-                                       treat(surface, {twice}, surface.positions).iterations);
+    EXPECT_LT(together.iterations, apply(surface, {once}, surface.positions).iterations +
+                                       apply(surface, {other}, surface.positions).iterations +
+                                       apply(surface, {twice}, surface.positions).iterations);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "filter_tracked_mcf/core/noise/treatment.h"
+#include "filter_tracked_mcf/core/noise/candidate.h"
 
 #include <gtest/gtest.h>
 
@@ -10,17 +10,17 @@
 namespace tracked_mcf {
 namespace {
 
-TEST(Treatment, HalvesTheWavesOfItsDetailSize) {
+TEST(Candidate, HalvesTheWavesOfItsDetailSize) {
     for (const int steps : {1, 2, 5}) {
-        Treatment treatment;
-        treatment.steps = steps;
-        treatment.settings.step_size = step_size_of_treatment(7, steps);
-        EXPECT_NEAR(detail_size_of(treatment), 7, 1e-12);
+        Candidate candidate;
+        candidate.steps = steps;
+        candidate.settings.step_size = step_size_of_candidate(7, steps);
+        EXPECT_NEAR(detail_size_of(candidate), 7, 1e-12);
         const double wave = 2 * kPi / 7;
-        const double kept = 1 / (1 + std::pow(treatment.settings.step_size * wave * wave, 2));
+        const double kept = 1 / (1 + std::pow(candidate.settings.step_size * wave * wave, 2));
         EXPECT_NEAR(std::pow(kept, steps), 0.5, 1e-12);
     }
-    EXPECT_EQ(detail_size_of(Treatment()), 0);
+    EXPECT_EQ(detail_size_of(Candidate()), 0);
 }
 
 TEST(MakeStep, TakesAQuarterOfTheSizeUntilItIsMade) {

@@ -9,23 +9,23 @@
 namespace tracked_mcf {
 
 /// How noise is removed from a surface. Lengths are in edges.
-struct Treatment {
+struct Candidate {
     StepSettings settings;  ///< of every step
     int steps = 0;          ///< 0: there is hardly any noise
     Sharpening sharpening;
 };
 
-/// Returns whether treatments have the same settings, so that they begin alike.
-bool share_steps(const Treatment& a, const Treatment& b);
+/// Returns whether candidates have the same settings, so that they begin alike.
+bool share_steps(const Candidate& a, const Candidate& b);
 
 /// Returns the step size of `steps` steps that halve the amplitude of waves of this length.
-double step_size_of_treatment(double detail_size, int steps);
+double step_size_of_candidate(double detail_size, int steps);
 
-/// Returns the length of the waves whose amplitude the steps of a treatment halve;
+/// Returns the length of the waves whose amplitude the steps of a candidate halve;
 /// 0 without steps.
-double detail_size_of(const Treatment& treatment);
+double detail_size_of(const Candidate& candidate);
 
-/// Perturbations of a surface's vertices along normals. They tell how a treatment answers to noise.
+/// Perturbations of a surface's vertices along normals. They tell how a candidate answers to noise.
 struct Perturbation {
     std::vector<float> heights;  ///< empty: there is none
     Vectors normals;
@@ -48,21 +48,22 @@ bool make_step(StepSettings& settings, const Step& step) {
 /// Returns positions with a perturbation.
 Positions perturbed(const Positions& positions, const Perturbation& perturbation);
 
-/// What treatments make of a surface.
-struct Treated {
-    std::vector<Positions> positions;  ///< per treatment
-    /// What was made of each treatment: fewer steps, or shorter ones, where they would have taken a
+/// What candidates make of a surface.
+struct Results {
+    std::vector<Positions> positions;  ///< per candidate
+    /// What was made of each candidate: fewer steps, or shorter ones, where they would have taken a
     /// vertex far away.
-    std::vector<Treatment> made;
-    std::vector<Positions> twins;  ///< the same with a perturbation; or empty
-    Vectors normals;               ///< of the last step of the first treatment
-    int iterations = 0;            ///< of conjugate gradients
+    std::vector<Candidate> made;
+    std::vector<Positions> perturbed;  ///< the same from a perturbed start; or empty
+    Vectors normals;                   ///< of the last step of the first candidate
+    int iterations = 0;                ///< of conjugate gradients
 };
 
-/// Treats a surface whose vertices are at `start`. Treatments that share their steps are made
-/// together. A step that would take a vertex far away is made with a smaller size. A perturbation
-/// costs little, as it does not change the metric of the steps: it is a part of the response only.
-Treated treat(const NoisySurface& surface, const std::vector<Treatment>& treatments,
+/// Applies candidates to a surface whose vertices are at `start`. Candidates that share their steps
+/// are made together. A step that would take a vertex far away is made with a smaller size. A
+/// perturbation costs little, as it does not change the metric of the steps: it is a part of the
+/// response only.
+Results apply(const NoisySurface& surface, const std::vector<Candidate>& candidates,
               const Positions& start, const Perturbation& perturbation = {});
 
 }  // namespace tracked_mcf
