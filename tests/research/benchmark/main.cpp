@@ -15,7 +15,6 @@ int main(int argc, char** argv) {
     add_rebuilt(app);
     add_incomplete_cholesky(app);
     add_cgal(app);
-    add_triad(app);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

@@ -13,7 +13,6 @@ import sys
 
 OURS, TRACKED, REBUILT = "ours", "paper's, tracked", "paper's, rebuilt"
 IC, CGAL = "IC(0)-CG", "CGAL"
-TRIAD = "triad"
 # Of ours, then of PyMeshLab.
 WHOLE_JOBS = ("flow, default parameters", "flow, one thread", "flow, detail of 10 edges", "flow, detail of 40 edges",
               "remove noise, default parameters", "remove noise, one thread",

@@ -4,7 +4,7 @@
 import os
 
 import machine
-from measurements import CGAL, IC, JOBS_BY_SIZE, OURS, REBUILT, RELIEF, TRACKED, TRIAD, WHOLE_JOBS
+from measurements import CGAL, IC, JOBS_BY_SIZE, OURS, REBUILT, RELIEF, TRACKED, WHOLE_JOBS
 
 
 def digits(value, unit=""):
@@ -81,9 +81,6 @@ class Page:
                             for what in (phase, "step", "step_cpu"))
         return ratio(wall, whole) * cpu if wall is not None else None
 
-    def _bandwidth(self, threads=1):
-        return self._of.median("best_bytes_per_second", peer=TRIAD, threads=threads)
-
     # Output.
 
     def _say(self, line=""):
@@ -106,19 +103,12 @@ class Page:
     def _machine(self):
         self._title("Machine")
         rows = machine.table(self._build)
-        for threads in (1, 2):
-            median = self._of.median("median_bytes_per_second", peer=TRIAD, threads=threads)
-            if median is None:  # not measured for the page of whole jobs
-                continue
-            rows.append([f"memory bandwidth, {threads} thread{'s' if threads > 1 else ''} (triad, best, "
-                         "median)", f"{digits(ratio(self._bandwidth(threads), 1e9))}, "
-                         f"{digits(ratio(median, 1e9))} GB/s"])
         loads = self._of.values("load_average")
         rows.append(["load average, this process included",
                      f"{min(loads):.1f} to {max(loads):.1f}" if loads else "not recorded"])
         self._table(["what", "is"], rows)
         # Whole jobs run beside endless loops on purpose.
-        if self._of.values("load_average", peer=TRIAD) and max(loads) > os.cpu_count() + 0.5:
+        if self._of.values("load_average", peer=IC) and max(loads) > os.cpu_count() + 0.5:
             self._say("**The machine was busy with other work.** Processor times hold; wall times, and with them the "
                       "speed-up of two threads, are those of a busy machine.\n")
 

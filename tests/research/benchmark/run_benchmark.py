@@ -17,7 +17,7 @@ import sys
 
 import numpy
 
-from measurements import CGAL, IC, JOBS_BY_SIZE, OURS, REBUILT, RELIEF, TRACKED, TRIAD, WHOLE_JOBS, Case, Measurements
+from measurements import CGAL, IC, JOBS_BY_SIZE, OURS, REBUILT, RELIEF, TRACKED, WHOLE_JOBS, Case, Measurements
 from results_page import Page
 
 TOP = pathlib.Path(__file__).resolve().parents[3]
@@ -107,8 +107,7 @@ class Benchmark:
             measurements.run(self._whole_jobs(), self._repetitions)
             measurements.run(self._sizes(), self._repetitions)
             return
-        triads = [Case(TRIAD, threads=n, words=("triad", "--threads", n)) for n in (1, 2)]
-        measurements.run(triads + self._compared(), self._repetitions)
+        measurements.run(self._compared(), self._repetitions)
         measurements.run(self._cgal() + self._papers() + self._accuracy(), 1)
         measurements.run(self._other_meshes() + self._scale(), 1)
 

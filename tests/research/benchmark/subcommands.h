@@ -22,7 +22,4 @@ void add_incomplete_cholesky(CLI::App& app);
 /// Measures CGAL's smooth_shape. Adds nothing if CGAL is not enabled.
 void add_cgal(CLI::App& app);
 
-/// Measures the machine's memory bandwidth.
-void add_triad(CLI::App& app);
-
 }  // namespace tracked_mcf::benchmark

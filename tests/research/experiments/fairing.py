@@ -23,7 +23,7 @@ import subprocess
 import tempfile
 
 import numpy
-from experiment import RENDER, Experiment
+from experiment import Experiment
 from ply import read_mesh, read_vertices, write_ply
 from scipy.spatial import cKDTree
 from shapes import grid_faces
@@ -34,7 +34,6 @@ CLOSED = ["hand_8k.ply", "nefertiti_50k.ply", "armadillo_50k.ply", "skull_50k.pl
           "elephant_5cc.ply"]
 HOLES = 102  # in all
 RINGS = [4, 8, 12]
-DRAWN = ["stanford_bunny"]
 OPEN = ["stanford_bunny.ply", "laurana50k.ply", "mannequin_11k.ply", "demosthenes_8k.ply"]
 
 
@@ -394,53 +393,6 @@ def seam_angle(vertices, faces, selected):
     return float(numpy.degrees(numpy.arccos(numpy.clip(cosines, -1, 1))).mean())
 
 
-def curvature(vertices, faces):
-    """Returns the mean curvature at the vertices, by cotangents; positive where the surface is convex."""
-    forces, areas, normals = numpy.zeros_like(vertices), numpy.zeros(len(vertices)), numpy.zeros_like(vertices)
-    corners = vertices[faces]
-    doubled = numpy.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    double_area = numpy.maximum(numpy.linalg.norm(doubled, axis=1), 1e-300)
-    for k in range(3):
-        a, b, c = (corners[:, (k + i) % 3] for i in range(3))
-        weight = (((b - a) * (c - a)).sum(axis=1) / double_area / 2)[:, None]
-        numpy.add.at(forces, faces[:, (k + 1) % 3], weight * (b - c))
-        numpy.add.at(forces, faces[:, (k + 2) % 3], weight * (c - b))
-        numpy.add.at(areas, faces[:, k], double_area / 6)
-        numpy.add.at(normals, faces[:, k], doubled)
-    normals /= numpy.maximum(numpy.linalg.norm(normals, axis=1), 1e-300)[:, None]
-    return (forces * normals).sum(axis=1) / numpy.maximum(areas, 1e-300) / 2
-
-
-def draw(experiment, name, shapes, faces, selected, scale):
-    """Draws what is around the filled holes of shapes, by name, coloured by their curvature."""
-    membrane = shapes["membrane"]
-    middle = membrane[faces[selected]].reshape(-1, 3).mean(axis=0)
-    radius = 1.4 * numpy.linalg.norm(membrane[faces[selected]].reshape(-1, 3) - middle, axis=1).max()
-    near = (numpy.linalg.norm(membrane[faces] - middle, axis=2) < radius).all(axis=1)
-    colours = numpy.array([[40, 80, 200], [235, 232, 225], [200, 50, 40]])
-    with tempfile.TemporaryDirectory() as folder:
-        paths = []
-        for vertices in shapes.values():
-            at = numpy.clip(curvature(vertices, faces) / scale, -1, 1)
-            mixed = numpy.stack([numpy.interp(at, [-1, 0, 1], channel) for channel in colours.T], 1).astype("u1")
-            rows = numpy.zeros(len(vertices), [("position", "<f8", 3), ("colour", "u1", 3)])
-            rows["position"], rows["colour"] = vertices, mixed
-            triangles = numpy.zeros(near.sum(), [("count", "u1"), ("corners", "<i4", 3)])
-            triangles["count"], triangles["corners"] = 3, faces[near]
-            header = ["ply", "format binary_little_endian 1.0", f"element vertex {len(rows)}",
-                      *(f"property double {axis}" for axis in "xyz"),
-                      *(f"property uchar {colour}" for colour in ("red", "green", "blue")),
-                      f"element face {len(triangles)}", "property list uchar int vertex_indices", "end_header", ""]
-            paths.append(pathlib.Path(folder) / f"{len(paths)}.ply")
-            paths[-1].write_bytes("\n".join(header).encode() + rows.tobytes() + triangles.tobytes())
-        picture = experiment.output / f"fairing_{name}.png"
-        forward = -unit_normals(shapes["membrane"], faces[selected]).mean(axis=0)
-        subprocess.run(["/usr/bin/python3", RENDER, "--colours", "--height", "360",
-                        "--view", *map(str, forward), "--up", "0", "1", "0", "--output", picture,
-                        *paths, "--labels", *shapes], check=True)
-    experiment.say(f"![{name}: curvature as colours]({picture.name})\n")
-
-
 def measure_real_holes(experiment, runner):
     folder = experiment.options.meshes
     if folder is None or shutil.which("meshlabserver") is None or experiment.options.quick:
@@ -461,26 +413,9 @@ def measure_real_holes(experiment, runner):
                 shapes[f"CGAL {continuity}"] = result[0]
         row.update({name: seam_angle(shape, faces, selected) for name, shape in shapes.items()})
         rows.append(row)
-        if path.stem in DRAWN:
-            drawn = {name: shapes[name] for name in ("membrane", "tangent", "CGAL tangent") if name in shapes}
-            draw(experiment, path.stem, drawn, faces, selected,
-                 numpy.percentile(abs(curvature(vertices, faces)), 90))
     experiment.record(rows)
     keys = list(dict.fromkeys(key for row in rows for key in row))[1:]
     experiment.table(keys, [[row.get(key, "") for key in keys] for row in rows])
-
-
-def measure_deep(experiment, runner):
-    vertices, faces = sphere(16 if experiment.options.quick else 33)
-    selected = (vertices[:, 2] > -0.5)[faces].any(axis=1)
-    flat, _ = runner.ours(vertices, faces, selected, "position")
-    rows = []
-    for continuity in CONTINUITIES:
-        _, report = runner.ours(flat, faces, selected, continuity)
-        rows.append([continuity, report["vertices"], report["passes"], report["processor_seconds"]])
-        experiment.record([{"table": "deep", "continuity": continuity, "processor_seconds": rows[-1][-1]}])
-    experiment.say("\n## Three quarters of a sphere\n")
-    experiment.table(["continuity", "vertices that move", "metrics", "processor seconds"], rows)
 
 
 def measure_large(experiment, runner):
@@ -514,7 +449,6 @@ def main():
         measure_surroundings(experiment, runner)
         measure_holes(experiment, runner)
         measure_real_holes(experiment, runner)
-        measure_deep(experiment, runner)
         measure_large(experiment, runner)
     experiment.finish()
 
