@@ -21,7 +21,7 @@ set -euo pipefail
 packages_of() {
     case $1 in
         core) echo g++ make cmake libeigen3-dev libhwy-dev ;;
-        program) echo "$(packages_of core)" libcli11-dev nlohmann-json3-dev xz-utils ;;
+        program) echo "$(packages_of core)" libcli11-dev libfast-float-dev nlohmann-json3-dev xz-utils ;;
         plugin) echo "$(packages_of program)" meshlab "$(libraries_recommended_by meshlab)" \
             qtbase5-dev libqt5opengl5-dev libglew-dev libglu1-mesa-dev ;;
         package) echo "$(packages_of plugin)" dpkg-dev file help2man python3 ;;

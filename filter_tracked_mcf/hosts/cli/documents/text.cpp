@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "filter_tracked_mcf/hosts/cli/documents/text.h"
 
-#include <algorithm>
+#include <fast_float/fast_float.h>
 #include <cmath>
-#include <cstdlib>
 #include <ostream>
 
 #include "filter_tracked_mcf/hosts/cli/file_error.h"
@@ -12,34 +11,27 @@ namespace tracked_mcf {
 
 namespace {
 
-/// std::from_chars does not take a leading plus.
+/// from_chars() does not take a leading plus.
 std::string_view without_plus(std::string_view text) {
     if (text.size() > 1 && text.front() == '+') text.remove_prefix(1);
     return text;
 }
 
-/// Reads all of `text`.
-template <class Number>
-std::errc read_all(std::string_view text, Number& number) {
+/// Returns whether all of `text` is a whole number in range, and sets it.
+template <class Integer>
+bool read_all(std::string_view text, Integer& number) {
     const char* const end = text.data() + text.size();
     const std::from_chars_result result = std::from_chars(text.data(), end, number);
-    return result.ptr == end ? result.ec : std::errc::invalid_argument;
+    return result.ec == std::errc() && result.ptr == end;
 }
 
-#ifdef __cpp_lib_to_chars
-std::optional<double> read_double(std::string_view text) {
-    double number = 0;
-    const std::errc error = read_all(text, number);
-    if (error == std::errc()) return number;
-    // strtod rounds numbers beyond the range of doubles to zero or to infinity.
-    if (error == std::errc::result_out_of_range) return read_double_by_strtod(text);
-    return {};
+/// Returns whether all of `text` is a number, and sets the nearest double, zero or infinity.
+bool read_double(std::string_view text, double& number) {
+    const char* const end = text.data() + text.size();
+    // Not every standard library has std::from_chars for doubles.
+    const fast_float::from_chars_result result = fast_float::from_chars(text.data(), end, number);
+    return result.ec != std::errc::invalid_argument && result.ptr == end;
 }
-#else  // libc++ has no std::from_chars for doubles.
-std::optional<double> read_double(std::string_view text) {
-    return read_double_by_strtod(text);
-}
-#endif
 
 std::string quoted(std::string_view text) {
     constexpr std::size_t longest = 40;
@@ -57,30 +49,19 @@ bool is_blank(char c) {
 
 }  // namespace
 
-std::optional<double> read_double_by_strtod(std::string_view text) {
-    const std::string_view digits = text.substr(text.substr(0, 1) == "-" ? 1 : 0);
-    // strtod skips blanks and a plus, and reads hexadecimal numbers.
-    if (digits.find_first_of(".0123456789iInN") != 0) return {};
-    if (digits.find_first_of("xX") == 1) return {};
-    const std::string terminated(text);
-    char* end = nullptr;
-    const double number = std::strtod(terminated.c_str(), &end);
-    if (end != terminated.c_str() + terminated.size()) return {};
-    return number;
-}
-
 double parse_number(std::string_view text) {
     const std::string_view digits = without_plus(text);
     std::int32_t whole = 0;  // most are, and are read faster; -0 is none
-    if (digits.substr(0, 1) != "-" && read_all(digits, whole) == std::errc()) return whole;
-    if (const auto number = read_double(digits)) return *number;
+    if (digits.substr(0, 1) != "-" && read_all(digits, whole)) return whole;
+    double number = 0;
+    if (read_double(digits, number)) return number;
     if (digits.substr(digits.substr(0, 1) == "-" ? 1 : 0, 3) == "1.#") return std::nan("");
     throw UnreadableFile(quoted(text) + " stands where a number should");
 }
 
 std::int64_t parse_integer(std::string_view text) {
     std::int64_t number = 0;
-    if (read_all(without_plus(text), number) == std::errc()) return number;
+    if (read_all(without_plus(text), number)) return number;
     throw UnreadableFile(quoted(text) + " stands where a whole number should");
 }
 

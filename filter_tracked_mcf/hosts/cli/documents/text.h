@@ -5,7 +5,6 @@
 #include <charconv>
 #include <cstdint>
 #include <iosfwd>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,14 +13,10 @@ namespace tracked_mcf {
 
 using Words = std::vector<std::string_view>;
 
-/// Parses a number, independent of the locale. 1.#IND and the like of old Microsoft libraries are
-/// not a number. Throws UnreadableFile with the text unless all of it is a number.
+/// Parses a number as the nearest double, zero or infinity, independent of the locale. 1.#IND and
+/// the like of old Microsoft libraries are not a number. Throws UnreadableFile with the text unless
+/// all of it is a number.
 double parse_number(std::string_view text);
-
-/// Returns the number that all of `text` is, or nothing: what std::from_chars takes, as the nearest
-/// double, zero or infinity. For standard libraries without std::from_chars for doubles; far
-/// slower.
-std::optional<double> read_double_by_strtod(std::string_view text);
 
 /// Parses a whole number likewise.
 std::int64_t parse_integer(std::string_view text);
