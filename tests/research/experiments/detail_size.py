@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Measures which detail size of the flow helps noisy scans most.
+"""Which detail size of the flow helps noisy scans most.
 
 Each entry is the geometric mean over the scans of two ratios to the noisy mesh: of the RMS distance from the clean
 vertices along the clean normals, and of the mean angle between normals of faces and those of the clean mesh. Noise is

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Measures the flow at every wavelength that a mesh has: on a plane, a sphere, scans, and two resolutions.
+"""The flow at every wavelength that a mesh has: on a plane, a sphere, scans, and two resolutions.
 
 ℓ is the detail size. Lengths are in mean edges. The measure is the share of their height that small waves keep: the
 displacement along the normal, projected onto the waves. "Rest" is the RMS of this displacement that is no multiple of the

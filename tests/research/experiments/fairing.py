@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Measures how well faired patches continue a surface, beside the membrane and CGAL's fair().
+"""How well faired patches continue a surface, beside the membrane and CGAL's fair().
 
 Shapes: a part of a sphere, cylinder or torus is replaced by its membrane, as if a hole had been filled, and faired.
 The error is the largest distance from the shape, in per cent of the radius. Cut holes: disks of some rings are cut

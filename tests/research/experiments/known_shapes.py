@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Measures the flow on surfaces whose exact shape is known: terrain, thin plates, a staircase, a depth image, a catenoid.
+"""The flow on surfaces whose exact shape is known: terrain, thin plates, a staircase, a depth image, a catenoid.
 
 ℓ is the detail size in mean edges of the exact surface, if there is no unit. The tables:
 

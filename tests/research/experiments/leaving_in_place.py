@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Measures what Remove Noise moves that should stay: rims, tiles, rasters, textures, cracks and small parts.
+"""What Remove Noise moves that should stay: rims, tiles, rasters, textures, cracks and small parts.
 
 measures.py defines the measures; lengths are in mean edges of the clean surface. The cases:
 

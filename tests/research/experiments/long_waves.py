@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Measures the time to remove waves that are many edges long, beside MeshLab's Taubin smoother.
+"""The time to remove waves that are many edges long, beside MeshLab's Taubin smoother.
 
 Taubin's smoother multiplies a wave by 1 - (λκ)² in one iteration if μ = -λ. Here κ is the wave's
 eigenvalue of the umbrella operator, (2π/length)² times a quarter of the mean squared edge length. (With

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Measures Remove Noise on noise that is not independent from vertex to vertex, or not the same everywhere.
+"""Remove Noise on noise that is not independent from vertex to vertex, or not the same everywhere.
 
 Each entry is the RMS displacement from the clean vertices along the clean normals, in mean edges of the clean surface, and
 the mean angle between normals of faces and those of the clean surface, in degrees. The cases:

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Measures the filter Remove Noise with its default parameters, beside other smoothers at their best.
+"""Remove Noise with its default parameters, beside other smoothers at their best.
 
 Lists: meshes on which the filter's constants were chosen, other parts (CAD models), other scans, and public pairs of
 noisy and original meshes, one for each folder of --pairs. A folder may also have NAME_gcn.ply: results of GCN-Denoiser,
