@@ -3,36 +3,59 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include "filter_tracked_mcf/presentation/filter_names.h"
 #include "tests/hosts/host.h"
 #include "tests/hosts/layer.h"
 
 namespace tracked_mcf {
 
-/// Returns the filter of the built plugin.
-inline const host::Filter& filter() {
-    static const host::Filter filter(TRACKED_MCF_PLUGIN_FILE);
-    return filter;
+/// Returns the filter of this name in the built plugin.
+inline const host::Filter& filter(const std::string& name = kNames<FlowParameters>.name) {
+    static std::map<std::string, host::Filter> filters;
+    return filters.try_emplace(name, TRACKED_MCF_PLUGIN_FILE, name).first->second;
 }
 
-/// A document with one layer, and the plugin's parameters with the dialog's defaults.
+/// A document with one layer, and a filter's parameters with the dialog's defaults.
 class Plugin : public testing::Test {
 protected:
-    Plugin() : layer(host::add_layer(document, "layer")) {
+    explicit Plugin(std::string filter_name = kNames<FlowParameters>.name)
+        : name(std::move(filter_name)), layer(host::add_layer(document, "layer")) {
         make_layer(layer);
-        parameters = filter().parameters(document);
-        parameters.setValue("iterations", IntValue(2));
-        parameters.setValue("depth", IntValue(4));
+        parameters = filter(name).parameters(document);
+        if (name == kNames<FlowParameters>.name) {
+            parameters.setValue("iterations", IntValue(2));
+            parameters.setValue("depth", IntValue(4));
+        }
         // Some faces of the layer are selected.
-        parameters.setValue("selected", BoolValue(false));
+        if (parameters.hasParameter("selected")) {
+            parameters.setValue("selected", BoolValue(false));
+        }
     }
 
     bool apply(vcg::CallBackPos* callback = nullptr) {
-        outcome = filter().apply(document, parameters, callback);
+        outcome = filter(name).apply(document, parameters, callback);
         return outcome.succeeded;
     }
 
+    /// Selects the faces of half of the layer. Returns whether a vertex has other faces, too.
+    std::vector<bool> select_half() {
+        std::vector<bool> stays(layer.cm.vert.size(), false);
+        for (CFaceO& face : layer.cm.face) {
+            const bool selected = face.cV(0)->cP()[0] > 0;
+            selected ? face.SetS() : face.ClearS();
+            for (int corner = 0; !selected && corner < 3; ++corner) {
+                stays[vcg::tri::Index(layer.cm, face.cV(corner))] = true;
+            }
+        }
+        return stays;
+    }
+
+    const std::string name;
     MeshDocument document;
     MeshModel& layer;
     RichParameterList parameters;
