@@ -112,30 +112,60 @@ void expect_contains(const std::string& text, const std::string& part) {
     EXPECT_NE(text.find(part), std::string::npos) << text;
 }
 
-TEST(Fair, ContinuesASphere) {
+/// Returns a bound of how far a patch is from a shape, to leading order in the size of the patch.
+///
+/// The difference e is a plate that is clamped at the rim of the patch: Δ² e, for curvature Δ³ e,
+/// is that of the shape's height over its tangent plane. The strip of the patch's width has the
+/// largest e: load sⁿ / n! in its middle, for half the width s and n = 4 or 6.
+double of_strip(double load, double half_width, int n) {
+    return load * std::pow(half_width, n) / std::tgamma(n + 1);
+}
+
+/// The height of the unit cylinder, 1 - (1 - y²)^½, has the terms y⁴ / 8 and y⁶ / 16.
+double of_cylinder(double half_width, int n) {
+    return of_strip(n == 4 ? 3 : 45, half_width, n);
+}
+
+/// The same for a cap of the unit sphere, with r⁴ / 8 and r⁶ / 16. The disc keeps the value and the
+/// slope at its rim by a function that is 0 in its middle.
+double of_cap(double degrees, int n) {
+    return std::pow(degrees * kPi / 180, n) / (n == 4 ? 8 : 16);
+}
+
+TEST(Fair, MissesASphereByTheFourthOrTheSixthPowerOfTheSizeOfAHole) {
     const TriangleMesh sphere = shapes::geodesic_sphere(30);
-    struct Bound {
-        double degrees, tangent, curvature;
-    };
-    for (const Bound& bound : {Bound{30, 0.01, 0.001}, {60, 0.1, 0.01}, {90, 0.5, 0.1}}) {
-        const Filled filled(sphere, cap(bound.degrees));
-        EXPECT_LT(error(filled, Continuity::Tangent, from_sphere), bound.tangent);
-        EXPECT_LT(error(filled, Continuity::Curvature, from_sphere), bound.curvature);
+    std::vector<double> tangents, curvatures;
+    for (const double degrees : {30, 60}) {
+        const Filled filled(sphere, cap(degrees));
+        tangents.push_back(error(filled, Continuity::Tangent, from_sphere));
+        curvatures.push_back(error(filled, Continuity::Curvature, from_sphere));
+        EXPECT_LT(tangents.back(), of_cap(degrees, 4));
+        EXPECT_LT(curvatures.back(), of_cap(degrees, 6));
     }
+    EXPECT_NEAR(std::log2(tangents[1] / tangents[0]), 4, 0.5);
+    // The error of the mesh adds to the smaller patch's.
+    EXPECT_NEAR(std::log2(curvatures[1] / curvatures[0]), 6, 1);
 }
 
 TEST(Fair, ContinuesACylinderAndATorus) {
-    const Filled side(shapes::tube(48, 32, 4),
+    // The rim of the selection is a ring of edges farther away.
+    const TriangleMesh tube = shapes::tube(48, 32, 4);
+    const Filled side(tube,
                       [](const Eigen::Vector3d& p) { return p[0] > 0.2 && std::abs(p[2]) < 0.7; });
-    EXPECT_LT(error(side, Continuity::Tangent, from_cylinder), 0.025);
-    EXPECT_LT(error(side, Continuity::Curvature, from_cylinder), 0.002);
-    const Filled ring(shapes::tube(48, 32, 4),
-                      [](const Eigen::Vector3d& p) { return std::abs(p[2]) < 0.7; });
-    EXPECT_LT(error(ring, Continuity::Tangent, from_cylinder), 0.025);
+    const Filled ring(tube, [](const Eigen::Vector3d& p) { return std::abs(p[2]) < 0.7; });
+    for (const Filled& filled : {side, ring}) {
+        EXPECT_LT(error(filled, Continuity::Tangent, from_cylinder), of_cylinder(0.75, 4));
+        EXPECT_LT(error(filled, Continuity::Curvature, from_cylinder), of_cylinder(0.75, 6));
+    }
+    // The larger curvature of the torus is that of a cylinder of radius 0.4. The other one has less
+    // than a tenth of its third power.
     const Filled torus(shapes::torus(160, 80, 1, 0.4),
-                       [](const Eigen::Vector3d& p) { return p[0] > 0.9 && std::abs(p[1]) < 0.4; });
-    EXPECT_LT(error(torus, Continuity::Tangent, from_torus), 0.05);
-    EXPECT_LT(error(torus, Continuity::Curvature, from_torus), 0.01);
+                       [](const Eigen::Vector3d& p) { return p[0] > 0.9 && std::abs(p[1]) < 0.2; });
+    const double half_width = 0.2 + 1.4 * 2 * kPi / 160;
+    EXPECT_LT(error(torus, Continuity::Tangent, from_torus),
+              1.1 * 0.4 * of_cylinder(half_width / 0.4, 4));
+    EXPECT_LT(error(torus, Continuity::Curvature, from_torus),
+              1.1 * 0.4 * of_cylinder(half_width / 0.4, 6));
 }
 
 TEST(Fair, KeepsAPlaneFlat) {
@@ -207,8 +237,8 @@ TEST(Fair, TurnsAndScalesWithTheMesh) {
         TriangleMesh other = shapes::transformed(filled.mesh, moved);
         const FairReport of_other = fair(other, filled.selection, {});
         EXPECT_LT(distance(other, shapes::transformed(mesh, moved)), 1e-9 * scale);
-        EXPECT_NEAR(of_other.seam_curvature * scale, report.seam_curvature, 1e-6);
-        EXPECT_NEAR(of_other.height, report.height, 1e-6);
+        EXPECT_NEAR(of_other.seam_curvature * scale, report.seam_curvature, 1e-9);
+        EXPECT_NEAR(of_other.height, report.height, 1e-9);
     }
 }
 
@@ -224,7 +254,7 @@ TEST(Fair, DoesNotDependOnOrientationOrWelding) {
     EXPECT_LT(distance(mesh, other), 1e-9);
     TriangleMesh soup = shapes::soup(filled.mesh);
     fair(soup, filled.selection, {});
-    EXPECT_LT(distance(soup, shapes::soup(mesh)), 1e-4);
+    EXPECT_LT(distance(soup, shapes::soup(mesh)), 1e-9);
 }
 
 TEST(Fair, TellsRoughSurroundingsFromSmoothOnes) {
@@ -232,8 +262,10 @@ TEST(Fair, TellsRoughSurroundingsFromSmoothOnes) {
     Filled smooth(sphere, cap(30));
     const FairReport of_smooth = fair(smooth.mesh, smooth.selection, {});
     EXPECT_EQ(of_smooth.rough_patches, 0);
-    EXPECT_NEAR(of_smooth.seam_curvature, 1, 0.05);
-    EXPECT_NEAR(of_smooth.patch_curvature, 1, 0.1);
+    EXPECT_NEAR(of_smooth.seam_curvature, 1, std::pow(mean_edge_length(sphere), 2));
+    // The plate (a² - r²)² / 8 adds r² - a² / 2 to the curvature, with RMS a² / √12.
+    const double radius = 30 * kPi / 180;
+    EXPECT_NEAR(of_smooth.patch_curvature, 1, radius * radius / std::sqrt(12));
     // Around a patch that rises by much less than the noise's slope, chance alone raises it.
     TriangleMesh square = shapes::square(20);
     for (std::size_t i = 0; i < square.positions.size(); ++i)
@@ -249,23 +281,26 @@ TEST(Fair, TellsRoughSurroundingsFromSmoothOnes) {
         for (const Eigen::Vector3d& p : mesh.positions) sum += middle(p) ? p[2] * p[2] : 0;
         return sum;
     };
-    EXPECT_GT(squared_heights(tangent), 1.5 * squared_heights(noisy.mesh));
-    // A patch that rises more is better than its membrane in spite of noise.
+    EXPECT_GT(squared_heights(tangent), squared_heights(noisy.mesh));
+    // A patch that rises more is at least twice as good as its membrane in spite of noise.
     const Filled deeper(roughened(sphere, 0.01), cap(30));
     tangent = deeper.mesh;
     EXPECT_EQ(fair(tangent, deeper.selection, {}).rough_patches, 0);
-    EXPECT_LT(rms_error(tangent, sphere, cap(30)), 0.3 * rms_error(deeper.mesh, sphere, cap(30)));
+    EXPECT_LT(rms_error(tangent, sphere, cap(30)), 0.5 * rms_error(deeper.mesh, sphere, cap(30)));
 }
 
 TEST(Fair, EndsWhenTheShapeIsFinal) {
-    // Further passes only slide the vertices along the sphere.
+    // A pass that changes the shape by less than 5e-4 of the hole's diameter, which is 1, is the
+    // last. Further ones only slide the vertices along the sphere.
     const Filled filled(shapes::geodesic_sphere(24), cap(30));
     TriangleMesh mesh = filled.mesh;
     const FairReport report = fair(mesh, filled.selection, with(Continuity::Tangent));
-    EXPECT_EQ(report.passes, 3);
+    EXPECT_LT(report.passes, 5) << "the most that it makes";
     TriangleMesh again = mesh;
-    EXPECT_LT(fair(again, filled.selection, {}).largest_displacement,
-              0.01 * report.largest_displacement);
+    fair(again, filled.selection, {});
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        EXPECT_NEAR(again.positions[i].norm(), mesh.positions[i].norm(), 5e-4) << i;
+    }
 }
 
 TEST(Fair, TakesTheCurvatureOfSmoothSurroundings) {
@@ -315,26 +350,30 @@ TEST(Fair, KeepsTheRimOfAnOpenMesh) {
     const Selection selection = star_of(tube, upper);
     TriangleMesh mesh = tube;
     fair(mesh, selection, {});
+    // The rim keeps its place and has no curvature. A plate of length 1 that is hinged there misses
+    // the cylinder by 3 / 185, and by 1 / 27 because the cylinder does have its curvature there.
+    constexpr double hinged = 3.0 / 185 + 1.0 / 27;
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
         const bool moves = upper(tube.positions[i]) && tube.positions[i][2] < 1.999;
         EXPECT_EQ(same_bits(mesh.positions[i], tube.positions[i]), !moves) << i;
-        EXPECT_LT(std::abs(from_cylinder(mesh.positions[i])), 0.05);
+        EXPECT_LT(std::abs(from_cylinder(mesh.positions[i])), hinged);
     }
 }
 
 TEST(Fair, TakesSeveralPatchesThatMayTouch) {
     const TriangleMesh sphere = shapes::geodesic_sphere(30);
+    const double degrees = std::acos(0.9) * 180 / kPi;
     const Inside poles = [](const Eigen::Vector3d& p) { return std::abs(p[2]) > 0.9; };
     Filled far(sphere, poles);
     EXPECT_EQ(fair(far.mesh, far.selection, {}).patches, 2);
-    EXPECT_LT(error(far, Continuity::Tangent, from_sphere), 0.01);
+    EXPECT_LT(error(far, Continuity::Tangent, from_sphere), of_cap(degrees, 4));
     // Two patches with less than a ring of faces between them.
     const Inside pair = [](const Eigen::Vector3d& p) {
         return p[2] > 0.9 && std::abs(p[0]) > 0.03;
     };
     Filled touching(sphere, pair);
     EXPECT_EQ(fair(touching.mesh, touching.selection, {}).patches, 1);
-    EXPECT_LT(error(touching, Continuity::Tangent, from_sphere), 0.01);
+    EXPECT_LT(error(touching, Continuity::Tangent, from_sphere), of_cap(degrees, 4));
 }
 
 TEST(Fair, TakesBadTriangles) {
@@ -344,7 +383,8 @@ TEST(Fair, TakesBadTriangles) {
         if (cap(30)(position)) position = {1e-7 * position[0], std::pow(position[1], 3), 0.5};
     }
     fair(mesh, selection, {});
-    for (const Eigen::Vector3d& p : mesh.positions) EXPECT_LT(std::abs(from_sphere(p)), 0.2);
+    // The middle of the patch was 0.5 away. At least half of that must go.
+    for (const Eigen::Vector3d& p : mesh.positions) EXPECT_LT(std::abs(from_sphere(p)), 0.25);
 }
 
 TEST(Fair, TakesSeamsWhereMoreThanTwoFacesMeet) {
@@ -364,8 +404,8 @@ TEST(Fair, TakesSeamsWhereMoreThanTwoFacesMeet) {
     TriangleMesh mesh = filled.mesh;
     fair(mesh, filled.selection, {});
     for (std::int32_t i = 0; i < count; ++i) {
-        EXPECT_LT(mesh.positions[i].norm(), 1.1);
-        EXPECT_GT(mesh.positions[i].norm(), 0.8);
+        EXPECT_LT(mesh.positions[i].norm(), 1 + of_cap(30, 4));
+        EXPECT_GT(mesh.positions[i].norm(), std::cos(30 * kPi / 180)) << "the plane of the seam";
     }
 }
 
@@ -379,7 +419,6 @@ TEST(Fair, StaysNearTheMembraneInRoughSurroundings) {
             EXPECT_LE(report.height, 1);
             const double size = 2 * 1.2 * std::sin(std::min(degrees, 90.0) * kPi / 180);
             EXPECT_LE(distance(filled.mesh, membrane), 1.01 * size);
-            for (const Eigen::Vector3d& p : filled.mesh.positions) EXPECT_LT(p.norm(), 4);
         }
     }
 }
