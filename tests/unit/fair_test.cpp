@@ -387,6 +387,17 @@ TEST(Fair, TakesBadTriangles) {
     for (const Eigen::Vector3d& p : mesh.positions) EXPECT_LT(std::abs(from_sphere(p)), 0.25);
 }
 
+TEST(Fair, TakesTrianglesWhoseSquaredSidesUnderflow) {
+    TriangleMesh mesh = shapes::geodesic_sphere(10);
+    for (Eigen::Vector3d& p : mesh.positions) {
+        if (cap(60)(p)) p *= 1e-300;
+    }
+    const FairReport report =
+        fair(mesh, star_of(mesh, [](const Eigen::Vector3d& p) { return p.norm() < 1e-200; }), {});
+    EXPECT_GT(report.vertices, 0);
+    EXPECT_TRUE(std::isfinite(report.patch_curvature) && std::isfinite(report.seam_curvature));
+}
+
 TEST(Fair, TakesSeamsWhereMoreThanTwoFacesMeet) {
     // A wall stands on the seam.
     Filled filled(shapes::geodesic_sphere(20), cap(30));

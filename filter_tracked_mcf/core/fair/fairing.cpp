@@ -22,6 +22,10 @@ constexpr double kThickening = 1e-6;
 /// The same for the first membrane. Then no weight is negative, so the membrane stays in the convex
 /// hull of its seam.
 constexpr double kRoundThickening = 1;
+/// Added to the squares, too, so that the area of no triangle underflows to 0. The mesh has size 1.
+constexpr double kSmallestSquare = 1e-140;
+/// The masses of vertices in a hole of a smaller square than this are those that were added.
+constexpr double kSmallestHole = 1e-120;
 
 /// A patch may be this far from its membrane, relative to the size of the hole.
 constexpr double kFarthest = 1;
@@ -84,10 +88,11 @@ int Fairing::solve(int continuity) {
 std::pair<Bending, Bending> Fairing::bending() {
     assemble(kThickening);
     const Points forces = stiffness_ * positions_;
+    const double collapsed = kCollapsed * std::max(size_ * size_, kSmallestHole);
     const auto of = [&](Eigen::Index begin, Eigen::Index end) {
         Bending sum;
         for (Eigen::Index i = begin; i < end; ++i) {
-            if (weights_[i] > 0 && masses_[i] > kCollapsed * size_ * size_)
+            if (weights_[i] > 0 && masses_[i] > collapsed)
                 sum += {weights_[i] * forces.row(i).squaredNorm() / 4, masses_[i], 1};
         }
         return sum;
@@ -137,7 +142,7 @@ void Fairing::assemble(double thickening) {
             squares[k] =
                 (positions_.row(t[(k + 1) % 3]) - positions_.row(t[(k + 2) % 3])).squaredNorm();
         }
-        squares.array() += thickening * squares.maxCoeff();
+        squares.array() += thickening * squares.maxCoeff() + kSmallestSquare;
         const double sum = squares.sum();
         const double four_areas = std::sqrt(sum * sum - 2 * squares.squaredNorm());
         for (int k = 0; k < 3; ++k) {
