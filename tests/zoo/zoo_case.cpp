@@ -169,7 +169,6 @@ FlowParameters random_parameters(double side, Random& random) {
     set_step_size(parameters, side, random);
     parameters.iterations = random.chance(0.3) ? random.integer(4, 50) : random.integer(1, 3);
     if (random.chance(0.3)) parameters.order = random.integer(2, kMaximumOrder);
-    random.chance(0.1);  // a parameter that is gone: the cases of CMakeLists.txt keep their numbers
     parameters.flow = random.pick({FlowKind::MeanCurvature, FlowKind::Conformalized});
     parameters.boundary = random.pick({BoundaryCondition::Locked, BoundaryCondition::Free});
     if (random.chance(0.4)) parameters.preserve = random.pick({Preserve::Area, Preserve::Volume});
