@@ -41,7 +41,7 @@ TEST(Evolve, ReportsThePapersSizesAndResiduals) {
     EXPECT_GT(report.peak_memory_bytes, 1000000);
     ASSERT_EQ(report.steps.size(), 3U);
     for (const StepReport& step : report.steps) {
-        EXPECT_LT(step.residual_after, 0.2 * step.residual_before);
+        EXPECT_LT(step.residual_after, 0.1 * step.residual_before) << "a cycle of multigrid";
         EXPECT_EQ(step.solver_iterations, 1);
         EXPECT_EQ(step.collapsed_samples, 0);
     }
@@ -57,8 +57,12 @@ TEST(Evolve, ThePapersAutomaticDepthHasAboutAsManyUnknownsAsVertices) {
         const FlowReport report = evolve(after, p);
         const double ratio =
             static_cast<double>(report.unknowns) / static_cast<double>(report.vertices);
-        EXPECT_GT(ratio, 0.35) << report.depth;
-        EXPECT_LT(ratio, 2.5) << report.depth;
+        // For cells of 1.6 edges, 3 unknowns for each squared side and 1.15 vertices for each
+        // squared edge. As depths are whole, cells are up to √2 times larger or smaller. A plane
+        // along the grid has 2 unknowns instead of 3.
+        const double usual = 3 / (1.6 * 1.6 * 1.15);
+        EXPECT_GT(ratio, usual / 2 * 2 / 3) << report.depth;
+        EXPECT_LT(ratio, usual * 2) << report.depth;
     }
 }
 
@@ -74,7 +78,8 @@ TEST(Evolve, ReportsTheOctreeOnlyIfThereIsOne) {
     EXPECT_EQ(report.samples, 0);
     EXPECT_NEAR(report.steps[0].area, report.area_before, 1e-6 * report.area_before);
     for (const StepReport& step : report.steps) {
-        EXPECT_LT(step.residual_after, 0.01 * step.residual_before);
+        EXPECT_LE(step.error_estimate, FlowParameters().tolerance);
+        EXPECT_LT(step.residual_after, step.residual_before);
     }
     const FlowReport of_default = evolve(mesh, FlowParameters());  // removes short waves
     EXPECT_EQ(of_default.depth, 0);
@@ -359,7 +364,8 @@ TEST(Evolve, ReachesTheToleranceAmongManySmallHoles) {
         error += (usual.positions[i] - exact.positions[i]).squaredNorm();
         movement += (exact.positions[i] - mesh.positions[i]).squaredNorm();
     }
-    EXPECT_LT(std::sqrt(error / movement), 2e-3);
+    // The tolerance, for each of the two solves of a step of second order.
+    EXPECT_LT(std::sqrt(error / movement), 2 * FlowParameters().tolerance);
 }
 
 TEST(Evolve, RejectsMeshesThatCannotFlow) {

@@ -92,11 +92,17 @@ TEST(PreservingArea, KeepsItOverFiftySteps) {
     }
 }
 
-TEST(Preserving, SphereStaysAsItIs) {
+TEST(Preserving, SphereStaysAsItIsUpToTheSquareOfItsEdges) {
     const Eigen::Affine3d shift(Eigen::Translation3d(5, -7, 11));
-    const TriangleMesh sphere = shapes::transformed(shapes::geodesic_sphere(20), shift);
     for (const Preserve preserve : {Preserve::Volume, Preserve::Area}) {
-        EXPECT_LT(distance(evolved(sphere, preserving(preserve, 1e-2, 50)), sphere), 2e-3);
+        FlowParameters p = preserving(preserve, 1e-2, 50);
+        p.tolerance = 1e-6;
+        const auto moved = [&](int frequency) {
+            const TriangleMesh sphere =
+                shapes::transformed(shapes::geodesic_sphere(frequency), shift);
+            return distance(evolved(sphere, p), sphere);
+        };
+        EXPECT_NEAR(std::log2(moved(10) / moved(20)), 2, 0.2);
     }
 }
 
@@ -110,7 +116,7 @@ TEST(PreservingVolume, OfSpheresOfUnequalSizeKeepsEachInItsPlace) {
     for (int half = 0; half < 2; ++half) {
         const TriangleMesh one = half_of(spheres, half), one_after = half_of(after, half);
         const double volume = enclosed_volume(one);
-        EXPECT_NEAR(enclosed_volume(one_after), volume, 1e-6 * volume);
+        EXPECT_NEAR(enclosed_volume(one_after), volume, kRestored * volume);
         EXPECT_LT((shapes::surface_centroid(one_after) - shapes::surface_centroid(one)).norm(),
                   p.tolerance * radii[half]);
     }
@@ -135,7 +141,7 @@ TEST(PreservingVolume, OfAnOpenSurfaceWithALockedRim) {
     TriangleMesh after = cap;
     const FlowReport report = evolve(after, preserving(Preserve::Volume, 1e-3, 100));
     EXPECT_EQ(report.stop, Stop::None);
-    EXPECT_LT(std::abs(volume_between(cap, after)), 1e-6 * box_volume(cap));
+    EXPECT_LT(std::abs(volume_between(cap, after)), kRestored * box_volume(cap));
     EXPECT_NEAR(report.volume_change, volume_between(cap, after), 1e-14);  // rounding
     EXPECT_GT(absolute_volume_between(cap, after), 1e-2 * box_volume(cap));
     // Without preserving, the cap sinks.
@@ -161,7 +167,7 @@ TEST(PreservingVolume, OfASelectionLeavesTheRest) {
     TriangleMesh after = mesh;
     evolve(after, top, preserving(Preserve::Volume, 1e-3, 100));
     const TriangleMesh part = part_of(mesh, top);
-    EXPECT_LT(std::abs(volume_between(part, after)), 1e-6 * box_volume(part));
+    EXPECT_LT(std::abs(volume_between(part, after)), kRestored * box_volume(part));
     EXPECT_GT(absolute_volume_between(part, after), 1e-2 * box_volume(part));
     for (std::size_t i = 0; i < top.size(); ++i) {
         if (top[i] != 0) continue;
@@ -246,13 +252,13 @@ TEST(PreservingVolume, MovesWithThePressureOfTheSameStep) {
 }
 
 TEST(PreservingVolume, TurningASurfaceInsideOutChangesNothing) {
-    // The order of the corners changes the rounding of single precision and, within its tolerance,
-    // the solver's result.
+    // The order of the corners changes rounding and, within its tolerance, the solver's result.
     for (const TriangleMesh& mesh : {shapes::bumpy_sphere(15), bumpy_cap(15)}) {
         const FlowParameters p = preserving(Preserve::Volume);
         const TriangleMesh expected = evolved(mesh, p);
-        EXPECT_LT(distance(evolved(shapes::inside_out(mesh), p), expected), 1e-5);
-        EXPECT_GT(distance(expected, mesh), 1e-3);
+        const double moved = distance(expected, mesh);
+        EXPECT_LT(distance(evolved(shapes::inside_out(mesh), p), expected), p.tolerance * moved);
+        EXPECT_GT(moved, 1e-3);
     }
 }
 
@@ -291,7 +297,7 @@ TEST(PreservingVolume, OfAConformalizedFlowIsAStepThenAScaling) {
     for (auto& p : scaled.positions) p = centre + factor * (p - centre);
     FlowParameters p = preserving(Preserve::Volume, 1e-3, 1);
     p.flow = FlowKind::Conformalized;
-    EXPECT_LT(distance(evolved(mesh, p), scaled), 1e-5);
+    EXPECT_LT(distance(evolved(mesh, p), scaled), p.tolerance * distance(plain, mesh));
 }
 
 TEST(PreservingArea, IsAStepThenAScaling) {
@@ -305,18 +311,24 @@ TEST(PreservingArea, IsAStepThenAScaling) {
 }
 
 TEST(PreservingArea, OfEachOrderTurnsAnEllipsoidIntoASphere) {
-    TriangleMesh mesh = shapes::geodesic_sphere(16);
-    for (auto& p : mesh.positions) p = p.cwiseProduct(Eigen::Vector3d(1, 0.6, 0.4));
+    // Up to the mesh's error, which falls with the square of its edges.
     for (int order = 1; order <= kMaximumOrder; ++order) {
-        FlowParameters p = preserving(Preserve::Area, 0.1, 40);
-        p.flow = FlowKind::Conformalized;
-        p.order = order;
-        const TriangleMesh after = evolved(mesh, p);
-        const Eigen::Vector3d centre = shapes::surface_centroid(after);
-        const double radius = std::sqrt(surface_area(mesh) / (4 * std::acos(-1.0)));
-        for (const Eigen::Vector3d& position : after.positions) {
-            EXPECT_NEAR((position - centre).norm(), radius, 0.02 * radius) << order;
-        }
+        const auto error = [order](int frequency) {
+            TriangleMesh mesh = shapes::geodesic_sphere(frequency);
+            for (auto& p : mesh.positions) p = p.cwiseProduct(Eigen::Vector3d(1, 0.6, 0.4));
+            FlowParameters p = preserving(Preserve::Area, 0.1, 40);
+            p.flow = FlowKind::Conformalized;
+            p.order = order;
+            const TriangleMesh after = evolved(mesh, p);
+            const Eigen::Vector3d centre = shapes::surface_centroid(after);
+            const double radius = std::sqrt(surface_area(mesh) / (4 * std::acos(-1.0)));
+            double worst = 0;
+            for (const Eigen::Vector3d& position : after.positions) {
+                worst = std::max(worst, std::abs((position - centre).norm() - radius));
+            }
+            return worst;
+        };
+        EXPECT_NEAR(std::log2(error(8) / error(16)), 2, 0.3) << order;
     }
 }
 
@@ -394,7 +406,7 @@ TEST(PreservingVolume, KeepsAPinchingDumbbellWithinBounds) {
     const FlowReport report = evolve(after, preserving(Preserve::Volume, 5e-3, 100));
     EXPECT_GT(report.steps.size(), 2U);
     EXPECT_LE(longest_side(after), 4 * longest_side(dumbbell));
-    EXPECT_NEAR(enclosed_volume(after), volume, 1e-6 * volume);
+    EXPECT_NEAR(enclosed_volume(after), volume, kRestored * volume);
 }
 
 TEST(PreservingVolume, VolumesThatCancelDoNotEnlargeTheMesh) {
