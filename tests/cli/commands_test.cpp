@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "filter_tracked_mcf/hosts/cli/command_line.h"
+#include "filter_tracked_mcf/hosts/cli/documents/polygons.h"
 #include "tests/cli/program_fixture.h"
 
 namespace tracked_mcf {
@@ -36,7 +37,7 @@ std::string wave() {
         const int x = i % kSide, y = i / kSide;
         ply << x << ' ' << y << ' ' << std::sin(0.3 * x) + noise(random) << ' ' << 1000 + i << '\n';
     }
-    const auto is_inner = [](int at) { return at > 5 && at < 14; };
+    const auto is_inner = [](int at) { return at > 2 && at < 17; };
     for (int i = 0; i < kSide * (kSide - 1); ++i) {
         if (i % kSide == kSide - 1) continue;
         const int inner = is_inner(i % kSide) && is_inner(i / kSide) ? 1 : 0;
@@ -90,6 +91,22 @@ TEST_P(EachCommand, ChangesPositionsAlone) {
     EXPECT_THAT(changed, ::testing::Contains(2));
 }
 
+TEST_P(EachCommand, KeepsTheBitsOfWhatStays) {
+    const bool is_fair = GetParam().name == std::string("fair");
+    const Points before = MeshFile(folder_ / "wave.ply").triangle_mesh().positions;
+    const auto expect_only_moved = [&](const std::string& options, int first, int end) {
+        ASSERT_EQ(run_on_wave("out.ply " + options).exit_code, 0);
+        const Points after = MeshFile(folder_ / "out.ply").triangle_mesh().positions;
+        for (int i = 0; i < kSide * kSide; ++i) {
+            const auto is_inside = [&](int at) { return at >= first && at < end; };
+            const bool moves = is_inside(i % kSide) && is_inside(i / kSide);
+            EXPECT_EQ(after[std::size_t(i)] != before[std::size_t(i)], moves) << options << i;
+        }
+    };
+    expect_only_moved(is_fair ? "" : "--selected inner", 4, 17);
+    if (!is_fair) expect_only_moved("--boundary locked", 1, kSide - 1);
+}
+
 TEST_P(EachCommand, ConvertsToStl) {
     ASSERT_EQ(run_on_wave("out.ply --quiet").exit_code, 0);
     const ProgramRun result = run_on_wave("out.stl --quiet");
@@ -117,8 +134,8 @@ TEST_P(EachCommand, ReportsWhatItHasDone) {
     EXPECT_EQ(report["parameters"]["threads"], 0);
     EXPECT_TRUE(report["warnings"].is_array());
     const bool is_fair = GetParam().name == std::string("fair");
-    EXPECT_EQ(report["triangles"], is_fair ? 128 : 722);
-    EXPECT_EQ(report["vertices"], is_fair ? 49 : 400);
+    EXPECT_EQ(report["triangles"], is_fair ? 392 : 722);
+    EXPECT_EQ(report["vertices"], is_fair ? 169 : 400);
     const double area_after = report["area_after"];
     if (!is_fair) {
         EXPECT_NEAR(area_after, area("out.ply"), 1e-9 * area_after);

@@ -109,37 +109,6 @@ TEST_F(Program, AToleranceThatIsNotReachedIsAWarningEvenWhenQuiet) {
     EXPECT_TRUE(std::filesystem::exists(folder_ / "b.ply"));
 }
 
-TEST_F(Program, MethodsDiffer) {
-    const std::string options = "a.off b.off --depth 4 --step-size 1e-3 --iterations 1 ";
-    const auto smoothed = [&](const std::string& more) {
-        const ProgramRun result = run(options + more);
-        EXPECT_EQ(result.exit_code, 0) << result.errors;
-        return read_file(folder_ / "b.off");
-    };
-    const std::string converged = smoothed("");
-    EXPECT_EQ(smoothed("--method converged --tolerance 1e-3"), converged);
-    EXPECT_NE(smoothed("--method paper"), converged);
-    EXPECT_NE(smoothed("--tolerance 1e-8"), converged);
-}
-
-TEST_F(Program, TheDefaultMethodHasTheVerticesAsUnknowns) {
-    // Two squares so close that every cell has both.
-    std::string two = "OFF\n8 4 0\n";
-    for (const char* z : {"0", "0.01"}) {
-        for (const char* xy : {"0 0 ", "1 0 ", "1 1 ", "0 1 "}) two += std::string(xy) + z + "\n";
-    }
-    write_file(folder_ / "two.off", two + "3 0 1 2\n3 0 2 3\n3 4 5 6\n3 4 6 7\n");
-    const auto unknowns = [&](const std::string& option) {
-        const ProgramRun result =
-            run("two.off b.off --depth 3 --boundary free --report r.json " + option);
-        EXPECT_EQ(result.exit_code, 0) << result.errors;
-        const std::string report = read_file(folder_ / "r.json");
-        return std::stoi(report.substr(report.find("\"unknowns\": ") + 12));
-    };
-    EXPECT_EQ(unknowns(""), 8);
-    EXPECT_GT(unknowns("--method paper"), 100);
-}
-
 TEST_F(Program, ADetailSizeInPerCentIsPartOfTheBoxesDiagonal) {
     // The vertex far away has no face, and is no part of the box.
     write_file(folder_ / "far.off",
@@ -171,19 +140,6 @@ TEST_F(Program, TheDetailSizeIsOneOfTheTwoWaysToGiveTheStepSize) {
     EXPECT_NE(positions("--detail-size 5"), positions("--step-size 0.01"));
 }
 
-TEST_F(Program, OrdersDiffer) {
-    const auto smoothed = [&](const std::string& options) {
-        const ProgramRun result = run("a.off b.off --depth 4 --step-size 1e-3 " + options);
-        EXPECT_EQ(result.exit_code, 0) << result.errors;
-        return read_file(folder_ / "b.off");
-    };
-    std::vector<std::string> results = {smoothed("--order 1"), smoothed("--order 2"),
-                                        smoothed("--order 3"), smoothed("--order 4")};
-    EXPECT_EQ(smoothed(""), results[1]);
-    std::sort(results.begin(), results.end());
-    EXPECT_EQ(std::unique(results.begin(), results.end()), results.end());
-}
-
 TEST_F(Program, AreaOrVolumeIsPreserved) {
     const auto kept = [&](const char* name, auto measure) {
         const ProgramRun result =
@@ -196,26 +152,6 @@ TEST_F(Program, AreaOrVolumeIsPreserved) {
     };
     kept("area", [](const TriangleMesh& mesh) { return surface_area(mesh); });
     kept("volume", [](const TriangleMesh& mesh) { return enclosed_volume(mesh); });
-}
-
-TEST_F(Program, TheVolumeUnderAnOpenSurfaceIsPreservedWithAnyBoundary) {
-    // A pyramid without a base, on the grid's plane.
-    write_file(folder_ / "open.off",
-               "OFF\n5 4 0\n-1 -1 0\n1 -1 0\n1 1 0\n-1 1 0\n0 0 1\n3 0 1 4\n3 1 2 4\n3 2 3 4\n"
-               "3 3 0 4\n");
-    for (const char* boundary : {"locked", "free"}) {
-        const auto change = [&](const std::string& options) {
-            const ProgramRun result =
-                run("open.off b.off --depth 5 --detail-size 1 --report r.json --boundary " +
-                    std::string(boundary) + options);
-            EXPECT_EQ(result.exit_code, 0) << result.errors;
-            const std::string report = read_file(folder_ / "r.json");
-            return std::stod(report.substr(report.find("\"volume_change\": ") + 17));
-        };
-        EXPECT_LT(change(""), -1e-3) << boundary;
-        EXPECT_NEAR(change(" --preserve volume"), 0, 1e-9) << boundary;
-        EXPECT_NEAR(change(" --preserve volume --order 2"), 0, 1e-9) << boundary;
-    }
 }
 
 TEST_F(Program, WhatCannotBePreservedIsRefused) {
@@ -290,23 +226,6 @@ TEST_F(Program, DetailFinerThanTheMeshIsAWarningAndAddsNoDepth) {
     EXPECT_EQ(depth_of("finer.json"), depth_of("fine.json"));
 }
 
-TEST_F(Program, FlowsDiffer) {
-    const auto smoothed = [&](const std::string& options) {
-        const ProgramRun result = run("a.off b.off --depth 4 --step-size 1e-3 " + options);
-        EXPECT_EQ(result.exit_code, 0) << result.errors;
-        return read_file(folder_ / "b.off");
-    };
-    const std::string by_default = smoothed("");
-    EXPECT_EQ(smoothed("--flow mean-curvature"), by_default);
-    EXPECT_NE(smoothed("--flow conformalized"), by_default);
-    // The first step is the same but for rounding, for it begins with the initial metric.
-    const std::vector<double> conformalized =
-        numbers_in(smoothed("--flow conformalized --iterations 1"));
-    const std::vector<double> plain = numbers_in(smoothed("--iterations 1"));
-    EXPECT_THAT(conformalized, Pointwise(DoubleNear(1e-6), plain));
-    EXPECT_GT(plain.size(), 12U);
-}
-
 TEST_F(Program, ReplacesItsInputWhenAsked) {
     const double before = area("a.off");
     EXPECT_EQ(run("a.off a.off --order 1 --depth 4 --step-size 1e-3").exit_code, 0);
@@ -318,43 +237,6 @@ TEST_F(Program, NamesOfOtherFilesStayInEveryFolder) {
     write_file(folder_ / "a.obj", "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     ASSERT_EQ(run("a.obj out/b.obj --depth 3").exit_code, 0);
     EXPECT_THAT(read_file(folder_ / "out/b.obj"), StartsWith("mtllib m.mtl\nv "));
-}
-
-TEST_F(Program, FairMovesTheInnerVerticesOfTheSelection) {
-    // A square on a paraboloid whose middle, 5 by 5 vertices, is pressed flat; 49 are selected.
-    std::ostringstream ply;
-    ply << "ply\nformat ascii 1.0\nelement vertex 225\nproperty float x\nproperty float y\n"
-           "property float z\nproperty uchar hole\nelement face 196\n"
-           "property list uchar int vertex_indices\nend_header\n";
-    for (int y = -7; y <= 7; ++y) {
-        for (int x = -7; x <= 7; ++x) {
-            const int ring = std::max(std::abs(x), std::abs(y));
-            const double height = ring <= 2 ? 0.18 : 0.01 * (x * x + y * y);
-            ply << x << ' ' << y << ' ' << height << ' ' << (ring <= 3 ? 1 : 0) << '\n';
-        }
-    }
-    for (int i = 0; i < 14 * 15; ++i) {
-        if (i % 15 == 14) continue;
-        ply << "4 " << i << ' ' << i + 1 << ' ' << i + 16 << ' ' << i + 15 << '\n';
-    }
-    write_file(folder_ / "hole.ply", ply.str());
-    const ProgramRun done = run("fair hole.ply b.ply --selected hole --report b.json");
-    ASSERT_EQ(done.exit_code, 0) << done.output << done.errors;
-    EXPECT_THAT(done.output, StartsWith("Faired 25 vertices of 1 patch in "));
-    EXPECT_THAT(read_file(folder_ / "b.json"), HasSubstr("\"continuity\": \"tangent\""));
-    const auto heights = [&](const char* name) {
-        std::vector<double> z;
-        for (const auto& p : MeshFile(folder_ / name).triangle_mesh().positions) z.push_back(p[2]);
-        return z;
-    };
-    const std::vector<double> before = heights("hole.ply"), after = heights("b.ply");
-    int moved = 0;
-    for (std::size_t i = 0; i < before.size(); ++i) moved += before[i] != after[i] ? 1 : 0;
-    EXPECT_EQ(moved, 25);
-    EXPECT_LT(after[112], 0.03) << "the middle";
-
-    EXPECT_EQ(run("fair hole.ply b.ply").exit_code, 2) << "nothing is selected";
-    EXPECT_THAT(run("fair --help").output, HasSubstr("tracked_mcf fair"));
 }
 
 TEST_F(Program, HelpAndVersionSucceed) {
@@ -414,7 +296,7 @@ TEST_F(Program, WrongUseExitsWith2) {
           "a.off b.ply --detail-size inf%", "a.off b.ply --detail-size",
           "a.off b.off --quality displacement", "a.off b.ply --method paper --flow conformalized",
           "a.off b.ply --rescale volume", "a.off b.ply --selected flags", "a.off b.xyz",
-          "a.off \"\"", "a.off b.ply --report b.ply"}) {
+          "a.off \"\"", "a.off b.ply --report b.ply", "fair a.off b.ply"}) {
         const ProgramRun result = run(arguments);
         EXPECT_EQ(result.exit_code, 2) << arguments;
         EXPECT_EQ(result.errors.substr(0, 13), "tracked_mcf: ") << arguments;
