@@ -18,6 +18,9 @@ import numpy
 TOP = pathlib.Path(__file__).resolve().parents[2]
 PICTURES = TOP / "filter_tracked_mcf" / "pictures"
 COLOURS = numpy.array([[40, 80, 200], [235, 232, 225], [200, 50, 40]])  # negative, 0, positive
+SELECTED = [215, 60, 50]
+PLASTER = [237, 227, 212]
+RED, BLUE = ([PLASTER, *darker] for darker in ([[230, 120, 40], [120, 10, 30]], [[70, 130, 210], [25, 65, 150]]))
 
 
 def read_off(path):
@@ -26,6 +29,18 @@ def read_off(path):
     vertices = numpy.array(words[4:4 + 3 * count], float).reshape(-1, 3)
     rows = numpy.array(words[4 + 3 * count:4 + 3 * count + 4 * faces], int).reshape(-1, 4)
     return vertices, rows[:, 1:]
+
+
+def diagonal_of(vertices):
+    return numpy.linalg.norm(numpy.ptp(vertices, axis=0))
+
+
+def normals_of(vertices, faces):
+    a, b, c = (vertices[faces[:, i]] for i in range(3))
+    normals = numpy.zeros_like(vertices)
+    for i in range(3):
+        numpy.add.at(normals, faces[:, i], numpy.cross(b - a, c - a))
+    return normals / numpy.maximum(numpy.linalg.norm(normals, axis=1), 1e-300)[:, None]
 
 
 def read_ply(path):
@@ -70,6 +85,13 @@ def with_noise(vertices, faces, edges, local=False):
     return vertices + edges * lengths[:, None] * noise
 
 
+def with_bumps(vertices, faces):
+    """Raises and lowers the surface by 0.6 % of the diagonal, in waves of 5 % of it."""
+    diagonal = diagonal_of(vertices)
+    heights = 0.006 * diagonal * numpy.sin(2 * numpy.pi / (0.05 * diagonal) * vertices).prod(axis=1)
+    return vertices + heights[:, None] * normals_of(vertices, faces)
+
+
 def frame(side=80):
     """Returns a crumpled film in a frame that is bent three times up and down."""
     ticks = numpy.linspace(-1, 1, side)
@@ -88,14 +110,16 @@ def frame(side=80):
 
 
 def in_charts(vertices, faces, count=14):
-    """Cuts a mesh as texture charts do: each chart has vertices and a colour of its own."""
+    """Cuts a mesh as texture charts do: each chart has vertices and a colour of its own. Also returns the properties of
+    the vertices."""
     seeds = numpy.random.default_rng(3).choice(len(vertices), count, replace=False)
     centroids = vertices[faces].mean(axis=1)
     chart = numpy.linalg.norm(centroids[:, None] - vertices[seeds], axis=2).argmin(axis=1)
     keys, corners = numpy.unique(chart[:, None] * len(vertices) + faces, return_inverse=True)
-    colours = 150 + 25 * numpy.stack([numpy.arange(count) * i % 5 for i in (1, 2, 3)], axis=1)
-    return (vertices[keys % len(vertices)], corners.reshape(-1, 3),
-            colours[keys // len(vertices)].astype("u1").T)
+    chart = keys // len(vertices)
+    colours = 185 + 60 * numpy.cos(2 * numpy.pi * (0.618 * chart + numpy.array([[0], [1 / 3], [2 / 3]])))
+    properties = dict(zip(["red", "green", "blue", "chart"], [*colours.astype("u1"), chart.astype("u1")]))
+    return vertices[keys % len(vertices)], corners.reshape(-1, 3), properties
 
 
 def with_patch(vertices, faces):
@@ -119,18 +143,18 @@ def make_inputs(meshes, work):
     lion, lion_faces = read_off(meshes / "lion-head.off")
     write_ply(work / "lion.ply", lion, lion_faces)
     write_ply(work / "noisy_lion.ply", with_noise(lion, lion_faces, 0.15, local=True), lion_faces)
-    write_ply(work / "half_lion.ply", lion, lion_faces,
-              right=(lion[:, 0] > numpy.median(lion[:, 0])).astype("u1"))
-    low, high = numpy.percentile(lion[:, 1], [25, 60])
-    write_ply(work / "faded_lion.ply", lion, lion_faces,
-              below=numpy.clip((high - lion[:, 1]) / (high - low), 0, 1))
     write_ply(work / "frame.ply", *frame())
     bear, bear_faces = read_off(meshes / "bear.off")
     write_ply(work / "bear.ply", bear, bear_faces)
+    write_ply(work / "half_bear.ply", with_bumps(bear, bear_faces), bear_faces, left=(bear[:, 0] < 0).astype("u1"))
+    bunny, bunny_faces = read_off(meshes / "bunny00.off")
+    low, high = bunny[:, 0].min(), bunny[:, 0].max()
+    write_ply(work / "faded_bunny.ply", with_bumps(bunny, bunny_faces), bunny_faces,
+              fading=numpy.clip((bunny[:, 0] - low) / (high - low), 0, 1))
     patched, around, hole = with_patch(bear, bear_faces)
     write_ply(work / "patched_bear.ply", patched, bear_faces, around=around, hole=hole)
-    lion, lion_faces, (red, green, blue) = in_charts(lion, lion_faces)
-    write_ply(work / "charts.ply", lion, lion_faces, red=red, green=green, blue=blue)
+    lion, lion_faces, properties = in_charts(lion, lion_faces)
+    write_ply(work / "charts.ply", lion, lion_faces, **properties)
 
 
 def commands_of(page):
@@ -148,29 +172,64 @@ def positions(path):
 def noise_left(clean, noisy, smoothed):
     """Returns the noise along the normals that is left, as a share of the noise before."""
     vertices, faces = read_off(clean)
-    a, b, c = (vertices[faces[:, i]] for i in range(3))
-    normals = numpy.zeros_like(vertices)
-    for i in range(3):
-        numpy.add.at(normals, faces[:, i], numpy.cross(b - a, c - a))
-    normals /= numpy.maximum(numpy.linalg.norm(normals, axis=1), 1e-300)[:, None]
+    normals = normals_of(vertices, faces)
     before, after = (((positions(path) - vertices) * normals).sum(axis=1).std() for path in (noisy, smoothed))
     return after / before
 
 
-def check_results(meshes, work):
+def smooth_charts_alone(tool, meshes, work):
+    """Smooths each chart of charts.ply as a mesh of its own, by the same detail size."""
+    charts, faces, properties = in_charts(*read_off(meshes / "lion-head.off"))
+    size, moved = 0.06 * diagonal_of(charts), charts.copy()
+    for i in numpy.unique(properties["chart"]):
+        inside = properties["chart"] == i
+        index = numpy.cumsum(inside) - 1
+        write_ply(work / "chart.ply", charts[inside], index[faces[inside[faces[:, 0]]]])
+        subprocess.run([tool, "chart.ply", "chart.ply", "--boundary", "free", "--detail-size", str(size), "--quiet"],
+                       cwd=work, check=True)
+        moved[inside] = positions(work / "chart.ply")
+    write_ply(work / "charts_alone.ply", moved, faces, **properties)
+
+
+def moved_share(before, after):
+    """Returns how far each vertex has moved, as a share of the diagonal."""
+    return numpy.linalg.norm(positions(after) - positions(before), axis=1) / diagonal_of(positions(before))
+
+
+def widest_gap(before, after):
+    """Returns the largest extent of the vertices that were at one place, as a share of the diagonal."""
+    old, new = positions(before), positions(after)
+    _, place = numpy.unique(old, axis=0, return_inverse=True)
+    low, high = numpy.full((2, place.max() + 1, 3), [[[numpy.inf]], [[-numpy.inf]]])
+    assert len(low) < 0.95 * len(old), "there are no seams"
+    numpy.minimum.at(low, place.ravel(), new)
+    numpy.maximum.at(high, place.ravel(), new)
+    return numpy.linalg.norm(high - low, axis=1).max() / diagonal_of(old)
+
+
+def expect(page, text):
+    """The page breaks lines anywhere."""
+    assert text in " ".join(page.split()), f"the page does not say: {text}"
+
+
+def check_results(meshes, work, page):
     """Checks what the page says of the results."""
     assert noise_left(meshes / "fandisk.off", work / "noisy_part.ply", work / "part.ply") < 0.5
     assert noise_left(meshes / "lion-head.off", work / "noisy_lion.ply", work / "clean_lion.ply") < 0.6
-    lion = positions(work / "lion.ply")
-    moved = numpy.linalg.norm(positions(work / "half.ply") - lion, axis=1)
-    stays = read_ply(work / "half_lion.ply")["right"] == 0
-    assert (moved[stays] == 0).all() and moved[~stays].max() > 0
-    moved = numpy.linalg.norm(positions(work / "faded.ply") - lion, axis=1)
-    strength = read_ply(work / "faded_lion.ply")["below"]
-    assert (moved[strength == 0] == 0).all() and moved[strength == 1].max() > 0
-    before, after = positions(work / "charts.ply"), positions(work / "smooth_charts.ply")
-    assert len(numpy.unique(before, axis=0)) < 0.95 * len(before), "there are seams"
-    assert len(numpy.unique(numpy.hstack([before, after]), axis=0)) == len(numpy.unique(before, axis=0))
+    moved = moved_share(work / "half_bear.ply", work / "half.ply")
+    stays = read_ply(work / "half_bear.ply")["left"] == 0
+    assert (moved[stays] == 0).all()
+    expect(page, f"The others moved by up to {100 * moved.max():.1f} % of the diagonal")
+    moved = moved_share(work / "faded_bunny.ply", work / "faded.ply")
+    strength = read_ply(work / "faded_bunny.ply")["fading"]
+    assert (moved[strength == 0] == 0).all()
+    much, little = (100 * numpy.sqrt((moved[part]**2).mean()) for part in (strength > 2 / 3, strength < 1 / 3))
+    expect(page, f"above 2/3, vertices moved by {much:.2f} % of the diagonal (RMS); where it is below 1/3, by "
+           f"{little:.2f} %")
+    assert widest_gap(work / "charts.ply", work / "charts.ply") == 0
+    assert widest_gap(work / "charts.ply", work / "smooth_charts.ply") == 0
+    gap = widest_gap(work / "charts.ply", work / "charts_alone.ply")
+    expect(page, f"gaps of up to {100 * gap:.1f} % of the diagonal")
     bear, flat, fair = (positions(work / f"{name}.ply") for name in ("bear", "patched_bear", "fair_bear"))
     inside = read_ply(work / "patched_bear.ply")["hole"] != 0
     assert (fair[~inside] == bear[~inside]).all()
@@ -194,13 +253,83 @@ def draw(output, *meshes, options=()):
                     *options, "--", *meshes], check=True)
 
 
-def colour_by_quality(meshes, work):
+def mix(scale, at):
+    """Returns the colours of numbers from 0 to 1."""
+    stops = numpy.linspace(0, 1, len(scale))
+    return numpy.stack([numpy.interp(at, stops, channel) for channel in numpy.transpose(scale)]).round().astype("u1")
+
+
+def paint(path, vertices, faces, scale, at):
+    red, green, blue = mix(scale, at)
+    write_ply(path, vertices, faces, red=red, green=green, blue=blue)
+    return path
+
+
+def write_strip(path, width, label, scale=None, ends=()):
+    """Draws the strip below a surface: a label, and a bar of colours with what its two ends mean."""
+    bar, length = path.with_suffix(".ppm"), 200
+    strip = ["convert", "-size", f"{width}x64", "xc:white", "-font", "DejaVu-Sans", "-pointsize", "17",
+             "-fill", "#333333", "-gravity", "north", "-annotate", "+0+6", label.replace("%", "%%")]
+    if scale is not None:
+        rows = numpy.tile(mix(scale, numpy.linspace(0, 1, length)).T, (14, 1, 1))
+        bar.write_bytes(f"P6 {length} 14 255\n".encode() + rows.tobytes())
+        strip += [bar, "-geometry", "+0+38", "-composite",
+                  "-gravity", "northeast", "-annotate", f"+{(width + length) // 2 + 8}+35", ends[0],
+                  "-gravity", "northwest", "-annotate", f"+{(width + length) // 2 + 8}+35", ends[1]]
+    subprocess.run([*strip, path], check=True)
+
+
+def draw_with_strips(output, work, panels, options=()):
+    """Draws meshes side by side; a panel is a mesh and the arguments of its strip."""
+    surfaces = work / "surfaces.png"
+    draw(surfaces, *(mesh for mesh, *_ in panels), options=options)
+    width = int(subprocess.check_output(["identify", "-format", "%w", surfaces]))
+    strips = [work / f"strip_{i}.png" for i in range(len(panels))]
+    for path, (_, *strip) in zip(strips, panels):
+        write_strip(path, width // len(panels), *strip)
+    subprocess.run(["convert", surfaces, "(", *strips, "+append", ")", "-append", "-strip", f"PNG24:{output}"],
+                   check=True)
+
+
+def draw_moved(output, work, faces, before, after, *panel, options=()):
+    """Draws the panel, the surface after, and how far it has moved."""
+    moved = moved_share(before, after)
+    painted = paint(work / "moved.ply", positions(after), faces, RED, moved / moved.max())
+    draw_with_strips(output, work, [panel, (after, "smoothed"), (
+        painted, "how far it moved, in % of the diagonal", RED, ("0", f"{100 * moved.max():.1f}"))], options)
+
+
+def draw_selection(meshes, work):
+    _, faces = read_off(meshes / "bear.off")
+    before = work / "half_bear.ply"
+    selected = paint(work / "selected.ply", positions(before), faces, [PLASTER, SELECTED], read_ply(before)["left"])
+    draw_moved(PICTURES / "selection.png", work, faces, before, work / "half.ply", selected, "selected faces are red",
+               options=["--colours"])
+
+
+def draw_strength(meshes, work):
+    _, faces = read_off(meshes / "bunny00.off")
+    before = work / "faded_bunny.ply"
+    strength = paint(work / "strength.ply", positions(before), faces, BLUE, read_ply(before)["fading"])
+    draw_moved(PICTURES / "strength.png", work, faces, before, work / "faded.ply", strength, "the strength", BLUE,
+               ("0", "1"), options=["--colours", "--height", "480"])
+
+
+def draw_seams(work):
+    draw_with_strips(PICTURES / "seams.png", work, [
+        (work / "charts.ply", "charts"), (work / "charts_alone.ply", "each chart smoothed alone"),
+        (work / "smooth_charts.ply", "the charts in one file, smoothed")], options=["--colours"])
+
+
+def draw_curvature(meshes, work):
     _, faces = read_off(meshes / "bear.off")
     quality = read_ply(work / "curved.ply")["quality"]
-    at = numpy.clip(quality / numpy.percentile(abs(quality), 97), -1, 1)
-    mixed = numpy.stack([numpy.interp(at, [-1, 0, 1], channel) for channel in COLOURS.T])
-    red, green, blue = mixed.astype("u1")
-    write_ply(work / "coloured.ply", positions(work / "curved.ply"), faces, red=red, green=green, blue=blue)
+    most = numpy.percentile(abs(quality), 97)
+    painted = paint(work / "coloured.ply", positions(work / "curved.ply"), faces, COLOURS,
+                    (numpy.clip(quality / most, -1, 1) + 1) / 2)
+    draw_with_strips(PICTURES / "curvature.png", work, [(work / "bear.ply", "as it is"), (
+        painted, "mean curvature of the smoothed bear, 1 / unit", COLOURS, (f"-{most:.0f}", f"{most:.0f}"))],
+        options=["--colours", "--height", "720"])
 
 
 def draw_all(meshes, work):
@@ -208,18 +337,17 @@ def draw_all(meshes, work):
     draw(PICTURES / "creases.png", work / "noisy_part.ply", work / "part.ply",
          options=["--flat", "--view", "1", "-0.8", "-1.2"])
     draw(PICTURES / "noise.png", work / "noisy_lion.ply", work / "clean_lion.ply", options=side)
-    draw(PICTURES / "selection.png", work / "lion.ply", work / "half.ply")
-    draw(PICTURES / "strength.png", work / "lion.ply", work / "faded.ply", options=side)
+    draw_selection(meshes, work)
+    draw_strength(meshes, work)
     draw(PICTURES / "film.png", work / "frame.ply", work / "film.ply",
          options=["--view", "0.2", "1", "-0.6", "--up", "0", "0", "1"])
-    draw(PICTURES / "seams.png", work / "charts.ply", work / "smooth_charts.ply", options=["--colours"])
+    draw_seams(work)
     draw(PICTURES / "hole.png", *(work / f"{name}.ply" for name in ("bear", "patched_bear", "blended", "fair_bear")),
          options=["--zoom", "2", "--center", "0", "-0.2", "--view", "0.5", "0", "-1", "--labels", "a belly",
                   "a flat patch", "blended by the flow", "faired"])
     draw(PICTURES / "ladder.png", work / "lion.ply", *(work / f"lion_{size}.ply" for size in (4, 8, 16)),
          options=[*side, "--labels", "as it is", "4 %", "8 %", "16 %"])
-    colour_by_quality(meshes, work)
-    draw(PICTURES / "curvature.png", work / "bear.ply", work / "coloured.ply", options=["--colours"])
+    draw_curvature(meshes, work)
     frames = []
     for i, mesh in enumerate([work / "bear.ply", *sorted(work.glob("sphere_*.ply"))]):
         picture = work / f"frame_{i:02d}.png"
@@ -250,7 +378,8 @@ def main():
         run = subprocess.run([arguments.tool.resolve(), *command, "--quiet"], cwd=work, check=True,
                              stderr=subprocess.PIPE, text=True)
         assert not run.stderr, run.stderr
-    check_results(arguments.meshes, work)
+    smooth_charts_alone(arguments.tool.resolve(), arguments.meshes, work)
+    check_results(arguments.meshes, work, page)
     if arguments.pictures:
         draw_all(arguments.meshes, work)
     for picture in re.findall(r"!\[[^]]*\]\(([^)]+)\)", page):
