@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <iterator>
 #include <regex>
 #include <sstream>
 
@@ -15,7 +16,7 @@ namespace tracked_mcf {
 
 namespace {
 
-using Rows = std::vector<std::pair<std::string, std::string>>;  // a name and a default, each
+using Rows = std::vector<std::vector<std::string>>;
 
 std::string page(const std::string& file) {
     std::ostringstream text;
@@ -23,12 +24,12 @@ std::string page(const std::string& file) {
     return text.str();
 }
 
-/// Returns the two groups of each match.
+/// Returns the groups of each match.
 Rows matches(const std::string& text, const std::string& pattern) {
     const std::regex regex(pattern);
     Rows rows;
     for (std::sregex_iterator i(text.begin(), text.end(), regex), end; i != end; ++i) {
-        rows.emplace_back((*i)[1], (*i)[2]);
+        rows.emplace_back(std::next(i->begin()), i->end());
     }
     return rows;
 }
@@ -46,37 +47,52 @@ std::string default_in_words(const Parameter& parameter) {
     return text.str();
 }
 
-/// Expects that the table after a heading of a page has the names and defaults of the parameters
-/// that dialogs have, or of those that the program alone has.
-template <class Parameters>
-void expect_table(const std::string& file, const std::string& heading, const std::string& pattern,
-                  bool in_dialogs) {
-    Rows expected;
-    for (const auto& parameter : parameter_table<Parameters>()) {
-        if (parameter.label.empty() == in_dialogs) continue;
-        std::string name = parameter.name;
-        // The program's options have dashes.
-        if (!in_dialogs) std::replace(name.begin(), name.end(), '_', '-');
-        expected.emplace_back(name, default_in_words(parameter));
-    }
-    for (const Input& input : input_table<Parameters>()) {
-        const char* const initial = input.of_faces ? "on if faces are selected" : "off";
-        if (in_dialogs && !input.label.empty()) expected.emplace_back(input.name, initial);
-    }
+/// Returns the name of the program's option.
+std::string option_of(const Parameter& parameter) {
+    std::string name = parameter.name;
+    std::replace(name.begin(), name.end(), '_', '-');
+    return name;
+}
+
+/// Expects the rows in the table after a heading of a page.
+void expect_rows(const Rows& expected, const std::string& file, const std::string& heading,
+                 const std::string& pattern) {
     const std::string text = page(file);
     const std::size_t begin = text.find(heading);
     const std::string section = text.substr(begin, text.find("\n## ", begin + 1) - begin);
     EXPECT_EQ(matches(section, pattern), expected) << file;
 }
 
+/// Expects that the filter's table has what dialogs, the program and scripts call each parameter,
+/// and its default.
+template <class Parameters>
+void expect_table() {
+    Rows expected;
+    const auto add = [&expected](const Parameter& row, const std::string& initial) {
+        if (!row.label.empty()) expected.push_back({row.label, option_of(row), row.name, initial});
+    };
+    for (const auto& row : parameter_table<Parameters>()) add(row, default_in_words(row));
+    for (const Input& row : input_table<Parameters>()) {
+        add(row, row.of_faces ? "on if faces are selected" : "off");
+    }
+    expect_rows(expected, "filter_tracked_mcf/presentation/README.md",
+                std::string("\n## ") + kNames<Parameters>.name,
+                "\n\\| ([^|]+) \\| `--([a-z-]+)` \\| `([a-z_]+)` \\| ([^|]*) \\|");
+}
+
 TEST(Pages, TablesHaveTheNamesAndDefaultsOfAllParameters) {
-    const char* const in_dialogs = "\n\\| `([a-z_]+)` \\| ([^|]*) \\|";
-    const char* const file = "filter_tracked_mcf/presentation/README.md";
-    expect_table<FlowParameters>(file, "\n## Mean Curvature Flow", in_dialogs, true);
-    expect_table<NoiseParameters>(file, "\n## Remove Noise", in_dialogs, true);
-    expect_table<FairParameters>(file, "\n## Fair Selected Faces", in_dialogs, true);
-    expect_table<FlowParameters>("filter_tracked_mcf/hosts/cli/README.md", "\nFurther options",
-                                 "\n\\| `--([a-z-]+) [^`]*` \\| ([^| ]+) \\|", false);
+    expect_table<FlowParameters>();
+    expect_table<NoiseParameters>();
+    expect_table<FairParameters>();
+}
+
+TEST(Pages, TheProgramsPageHasItsOwnParameters) {
+    Rows expected;
+    for (const auto& row : parameter_table<FlowParameters>()) {
+        if (row.label.empty()) expected.push_back({option_of(row), default_in_words(row)});
+    }
+    expect_rows(expected, "filter_tracked_mcf/hosts/cli/README.md", "\nFurther options",
+                "\n\\| `--([a-z-]+) [^`]*` \\| ([^| ]+) \\|");
 }
 
 /// Expects that the plugin's page has a filter script with the defaults of all parameters.
@@ -90,10 +106,10 @@ void expect_script() {
             text << std::boolalpha << value;
             return text.str();
         };
-        expected.emplace_back(parameter.name, std::visit(in_xml, parameter.initial));
+        expected.push_back({parameter.name, std::visit(in_xml, parameter.initial)});
     }
     for (const Input& input : input_table<Parameters>()) {
-        if (!input.label.empty()) expected.emplace_back(input.name, "false");
+        if (!input.label.empty()) expected.push_back({input.name, "false"});
     }
     const std::string file = "filter_tracked_mcf/hosts/meshlab/README.md";
     const std::string text = page(file);
