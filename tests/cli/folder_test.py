@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Smooths a folder by smooth_folder.sh or, on a Dask cluster of two workers, by smooth_folder.py: folder_test.py PROGRAM SCRIPT
+"""Smooths a folder by tracked_mcf_folder.sh or, on a Dask cluster of two workers, by tracked_mcf_folder.py: folder_test.py PROGRAM SCRIPT
 
-Ends with 77, which tells CTest that the test was skipped, where smooth_folder.py needs a package that is not installed.
+Ends with 77, which tells CTest that the test was skipped, where tracked_mcf_folder.py needs a package that is not installed.
 """
 
 import contextlib
@@ -62,7 +62,7 @@ class Folder(unittest.TestCase):
         path = f"{program.parent}{os.pathsep}{os.environ['PATH']}"
         variables = {"PATH": path, "WORKERS": "2", "MEMORY": str(megabytes)}
         with unittest.mock.patch.dict(os.environ, variables):
-            if SCRIPT.suffix == ".sh":
+            if SCRIPT.suffix != ".py":
                 yield [SCRIPT]
                 return
             with distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None,

@@ -49,7 +49,7 @@ echo "== Files"
 expected=$({
     printf '/usr/share/doc/%s\n' "$name"/{THIRD_PARTY.txt,changelog.Debian.gz,changelog.gz,copyright}
     echo "$library_dir/plugins/$plugin"
-    [ -z "$tool" ] || printf '%s\n' "/usr/bin/$tool" "/usr/share/man/man1/$tool.1.gz"
+    [ -z "$tool" ] || printf '%s\n' "/usr/bin/$tool"{,_folder} "/usr/share/man/man1/$tool"{,_folder}.1.gz
 } | LC_ALL=C sort)
 dpkg-deb --extract "$package" files
 found=$(cd files && find . -type f | sed 's/^\.//' | LC_ALL=C sort)
@@ -60,6 +60,12 @@ for file in "files$library_dir/plugins/$plugin" ${tool:+"files/usr/bin/$tool"}; 
     ! readelf -d "$file" | grep -E 'RPATH|RUNPATH' || fail "$file looks for libraries in a folder"
     ! grep -F -e "$build" -e "$source" "$file" || fail "$file names a folder of this machine"
 done
+
+if [ -n "$tool" ]; then
+    echo "== The command for folders"
+    "$source/tests/cli/folder_test.py" "files/usr/bin/$tool"{,_folder} || fail "${tool}_folder does not smooth a folder"
+    zgrep -q WORKERS "files/usr/share/man/man1/${tool}_folder.1.gz" || fail "the man page does not have the variables"
+fi
 
 echo "== Any processor"
 # Only the kernels, which the program chooses for its processor at run time, may have AVX instructions,

@@ -41,7 +41,7 @@ goes_to() { # PLUGIN_DIR TOOL_DIR NAME=VALUE...
     local expected found
     expected=$({
         echo "$1/$plugin"
-        [ -z "$tool" ] || echo "$2/$tool"
+        [ -z "$tool" ] || printf '%s\n' "$2/$tool"{,_folder}
         printf '%s\n' "$(dirname "$2")/share/doc/filter_tracked_mcf"/{LICENSE,THIRD_PARTY.txt}
     } | sort)
     if ! run_install "${@:3}"; then
@@ -110,6 +110,13 @@ for host in "${old[*]}" "${new[*]}" "${python[*]}"; do
     read -ra host <<< "$host"
     goes_to /plugins /usr/local/bin "${host[@]}" $elsewhere TRACKED_MCF_PLUGIN_DIR=/plugins
 done
+
+if [ -n "$tool" ]; then
+    echo "== The command for folders"
+    run_install "${python[@]}" CMAKE_INSTALL_PREFIX=/opt
+    "$(dirname "$0")/../cli/folder_test.py" "$work/root/opt/bin/$tool"{,_folder} ||
+        fail "${tool}_folder does not smooth a folder"
+fi
 
 echo "== Beside another build"
 for where in /opt/meshlab/plugins "$home/.local/share/$user_plugins/2022.02"; do

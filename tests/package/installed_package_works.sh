@@ -49,6 +49,11 @@ grep -m1 -o "Smoothed .*" log.txt || fail "meshlabserver did not smooth"
 inside tracked_mcf in.ply tool.ply --depth 5 --detail-size 0.125 --iterations 2 --quiet
 "$hosts/compare_positions.py" host.ply tool.ply in.ply 0.5
 
+mkdir -p scans/sub
+cp in.ply scans/sub
+inside tracked_mcf_folder scans smooth --depth 5 --detail-size 0.125 --iterations 2
+cmp smooth/sub/in.ply tool.ply
+
 echo "== lintian"
 inside lintian --fail-on error,warning "$package"
 cat log.txt

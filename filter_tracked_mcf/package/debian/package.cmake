@@ -22,7 +22,8 @@ it, and keeps creases. Fair Selected Faces makes filled holes continue the
 surface around them.
 .
 This package has the filters for MeshLab ${MESHLAB_SDK_RELEASE}, and the program tracked_mcf,
-which does the same to PLY, OBJ, OFF and STL files.")
+which does the same to PLY, OBJ, OFF and STL files, and tracked_mcf_folder to
+all of a folder.")
 
 # MeshLab's library has no stable interface: a plugin is for one release. Debian's versions begin with
 # the release, then + or ~, both of which are before a dot.
@@ -40,8 +41,11 @@ file(RELATIVE_PATH plugins /usr "${MESHLAB_LIBRARY_DIR}/plugins")
 install(TARGETS filter_tracked_mcf LIBRARY DESTINATION ${plugins} ${component})
 if(TRACKED_MCF_TOOL)
   install(TARGETS tracked_mcf RUNTIME DESTINATION bin ${component})
+  install(PROGRAMS "${PROJECT_SOURCE_DIR}/filter_tracked_mcf/hosts/cli/tracked_mcf_folder.sh" DESTINATION bin
+          RENAME tracked_mcf_folder ${component})
   install(CODE "set(program \"$<TARGET_FILE:tracked_mcf>\")
-set(summary \"smooth, denoise and repair triangle meshes\")" ${component})
+set(summary \"smooth, denoise and repair triangle meshes\")
+set(folder_summary \"smooth or denoise the triangle meshes of a folder\")" ${component})
   install(SCRIPT "${CMAKE_CURRENT_LIST_DIR}/write_man_page.cmake" ${component})
 endif()
 install(FILES "${CMAKE_CURRENT_LIST_DIR}/copyright" "${CMAKE_CURRENT_LIST_DIR}/../THIRD_PARTY.txt"

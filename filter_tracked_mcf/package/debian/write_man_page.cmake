@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# cpack runs this after it has put the package's files into CMAKE_INSTALL_PREFIX. Writes the program's man
-# page from its --help. package.cmake sets program and summary.
+# cpack runs this after it has put the package's files into CMAKE_INSTALL_PREFIX. Writes man
+# pages from the --help of the programs. package.cmake sets program and the summaries.
 
 set(folder "$ENV{DESTDIR}${CMAKE_INSTALL_PREFIX}/share/man/man1")
 file(MAKE_DIRECTORY "${folder}")
@@ -18,4 +18,9 @@ file(WRITE "${sections}" "${others}")
 execute_process(COMMAND help2man --no-info --name "${summary}" --include "${sections}" --output "${folder}/tracked_mcf.1" "${program}"
                 COMMAND_ERROR_IS_FATAL ANY)
 file(REMOVE "${sections}")
-execute_process(COMMAND gzip -9nf "${folder}/tracked_mcf.1" COMMAND_ERROR_IS_FATAL ANY)
+execute_process(COMMAND "${program}" --version OUTPUT_VARIABLE version COMMAND_ERROR_IS_FATAL ANY)
+string(REGEX MATCH "[0-9][0-9.]*" version "${version}")
+execute_process(COMMAND help2man --no-info --name "${folder_summary}" --version-string "${version}"
+                        --output "${folder}/tracked_mcf_folder.1" "$ENV{DESTDIR}${CMAKE_INSTALL_PREFIX}/bin/tracked_mcf_folder"
+                COMMAND_ERROR_IS_FATAL ANY)
+execute_process(COMMAND gzip -9nf "${folder}/tracked_mcf.1" "${folder}/tracked_mcf_folder.1" COMMAND_ERROR_IS_FATAL ANY)

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Prints how many meshes a minute smooth_folder.sh smooths with 1, 2 and 4 workers, and one worker with all cores:
+"""Prints how many meshes a minute tracked_mcf_folder.sh smooths with 1, 2 and 4 workers, and one worker with all cores:
 folder.py BUILD MESH...
 
 BUILD is the build folder of the program. Each run smooths 20 files, copies of the meshes in turn. The table has the medians
@@ -21,7 +21,7 @@ import machine
 FILES, ROUNDS = 20, 3
 CORES = len(os.sched_getaffinity(0))
 RUNS = [(1, CORES), (1, 1), (2, 1), (4, 1)]  # workers, and threads of each
-SCRIPT = pathlib.Path(__file__).resolve().parents[3] / "filter_tracked_mcf/hosts/cli" / "smooth_folder.sh"
+SCRIPT = pathlib.Path(__file__).resolve().parents[3] / "filter_tracked_mcf/hosts/cli" / "tracked_mcf_folder.sh"
 
 
 def seconds(program, meshes, output, workers, threads):

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Does on a Dask cluster what smooth_folder.sh does on one machine:
-smooth_folder.py SCHEDULER INPUT OUTPUT [smooth|remove-noise|fair] [OPTION]...
+"""Does on a Dask cluster what tracked_mcf_folder.sh does on one machine:
+tracked_mcf_folder.py SCHEDULER INPUT OUTPUT [smooth|remove-noise|fair] [OPTION]...
 
 SCHEDULER is the address of Dask's scheduler. The workers need the program tracked_mcf in the PATH, and both folders under the
 paths that they have here. Each thread of a worker runs one program, which may have an equal share of the worker's memory.
@@ -28,7 +28,7 @@ def smooth(mesh, target, *options):
 def main(scheduler, source, target, *options):
     source, target = pathlib.Path(source).resolve(), pathlib.Path(target).resolve()
     if source == target:
-        return "smooth_folder.py: INPUT and OUTPUT are the same folder."
+        return "tracked_mcf_folder.py: INPUT and OUTPUT are the same folder."
     target.mkdir(parents=True, exist_ok=True)
     with distributed.Client(scheduler) as client:
         names = [mesh.relative_to(source) for mesh in source.rglob("*") if target not in mesh.parents

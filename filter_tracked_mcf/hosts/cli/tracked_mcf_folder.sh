@@ -1,24 +1,38 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Smooths the meshes of a folder and its subfolders that another folder does not have yet, or removes their noise:
-# smooth_folder.sh INPUT OUTPUT [smooth|remove-noise|fair] [OPTION]...
-#
-# Runs the program tracked_mcf, which must be in the PATH, on each mesh, and writes the mesh and its report, NAME.json, under
-# the same name. OPTIONs go to the program. Variables:
-#   WORKERS  meshes at the same time; by default, as many as cores
-#   THREADS  of each worker; by default, the workers share the cores
-#   MEMORY   of all workers, in MB; by default, what is free. Each worker may have an equal share
-# Prints what the program says, after the name of the mesh. A mesh that fails does not stop the others.
-# Ends with 1 if one has failed.
+# Installed as the command tracked_mcf_folder.
 set -euo pipefail
 
-[ $# -ge 2 ] || { sed -n '/^# Smooths/,/^set/s/^# \{0,1\}//p' "$0" >&2 && exit 2; }
+help() {
+    cat << 'TEXT'
+Usage: tracked_mcf_folder INPUT OUTPUT [smooth|remove-noise|fair] [OPTION]...
+
+Smooths the meshes of a folder and its subfolders that another folder does not have yet, or removes their noise.
+
+Runs the program tracked_mcf on each mesh, and writes the mesh and its report, NAME.json, under the same name. OPTIONs go
+to the program. Prints what the program says, after the name of the mesh. A mesh that fails does not stop the others. Ends
+with 1 if one has failed.
+
+Variables:
+  WORKERS    meshes at the same time; by default, as many as cores
+  THREADS    of each worker; by default, the workers share the cores
+  MEMORY     of all workers, in MB; by default, what is free. Each worker may have an equal share
+
+Examples:
+  tracked_mcf_folder scans clean remove-noise
+
+  WORKERS=1 tracked_mcf_folder scans smooth --detail-size 1%
+TEXT
+}
+[ "${1:-}" != --help ] || { help && exit; }
+[ $# -ge 2 ] || { help >&2 && exit 2; }
+PATH=$PATH:$(dirname "$(realpath "$0")") # installed beside the program
 input=$1 output=$2
 shift 2
 export COMMAND=
 [[ ! ${1:-} =~ ^(smooth|remove-noise|fair)$ ]] || { COMMAND=$1 && shift; }
 mkdir -p "$output"
-[ ! "$input" -ef "$output" ] || { echo "smooth_folder.sh: INPUT and OUTPUT are the same folder." >&2 && exit 1; }
+[ ! "$input" -ef "$output" ] || { echo "tracked_mcf_folder: INPUT and OUTPUT are the same folder." >&2 && exit 1; }
 cores=$(nproc) workers=${WORKERS:-$cores}
 export THREADS=${THREADS:-$((workers < cores ? cores / workers : 1))}
 memory=${MEMORY:-$(awk '/^MemAvailable:/ { print int($2 / 1024) }' /proc/meminfo)}
