@@ -6,9 +6,9 @@
 #include <variant>
 #include <vector>
 
-#include "filter_tracked_mcf/core/fair_parameters.h"
+#include "filter_tracked_mcf/core/fair.h"
 #include "filter_tracked_mcf/core/flow_parameters.h"
-#include "filter_tracked_mcf/core/noise_parameters.h"
+#include "filter_tracked_mcf/core/remove_noise.h"
 #include "filter_tracked_mcf/core/triangle_mesh.h"
 
 namespace tracked_mcf {

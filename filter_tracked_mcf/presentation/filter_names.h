@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "filter_tracked_mcf/core/fair_parameters.h"
-#include "filter_tracked_mcf/core/noise_parameters.h"
+#include "filter_tracked_mcf/core/fair.h"
+#include "filter_tracked_mcf/core/remove_noise.h"
 
 namespace tracked_mcf {
 

@@ -4,13 +4,15 @@
 `runs.py COMMAND IN OUT.ply` writes the mesh of a filter's runs, and prints the program's options for the first one.
 
 A run has the parameters that differ from those of COMMON, in the program's words. `6edges` stands for six mean edges,
-`2squares` for two squared ones.
+`2squares` for two squared ones. add_switches() adds a run of each switch.
 Each run has another result than the first one of its filter, the defaults, or is refused. The number of threads alone
 has no effect.
 """
 
 import math
+import pathlib
 import random
+import re
 import sys
 
 import float_ply
@@ -37,7 +39,6 @@ RUNS = {
         "method=paper",
         "method=paper boundary=free",
         "selected=true",
-        "strength=true",
         "quality=displacement",
         "quality=mean-curvature",
         "preserve=volume",
@@ -54,11 +55,9 @@ RUNS = {
         "noise_size=3edges",
         "detail_size=6edges",
         "largest_movement=.1edges",
-        "along_normals=true",
         "boundary=locked",
         "boundary=smooth",
         "selected=true",
-        "strength=true",
         "quality=displacement",
         "largest_movement=.1edges boundary=smooth selected=true quality=displacement",
         "threads=1",
@@ -74,6 +73,23 @@ RUNS = {
         "continuity=curvature threads=1",
     ],
 }
+
+# The tables of parameters. tests/presentation compares them with those of the filters.
+PAGE = pathlib.Path(__file__).resolve().parents[2] / "filter_tracked_mcf/presentation/README.md"
+
+
+def add_switches():
+    """Adds a run for each switch that is off by default. tests/python checks that each other parameter has one."""
+    for section in PAGE.read_text(encoding="utf-8").split("\n## "):
+        for command, name in FILTERS.items():
+            if not section.startswith(name + "\n"):
+                continue
+            defaults = dict(re.findall(r"^\|[^|]*\|[^|]*\| `(\w+)` \| ([^|]*) \|", section, re.MULTILINE))
+            assert defaults, f"{PAGE} has no parameters of {name}"
+            RUNS[command] += [f"{parameter}=true" for parameter, default in defaults.items() if default == "off"]
+
+
+add_switches()
 
 # Hosts of MeshLab do not offer these.
 OF_THE_PROGRAM = {"tolerance", "threads"}

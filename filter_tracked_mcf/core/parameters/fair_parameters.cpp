@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "filter_tracked_mcf/core/fair_parameters.h"
+#include "filter_tracked_mcf/core/fair.h"
 
 #include "filter_tracked_mcf/core/parameters/parameter_rows.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "filter_tracked_mcf/core/noise_parameters.h"
+#include "filter_tracked_mcf/core/remove_noise.h"
 
 #include "filter_tracked_mcf/core/parameters/parameter_rows.h"
 
