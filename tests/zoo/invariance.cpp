@@ -177,6 +177,9 @@ void Invariance::compare(Property property, const Case& base, const Run& base_ru
         return;
     }
     if (!base_run.made()) return;
+    // On both sides of a crack, vertices take the strength of the first.
+    const bool is_joined = base_run.report.cracks.joined_vertices > 0;
+    if (property == Property::Order && is_joined && !base.inputs.strength.empty()) return;
     const FlowParameters& parameters = base.parameters;
     if (!is_regular(base, base_run.report) || !is_regular(base, other_run.report)) return;
     const double distance = difference(base, base_run, other, other_run, vertex_of);
@@ -186,9 +189,7 @@ void Invariance::compare(Property property, const Case& base, const Run& base_ru
     const double furthest = base_run.report.largest_displacement;
     double allowed = 10 * solves * parameters.tolerance * furthest + 1e-5 * diagonal;
     if (distance <= allowed) {
-        // On both sides of a crack, vertices take the strength of the first.
-        const bool is_joined = base_run.report.cracks.joined_vertices > 0;
-        if (property != Property::Order || (is_joined && !base.inputs.strength.empty())) return;
+        if (property != Property::Order) return;
         const std::string differing =
             differing_number(base_run.values, other_run.values, 1, diagonal,
                              1e-4 + 10 * solves * parameters.tolerance, true);
