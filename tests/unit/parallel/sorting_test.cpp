@@ -97,17 +97,5 @@ TEST(Groups, InvertsAMap) {
     EXPECT_EQ(members(4), (std::vector<std::int32_t>{}));
 }
 
-TEST(Morton, IsInvertibleAndNested) {
-    std::mt19937 random(4);
-    std::uniform_int_distribution<std::int32_t> coordinate(0, (1 << 12) - 1);
-    for (int i = 0; i < 1000; ++i) {
-        const Cell cell(coordinate(random), coordinate(random), coordinate(random));
-        const MortonCode code = morton_code(cell);
-        EXPECT_EQ(cell_at(code), cell);
-        EXPECT_EQ(cell_at(parent_of(code)), Cell(cell[0] / 2, cell[1] / 2, cell[2] / 2));
-        EXPECT_EQ(octant_of(code), (cell[0] & 1) + 2 * (cell[1] & 1) + 4 * (cell[2] & 1));
-    }
-}
-
 }  // namespace
 }  // namespace tracked_mcf
