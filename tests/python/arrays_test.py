@@ -604,20 +604,13 @@ class Progress(unittest.TestCase):
         self.assertEqual(said_by(script), "interrupted\n")
 
     def test_other_threads_run(self):
-        ticks, done = [0], threading.Event()
-
-        def tick():
-            while not done.wait(0.001):
-                ticks[0] += 1
-
-        thread = threading.Thread(target=tick)
-        thread.start()
-        before, start = ticks[0], time.monotonic()
-        smooth(iterations=300)
-        per_second = (ticks[0] - before) / (time.monotonic() - start)
-        done.set()
-        thread.join()
-        self.assertGreater(per_second, 50)
+        flow = threading.Thread(target=lambda: smooth(iterations=300))
+        flow.start()
+        turns = 0  # one or two if the flow kept the interpreter to itself
+        while flow.is_alive():
+            time.sleep(0.001)
+            turns += 1
+        self.assertGreater(turns, 10)
 
 
 class Steps(unittest.TestCase):
