@@ -123,7 +123,7 @@ std::vector<std::string> vertex_lines(const TemporaryFolder& folder, const std::
     std::istringstream text(written.substr(written.find("end_header\n") + 11));
     std::vector<std::string> lines;
     for (std::string x, y, z, rest; lines.size() < 5 && text >> x >> y >> z;) {
-        lines.push_back(x + ' ' + y + ' ' + z);
+        lines.push_back(x.append(" ").append(y).append(" ").append(z));
         std::getline(text, rest);
     }
     return lines;

@@ -285,6 +285,7 @@ void Checker::check_area() {
     const double unit = 1e-6 * std::max(report.cell_size, report.mean_edge);
     const double rounding = unit * sum_of_sides(case_.mesh, case_.inputs.selection);
     std::vector<double> areas;
+    areas.reserve(report.steps.size() + 1);
     for (const StepReport& step : report.steps) areas.push_back(step.area);
     if (!is_paper) areas.push_back(report.area_after);
     for (const double area : areas) {
