@@ -104,7 +104,7 @@ TEST(ConversionWarning, NamesFacesWithoutTriangles) {
 
 TEST(ConversionWarning, IsEmptyIfNothingIsLeftOut) {
     const std::string off = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
-    for (const char* to : {"ply", "off", "stl"}) EXPECT_THAT(left_out(off, "off", to), IsEmpty());
+    for (const char* to : {"ply", "stl"}) EXPECT_THAT(left_out(off, "off", to), IsEmpty());
     EXPECT_THAT(left_out(kPly, "ply", "PLY"), IsEmpty());
 }
 

@@ -59,7 +59,9 @@ class Folder(unittest.TestCase):
     @contextlib.contextmanager
     def workers(self, program, megabytes):
         """Yields the command that gives the folders to two workers, which have this memory together."""
-        path = f"{program.parent}{os.pathsep}{os.environ['PATH']}"
+        path = os.environ["PATH"]
+        if program.parent != SCRIPT.parent:  # else the script finds the program beside itself
+            path = f"{program.parent}{os.pathsep}{path}"
         variables = {"PATH": path, "WORKERS": "2", "MEMORY": str(megabytes)}
         with unittest.mock.patch.dict(os.environ, variables):
             if SCRIPT.suffix != ".py":

@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Compares the results of several builds of tracked_mcf: other processors, instructions, compilers.
 
-platforms.py [--at-most DIFFERENCE] NAME=COMMAND... -- MESH...
+platforms.py [--at-most DIFFERENCE] NAME=COMMAND... -- MESH.off...
 
 A command may have several words, such as "env TRACKED_MCF_INSTRUCTIONS=avx2 build/tracked_mcf" or
-"qemu-aarch64 -L /usr/aarch64-linux-gnu build-arm64/tracked_mcf". Each mesh flows once for each set of
+"qemu-aarch64 -L /usr/aarch64-linux-gnu build-arm64/tracked_mcf". Each mesh, an OFF file, flows once for each set of
 options below. Prints a Markdown table of the largest difference of a coordinate from the result of the
 first command, in diagonals of that result's bounding box, or "same bits". Exits with 1 if a build fails or if a
 difference is larger than DIFFERENCE.

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <ostream>
+#include <set>
 
 #include "filter_tracked_mcf/hosts/cli/mesh_file.h"
 #include "tests/cli/temporary_folder.h"
@@ -30,7 +31,8 @@ TEST_P(RealMeshes, ComeBack) {
     const TriangleMesh mesh = file.triangle_mesh();
     EXPECT_EQ(mesh.positions.size(), GetParam().vertices);
     EXPECT_EQ(mesh.triangles.size(), GetParam().triangles);
-    for (const std::string& name : {std::string("a.ply"), "a" + path.extension().string()}) {
+    for (const std::string& name :
+         std::set<std::string>{"a.ply", "a" + path.extension().string()}) {
         write_file(folder / name, written(file, mesh, name));
         const TriangleMesh read = MeshFile(folder / name).triangle_mesh();
         EXPECT_EQ(read.positions, mesh.positions) << name;

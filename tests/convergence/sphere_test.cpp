@@ -98,7 +98,7 @@ TEST(Sphere, ErrorOfTheConvergedSolverFallsWithTheSquareOfTheEdge) {
 /// sides twice as long. A triangle meets one cell, and another for each grid plane and each grid
 /// line that crosses it. Its polygons have a corner for each of its corners, two for each crossing
 /// of a side and a plane, and four for each crossing of the triangle and a line. A polygon has two
-/// split triangles less than corners.
+/// fewer split triangles than corners.
 TEST(Sphere, SizesAreThoseOfIntegralGeometryAndOfThePaper) {
     // Turned, so that no edges lie in planes of the grid.
     const Eigen::AngleAxisd turn(0.6, Eigen::Vector3d(1, 2, 3).normalized());

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Reads bytes as a file of the format TRACKED_MCF_FORMAT. A file that is not refused is written
-// with the same positions, with other ones, and in all formats. The program reads each result
-// again.
+// in its own format, with the same positions and with other ones, and as PLY and STL. The program
+// reads each result again.
 
 #include <cstddef>
 #include <cstdint>

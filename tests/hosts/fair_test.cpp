@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tests what Fair Selected Faces alone has of the real plugin's filters.
+// Tests what only Fair Selected Faces does, in the real plugin.
 
 #include <gtest/gtest.h>
 

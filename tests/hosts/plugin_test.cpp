@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tests the real plugin, loaded as in the hosts of its release, without a display: what
-// Mean Curvature Flow has alone. each_filter_test.cpp tests what all filters have.
+// Tests what only Mean Curvature Flow does, in the real plugin, which is loaded as in the hosts of
+// its release, without a display. each_filter_test.cpp tests what all filters do.
 
 #include <gtest/gtest.h>
 
 #include <QApplication>
-#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <utility>
 
-#include "filter_tracked_mcf/core/parameter_table.h"
-#include "filter_tracked_mcf/presentation/filter_names.h"
 #include "tests/hosts/plugin_fixture.h"
 
 namespace tracked_mcf {

@@ -126,8 +126,9 @@ double of_cylinder(double half_width, int n) {
     return of_strip(n == 4 ? 3 : 45, half_width, n);
 }
 
-/// The same for a cap of the unit sphere, with r⁴ / 8 and r⁶ / 16. The disc keeps the value and the
-/// slope at its rim by a function that is 0 in its middle.
+/// The same for a cap of the unit sphere, whose height has the terms r⁴ / 8 and r⁶ / 16. On a disc
+/// of radius a, the error is (a² - r²)² / 8, or (a² - r²)³ / 16 for curvature: largest in the
+/// middle.
 double of_cap(double degrees, int n) {
     return std::pow(degrees * kPi / 180, n) / (n == 4 ? 8 : 16);
 }

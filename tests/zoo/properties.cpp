@@ -159,8 +159,8 @@ void Checker::check_errors() {
     }
 }
 
-/// Work in proportion to the size, and ten times as long as it takes, so that a busy or slower
-/// machine passes.
+/// Allows time in proportion to the size: ten times what it takes, so that a busy or slower machine
+/// passes.
 void Checker::check_time() {
     if (!case_.makes_flow()) {
         return allow_time(0.5 + 2e-3 * static_cast<double>(case_.mesh.triangles.size()));
@@ -267,8 +267,9 @@ void Checker::check_distance_from_membrane() {
 /// other metric. So the area does not exceed the initial one, with any quadrature, and with any
 /// solver that only lowers the energy. Besides, there are
 /// - with the paper's method, single precision: 1e-5 of the area;
-/// - on the mesh, triangles that are longer in the metric than in space: a step that adds more than
-///   kMostGrowth of mesh_flow.cpp to the area is refused, with Stop::Grew;
+/// - on the mesh, triangles that are longer in the metric than in space: a step that multiplies
+///   the area by more than kMostGrowth of mesh_flow.cpp is refused, with Stop::Grew. The test
+///   allows this factor once for the whole flow;
 /// - the coordinates of the paper's samples, which are multiples of 5e-7 of a cell; on the mesh,
 ///   single precision has about as much of an edge. So the area of a triangle changes by that times
 ///   its longest side.

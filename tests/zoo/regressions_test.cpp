@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Bad meshes at single vertices of which the solver's error once was much larger than its
-// tolerance, so that the results depended on the order of the vertices.
+// Bad meshes on which the solver's error at single vertices was once much larger than its
+// tolerance. The results then depended on the order of the vertices.
 
 #include <gtest/gtest.h>
 
@@ -16,8 +16,8 @@ TriangleMesh sphere_at(const Eigen::Vector3d& centre, double radius, int frequen
                                Eigen::Translation3d(centre) * Eigen::Scaling(radius));
 }
 
-/// Expects all properties, and that no vertex is farther from where an exact solver takes it than
-/// ten tolerances of the largest displacement for each solve, and single precision.
+/// Expects all properties, and that each vertex is where an exact solver takes it, up to ten
+/// tolerances of the largest displacement for each solve, and single precision.
 void expect_solved(const Case& usual) {
     Case exact = usual;
     exact.parameters.tolerance = 1e-9;

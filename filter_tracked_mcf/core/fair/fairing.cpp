@@ -24,7 +24,8 @@ constexpr double kThickening = 1e-6;
 constexpr double kRoundThickening = 1;
 /// Added to the squares, too, so that the area of no triangle underflows to 0. The mesh has size 1.
 constexpr double kSmallestSquare = 1e-140;
-/// The masses of vertices in a hole of a smaller square than this are those that were added.
+/// If the squared size of a hole is less, the masses of its vertices come from kSmallestSquare
+/// alone.
 constexpr double kSmallestHole = 1e-120;
 
 /// A patch may be this far from its membrane, relative to the size of the hole.

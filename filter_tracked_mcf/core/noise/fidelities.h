@@ -25,8 +25,9 @@ NoiseKind kind_of_noise(const Stars& stars, const std::vector<float>& heights,
 /// along its normal: a short step that keeps no creases, as large noise passes for them.
 std::vector<float> fidelities_to_noise(const Stars& stars, const std::vector<float>& heights);
 
-/// Returns how much each vertex should keep its position in a new candidate, relative to others, by
-/// how far the last one has moved it along its normal: the weight of Geman and McClure,
+/// Returns how much each vertex should keep its position when the surface is smoothed again,
+/// relative to others, by how far the last smoothing has moved it along its normal: the weight of
+/// Geman and McClure,
 /// (1 + (h / c)²)⁻², where c is three deviations of the heights around the vertex, so that detail,
 /// which moves whole neighbourhoods, does not count as outliers.
 std::vector<float> fidelities_to_outliers(const Stars& stars, const std::vector<float>& heights);

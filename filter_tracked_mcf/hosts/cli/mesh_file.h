@@ -48,7 +48,7 @@ public:
     bool writes_floats(const std::filesystem::path& file) const;
 
     /// Writes the mesh with the positions of `moved`, which triangle_mesh() made, in the format of
-    /// the extension of `file`. PLY and STL files of another format's mesh are binary.
+    /// the extension of `file`: the mesh's own format, or PLY or STL, which are binary then.
     void write(const TriangleMesh& moved, std::ostream& out,
                const std::filesystem::path& file) const;
 

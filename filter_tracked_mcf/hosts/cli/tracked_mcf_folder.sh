@@ -7,7 +7,7 @@ help() {
     cat << 'TEXT'
 Usage: tracked_mcf_folder INPUT OUTPUT [smooth|remove-noise|fair] [OPTION]...
 
-Smooths the meshes of a folder and its subfolders that another folder does not have yet, or removes their noise.
+Smooths, denoises or fairs each mesh of the folder INPUT and its subfolders, unless OUTPUT has it already.
 
 Runs the program tracked_mcf on each mesh, and writes the mesh and its report, NAME.json, under the same name. OPTIONs go
 to the program. Prints what the program says, after the name of the mesh. A mesh that fails does not stop the others. Ends
@@ -26,7 +26,7 @@ TEXT
 }
 [ "${1:-}" != --help ] || { help && exit; }
 [ $# -ge 2 ] || { help >&2 && exit 2; }
-PATH=$PATH:$(dirname "$(realpath "$0")") # installed beside the program
+PATH=$PATH:$(dirname "$(realpath "$0")") # the program in the PATH, or else the one beside this script
 input=$1 output=$2
 shift 2
 export COMMAND=

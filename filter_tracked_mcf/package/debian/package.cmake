@@ -21,9 +21,9 @@ stable at any size. Remove Noise measures the noise of scans and parts, removes
 it, and keeps creases. Fair Selected Faces makes filled holes continue the
 surface around them.
 .
-This package has the filters for MeshLab ${MESHLAB_SDK_RELEASE}, and the program tracked_mcf,
-which does the same to PLY, OBJ, OFF and STL files, and tracked_mcf_folder to
-all of a folder.")
+This package has the filters for MeshLab ${MESHLAB_SDK_RELEASE}, the program tracked_mcf,
+which does the same to PLY, OBJ, OFF and STL files, and the command
+tracked_mcf_folder, which runs the program on all meshes of a folder.")
 
 # MeshLab's library has no stable interface: a plugin is for one release. Debian's versions begin with
 # the release, then + or ~, both of which are before a dot.

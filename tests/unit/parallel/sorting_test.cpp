@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <random>
 
-#include "filter_tracked_mcf/core/flow/cells/grid.h"
 #include "filter_tracked_mcf/core/parallel/parallel.h"
 #include "filter_tracked_mcf/core/parallel/raw_vector.h"
 

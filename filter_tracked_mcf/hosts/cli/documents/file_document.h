@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cfloat>
-#include <cstdint>
 #include <filesystem>
 #include <iosfwd>
 #include <memory>
@@ -16,8 +15,8 @@
 namespace tracked_mcf {
 
 /// A mesh file, kept whole so that it can be written again with new positions and nothing else
-/// changed. It has been checked: every number is a number, every index of a vertex is in range, a
-/// polygon has three corners, and nothing is missing at the end.
+/// changed. It has been checked: every number but those of colours is a number, every index of a
+/// vertex is in range, a polygon has three corners, and nothing is missing at the end.
 class FileDocument {
 public:
     FileDocument() = default;
