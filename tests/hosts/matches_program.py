@@ -41,7 +41,7 @@ class Comparison:
         else:
             given = [f"{name}={value}" for name, value in runs.by_index(command, settings).items()]
             host_code, log = run([*self.host, runs.FILTERS[command], mesh, theirs, *given])
-        # The program exits with 1 for bad parameters and 2 for bad meshes; hosts exit with 1, 2 or 255.
+        # The program exits with 1 for bad meshes and 2 for bad parameters; hosts exit with 1, 2 or 255.
         if (code, host_code) != (0, 0) and not (code in (1, 2) and host_code in (1, 2, 255)):
             sys.exit(f"{settings}: the host ends with {host_code}, the program with {code}\n{log}\n{message}")
         if code == 0:
