@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "filter_tracked_mcf/core/flow/solver/element_transfer.h"
 
+#include <hwy/base.h>
+
 #include "filter_tracked_mcf/core/flow/cells/bspline.h"
 #include "filter_tracked_mcf/core/flow/kernels/kernels.h"
 #include "filter_tracked_mcf/core/parallel/parallel.h"
-
-#ifdef _MSC_VER
-#include <intrin.h>
-#endif
 
 namespace tracked_mcf {
 
@@ -45,13 +43,7 @@ std::vector<std::uint8_t> owned_unknowns(const Level& level) {
 }
 
 int lowest_bit(int mask) {
-#ifdef _MSC_VER
-    unsigned long bit = 0;
-    _BitScanForward(&bit, static_cast<unsigned>(mask));
-    return static_cast<int>(bit);
-#else
-    return __builtin_ctz(static_cast<unsigned>(mask));
-#endif
+    return static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero32(static_cast<std::uint32_t>(mask)));
 }
 
 }  // namespace
