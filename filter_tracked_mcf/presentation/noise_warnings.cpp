@@ -31,9 +31,8 @@ std::string no_noise(const NoiseReport& report) {
     const std::string text = nothing(report) + "there is no noise from vertex to vertex";
     if (report.stairs > 0) {
         return text + ", but stairs " + rounded(report.stairs) +
-               " high, perhaps of slices, voxels or whole numbers. If they are noise, give one and "
-               "a "
-               "half times their height as the size of the noise.";
+               " high, perhaps of slices, voxels or whole numbers. If they are noise, give one "
+               "and a half times their height as the size of the noise.";
     }
     if (report.lump_width > 0) {
         return text + ", but perhaps in lumps or waves, about " + rounded(report.lump_width) +
@@ -73,13 +72,11 @@ std::string stop_text(const NoiseReport& report) {
             return {};
         case NoiseStop::NothingMoves:
             return nothing(report) +
-                   "all of the surface is constrained. Free the boundary, or "
-                   "select more.";
+                   "all of the surface is constrained. Free the boundary, or select more.";
         case NoiseStop::TooFewVertices:
             return nothing(report) +
-                   "fewer than 100 vertices can move, too few to measure noise. "
-                   "Give the noise, a detail size or a smaller size of the noise, or refine the "
-                   "mesh.";
+                   "fewer than 100 vertices can move, too few to measure noise. Give the noise, a "
+                   "detail size or a smaller size of the noise, or refine the mesh.";
         case NoiseStop::TooManyCreases:
             return nothing(report) + "creases cross " + per_cent(report.crease_share) +
                    " % of the area, so noise cannot be told from the shape. Give a crease angle of "

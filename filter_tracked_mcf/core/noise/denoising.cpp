@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "filter_tracked_mcf/core/mesh/measures.h"
@@ -252,16 +253,15 @@ private:
     /// as measured with the usual creases and nothing else that the user may ask for.
     Choice first_choice() {
         enter_phase(0, "Measuring the noise");
-        const bool is_wide = request_.width > 1;
-        Clusters clusters{{{{{}, 0}, {}, {}}, {}, {}}, 1};
-        if (is_wide) clusters = clusters_of_width(surface_, request_.width);
-        const NoiseStop hindrance = obstacle(is_wide ? clusters.sample : sample_);
+        std::optional<Clusters> clusters;  // if the noise is wide
+        if (request_.width > 1) clusters = clusters_of_width(surface_, request_.width);
+        const NoiseStop hindrance = obstacle(clusters ? clusters->sample : sample_);
         const bool is_told = request_.noise > 0 || request_.detail_size > 0;
-        report_.stop = is_told && !is_wide ? NoiseStop::None : hindrance;
+        report_.stop = is_told && !clusters ? NoiseStop::None : hindrance;
         if (report_.stop != NoiseStop::None) return {};
         const auto choice_for = [&](const NoiseRequest& request) {
-            return is_wide ? candidate_of_width(clusters, request)
-                           : best_candidate(sample_, request);
+            return clusters ? candidate_of_width(*clusters, request)
+                            : best_candidate(sample_, request);
         };
         const double usual = crease_of(NoiseParameters().crease_angle);
         if (!is_told && request_.crease == usual) {

@@ -31,8 +31,7 @@ const std::vector<ParameterOf<NoiseParameters>>& parameter_table() {
                   {0, kFinite, ", in units of the mesh, where 0 takes what the noise needs"}),
               "detail_size", "Detail size (0: auto)",
               "Bumps of this size become half as high, smaller ones nearly vanish. 0 takes what "
-              "the noise "
-              "needs."),
+              "the noise needs."),
         named(access<&P::largest_movement>(
                   Type::Length, {0, kFinite, ", in units of the mesh, where 0 is no bound"}),
               "largest_movement", "Largest move (0: any)",

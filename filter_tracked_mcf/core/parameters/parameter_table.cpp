@@ -46,8 +46,7 @@ const std::vector<ParameterOf<P>>& parameter_table() {
                   {0, kFinite, ", in units of the mesh, where 0 takes 3 mean edge lengths"}),
               "detail_size", "Detail size (0: auto)",
               "Bumps of this size become half as high, smaller ones nearly vanish. 0 takes 3 mean "
-              "edge "
-              "lengths."),
+              "edge lengths."),
         named(integer<&P::iterations>(1, kMaximumIterations), "iterations", "Smoothing steps",
               "Steps in which the detail is removed, 1 to 1000000. More are more accurate."),
         named(integer<&P::order, P>(1, kMaximumOrder), "order", "Order (1 to 4)",

@@ -48,8 +48,8 @@ struct ProgramTexts<FlowParameters> {
         "Examples:\n"
         "  tracked_mcf scan.ply smooth.ply\n"
         "      the defaults: removes the finest noise\n"
-        "  tracked_mcf scan.ply smooth.ply --detail-size 2% --order 2\n"
-        "      removes detail smaller than 2 % of the model's diagonal and keeps larger shapes\n"
+        "  tracked_mcf scan.ply smooth.ply --detail-size 2%\n"
+        "      removes detail smaller than 2 % of the model's diagonal\n"
         "  tracked_mcf face.obj face_smooth.obj --boundary free\n"
         "      lets the rim move\n"
         "  tracked_mcf scan.ply smooth.ply --preserve volume\n"
@@ -309,8 +309,8 @@ void check_paths(const CommandLine& line, bool has_quality) {
 
 /// Returns how many letters must be inserted, removed or replaced to turn one word into the other.
 std::size_t distance(const std::string& a, const std::string& b) {
-    std::vector<std::size_t> row(b.size() +
-                                 1);  // [j]: distance from a's letters so far to b's first j
+    // [j]: distance from a's letters so far to b's first j
+    std::vector<std::size_t> row(b.size() + 1);
     std::iota(row.begin(), row.end(), 0);
     for (const char letter : a) {
         std::size_t above_left = row[0]++;

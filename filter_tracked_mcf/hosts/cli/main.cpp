@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// The command-line program: reads a mesh, lets it flow and writes it. `tracked_mcf --help`
+/// The command-line program: reads a mesh, runs a filter on it and writes it. `tracked_mcf --help`
 /// explains it.
 
 #include <algorithm>
@@ -39,7 +39,7 @@ enum ExitCode {
     Unexpected = 5
 };
 
-/// Shows a progress bar on a terminal. An interrupt cancels the flow and wipes the bar.
+/// Shows a progress bar on a terminal. An interrupt cancels the filter and wipes the bar.
 template <class Parameters>
 auto run_with_progress(TriangleMesh& mesh, const Inputs& inputs,
                        const CommandLineOf<Parameters>& line, const StepObserver& on_step) {
@@ -74,8 +74,9 @@ void set_lengths(CommandLineOf<Parameters>& line, const TriangleMesh* mesh) {
     }
 }
 
+/// Reads the mesh, runs the filter, and writes what the command line asks for.
 template <class Parameters>
-void smooth(CommandLineOf<Parameters> line) {
+void filter_file(CommandLineOf<Parameters> line) {
     set_lengths(line, nullptr);
     validate(line.parameters);
     // A file that cannot be written is reported before the long work begins.
@@ -132,10 +133,10 @@ void smooth(CommandLineOf<Parameters> line) {
 
 /// Does what the arguments ask of the filter of these parameters.
 template <class Parameters>
-void answer_or_smooth(std::vector<std::string> arguments) {
+void answer_or_filter(std::vector<std::string> arguments) {
     const auto line = parse_command_line<Parameters>(std::move(arguments));
     if (line.answer.empty())
-        smooth(line);
+        filter_file(line);
     else
         std::cout << line.answer << std::flush;
 }
@@ -164,11 +165,11 @@ void run_command(std::vector<std::string> arguments) {
     }
     switch (command - kCommands.begin()) {
         case 1:
-            return answer_or_smooth<NoiseParameters>(std::move(arguments));
+            return answer_or_filter<NoiseParameters>(std::move(arguments));
         case 2:
-            return answer_or_smooth<FairParameters>(std::move(arguments));
+            return answer_or_filter<FairParameters>(std::move(arguments));
         default:
-            return answer_or_smooth<FlowParameters>(std::move(arguments));
+            return answer_or_filter<FlowParameters>(std::move(arguments));
     }
 }
 

@@ -41,11 +41,9 @@ void check_oriented(const Domain& domain) {
 void check_encloses_volume(const Domain& domain) {
     if (domain.boundary_edge_count() > 0) {
         throw InvalidMesh(
-            "A conformalized flow cannot preserve the volume because the surface is "
-            "open: " +
+            "A conformalized flow cannot preserve the volume because the surface is open: " +
             std::to_string(domain.boundary_edge_count()) +
-            " edges have only one face. Close the holes first, or preserve the "
-            "area.");
+            " edges have only one face. Close the holes first, or preserve the area.");
     }
     if (!domain.topology().bounds_volume() ||
         std::abs(enclosed_volume(domain.mesh())) <=
