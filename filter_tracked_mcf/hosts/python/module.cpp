@@ -16,7 +16,6 @@
 #include "filter_tracked_mcf/core/evolve.h"
 #include "filter_tracked_mcf/core/parameter_table.h"
 #include "filter_tracked_mcf/hosts/python/parameters.h"
-#include "filter_tracked_mcf/hosts/python/pymeshlab_help.h"
 #include "filter_tracked_mcf/presentation/fair_warnings.h"
 #include "filter_tracked_mcf/presentation/filter_names.h"
 #include "filter_tracked_mcf/presentation/flow_warnings.h"
@@ -275,7 +274,7 @@ void add_filter(nb::module_& module, const char* name) {
                "on_step"_a = nb::none(), "progress"_a.none(), "parameters"_a);
     nb::dict filter;
     filter["method"] = kNames<Parameters>.python;
-    filter["help"] = pymeshlab_help<Parameters>();
+    filter["help"] = kNames<Parameters>.help;
     filter["parameters"] = described_parameters<Parameters>();
     filter["report"] = described_report<Report>();
     module.attr("filters")[name] = filter;

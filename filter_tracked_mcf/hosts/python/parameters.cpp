@@ -120,14 +120,6 @@ nb::object default_of(const ParameterOf<Parameters>& parameter) {
     return std::visit([](auto held) { return nb::cast(held); }, value);
 }
 
-template <class Parameters>
-std::string help_of(const ParameterOf<Parameters>& parameter) {
-    std::string text;
-    if (parameter.type == Parameter::Type::Length)
-        text = "In units of the mesh, or as '1%' of its bounding box's diagonal. ";
-    return text + parameter.help;
-}
-
 }  // namespace
 
 template <class Parameters>
@@ -175,7 +167,7 @@ nb::list described_parameters() {
         values["default"] = default_of(parameter);
         values["choices"] = choices;
         values["label"] = parameter.label;
-        values["help"] = help_of(parameter);
+        values["help"] = parameter.help;
         list.append(values);
     }
     for (const Input& input : input_table<Parameters>()) {
@@ -186,10 +178,7 @@ nb::list described_parameters() {
         values["choices"] = nb::list();
         values["label"] = input.label;
         values["of_faces"] = input.of_faces != nullptr;
-        values["help"] =
-            (input.of_faces ? "An array of shape (m,) of bools, or indices: only these faces move. "
-                            : "An array of shape (n,). ") +
-            input.help;
+        values["help"] = input.help;
         list.append(values);
     }
     return list;

@@ -16,7 +16,8 @@ Parameters parameters_of(const nanobind::dict& given, const TriangleMesh& mesh);
 /// Returns a list of the filter's parameters, a dictionary for each:
 /// - `name`, `help`, and `type` and `default` as in the function's signature;
 /// - `choices`, a pair for each choice in their order: PyMeshLab's name, and that of the function;
-/// - `label` in dialogs, which is empty if PyMeshLab does not offer the parameter.
+/// - `label` in dialogs, which is empty if PyMeshLab does not offer the parameter;
+/// - `of_faces` only for an input: whether it has a number for each face, else for each vertex.
 template <class Parameters>
 nanobind::list described_parameters();
 

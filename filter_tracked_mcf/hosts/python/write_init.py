@@ -15,6 +15,18 @@ def keyword(parameter):
     return f"{parameter['name']}: {parameter['type']}{optional} = {parameter['default']!r}"
 
 
+def meaning(parameter):
+    """Returns the parameter's help, after what kind of value it takes."""
+    kind = ""
+    if parameter["type"] == "float | str":
+        kind = "In units of the mesh, or as '1%' of its bounding box's diagonal. "
+    elif parameter.get("of_faces") is True:
+        kind = "An array of shape (m,) of bools, or indices: only these faces move. "
+    elif parameter.get("of_faces") is False:
+        kind = "An array of shape (n,). "
+    return kind + parameter["help"]
+
+
 def paragraph(parameter):
     """Returns the parameter's paragraph of the docstring, wrapped to 80 columns for Python's help()."""
     def wrapped(text, columns, indent):
@@ -22,7 +34,7 @@ def paragraph(parameter):
                              break_on_hyphens=False)
 
     first = f"{parameter['name']}: {parameter['type']} = {parameter['default']!r}"
-    return "\n".join(wrapped(first, 80, 8) + wrapped(parameter["help"], 80, 12))
+    return "\n".join(wrapped(first, 80, 8) + wrapped(meaning(parameter), 80, 12))
 
 
 def key(row):

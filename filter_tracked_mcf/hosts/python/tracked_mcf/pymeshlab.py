@@ -11,6 +11,8 @@
 help(pymeshlab.MeshSet.apply_coord_remove_noise) explains the parameters. A coordinate that is -0 becomes 0.
 """
 
+import re
+
 import numpy
 import pymeshlab
 
@@ -62,6 +64,26 @@ def _results(report):
     return {**results, "warnings": report["warnings"]}
 
 
+def _type(parameter):
+    """Returns the parameter's type and default in PyMeshLab. A default that depends on the mesh is left out."""
+    if "of_faces" in parameter:
+        return "bool, by default True if faces are selected" if parameter["of_faces"] else "bool = False"
+    if parameter["type"] == "float | str":
+        return "pymeshlab.PercentageValue or pymeshlab.PureValue"
+    if parameter["choices"]:
+        default_first = sorted(parameter["choices"], key=lambda choice: choice[1] != parameter["default"])
+        return "str = " + ", or ".join(repr(label) for label, _ in default_first)
+    return f"{parameter['type']} = {parameter['default']!r}"
+
+
+def _help(described, parameters):
+    """Returns the docstring of a filter's method."""
+    lines = [re.sub("<[^>]*>", "", described["help"].replace("<br>", "\n")), "", "Parameters:"]
+    for parameter in parameters:
+        lines += [f"    {parameter['name']}: {_type(parameter)}", f"        {parameter['label']}: {parameter['help']}"]
+    return "\n".join([*lines, "", "Returns a dictionary of numbers, such as largest_displacement, and the list warnings.\n"])
+
+
 def _method(function):
     """Makes a method of MeshSet from a function of the package, and returns the method."""
     described = _core.filters[function.__name__]
@@ -102,7 +124,7 @@ def _method(function):
         except Error as error:
             raise pymeshlab.PyMeshLabException(f"Failed to apply filter: {name}\nDetails: {error}") from error
 
-    method.__name__, method.__qualname__, method.__doc__ = name, name, described["help"]
+    method.__name__, method.__qualname__, method.__doc__ = name, name, _help(described, known.values())
     setattr(pymeshlab.MeshSet, name, method)
     return method
 
