@@ -6,11 +6,11 @@
 #include <utility>
 
 #include "filter_tracked_mcf/core/flow/kernels/kernels.h"
+#include "filter_tracked_mcf/core/flow/plan/setup_phases.h"
 #include "filter_tracked_mcf/core/flow/stepping/mesh_flow.h"
 #include "filter_tracked_mcf/core/flow/stepping/paper_flow.h"
 #include "filter_tracked_mcf/core/mesh/filter_run.h"
 #include "filter_tracked_mcf/core/mesh/measures.h"
-#include "filter_tracked_mcf/core/parallel/setup_phases.h"
 #include "filter_tracked_mcf/core/parallel/stopwatch.h"
 #include "filter_tracked_mcf/core/platform/process_memory.h"
 

@@ -2,11 +2,11 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "filter_tracked_mcf/core/flow/plan/setup_phases.h"
 #include "filter_tracked_mcf/core/flow/stepping/paper_flow.h"
 #include "filter_tracked_mcf/core/flow/system/element_matrices.h"
 #include "filter_tracked_mcf/core/parallel/parallel.h"
 #include "filter_tracked_mcf/core/parallel/progress_meter.h"
-#include "filter_tracked_mcf/core/parallel/setup_phases.h"
 #include "filter_tracked_mcf/core/platform/process_memory.h"
 #include "tests/research/benchmark/meshes.h"
 #include "tests/research/benchmark/rows.h"

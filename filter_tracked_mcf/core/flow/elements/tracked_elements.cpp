@@ -10,9 +10,9 @@
 #include "filter_tracked_mcf/core/flow/cells/bspline.h"
 #include "filter_tracked_mcf/core/flow/cells/clip.h"
 #include "filter_tracked_mcf/core/flow/cells/cubature.h"
+#include "filter_tracked_mcf/core/flow/plan/setup_phases.h"
 #include "filter_tracked_mcf/core/mesh/measures.h"
 #include "filter_tracked_mcf/core/parallel/parallel.h"
-#include "filter_tracked_mcf/core/parallel/setup_phases.h"
 
 namespace tracked_mcf {
 

@@ -9,8 +9,8 @@
 #include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/flow/plan/densities.h"
 #include "filter_tracked_mcf/core/flow/plan/paper_memory.h"
+#include "filter_tracked_mcf/core/flow/plan/setup_phases.h"
 #include "filter_tracked_mcf/core/mesh/measures.h"
-#include "filter_tracked_mcf/core/parallel/setup_phases.h"
 #include "filter_tracked_mcf/core/platform/process_memory.h"
 
 namespace tracked_mcf {

@@ -7,13 +7,13 @@
 #include <memory>
 #include <utility>
 
+#include "filter_tracked_mcf/core/flow/plan/setup_phases.h"
 #include "filter_tracked_mcf/core/flow/stepping/mean_curvature.h"
 #include "filter_tracked_mcf/core/mesh/measures.h"
 #include "filter_tracked_mcf/core/mesh/mesh_topology.h"
 #include "filter_tracked_mcf/core/mesh/triangle_elements.h"
 #include "filter_tracked_mcf/core/parallel/parallel.h"
 #include "filter_tracked_mcf/core/parallel/progress_meter.h"
-#include "filter_tracked_mcf/core/parallel/setup_phases.h"
 #include "filter_tracked_mcf/core/parallel/stopwatch.h"
 
 namespace tracked_mcf {

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <utility>
 
+#include "filter_tracked_mcf/core/flow/plan/setup_phases.h"
 #include "filter_tracked_mcf/core/flow/stepping/flow_surface.h"
 #include "filter_tracked_mcf/core/flow/stepping/mean_curvature.h"
 #include "filter_tracked_mcf/core/flow/system/constrained_cells.h"
 #include "filter_tracked_mcf/core/parallel/progress_meter.h"
-#include "filter_tracked_mcf/core/parallel/setup_phases.h"
 #include "filter_tracked_mcf/core/parallel/stopwatch.h"
 
 namespace tracked_mcf {
