@@ -13,9 +13,7 @@ class Surface:
         self.name, self.vertices, self.faces = name, vertices, faces
         corners = vertices[faces]
         edges = corners - numpy.roll(corners, 1, axis=1)
-        lengths = numpy.linalg.norm(edges, axis=2)
-        self.edge = float(lengths.mean())
-        self.mean_squared_edge = float((lengths ** 2).mean())
+        self.edge = float(numpy.linalg.norm(edges, axis=2).mean())
         normals = numpy.zeros_like(vertices)
         areas = numpy.cross(edges[:, 1], edges[:, 2])
         for corner in range(3):
