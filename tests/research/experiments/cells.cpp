@@ -157,7 +157,7 @@ private:
             grid.push_back(grid_cell({x, y, z}));
             fresh += initial.count({x, y, z}) == 0 ? 1 : 0;
         }
-        print_row(elements_.grid.depth, options_.step_size(), step, tracked.size(), grid.size(),
+        print_row(elements_.grid.depth, options_.step_size, step, tracked.size(), grid.size(),
                   fresh, vertices, static_cast<double>(crossed) / vertices, outside,
                   outside_initial);
         write(tracked, "tracked", step);

@@ -27,7 +27,6 @@ namespace {
 /// of a step share it as they share the wall time.
 void add_step(const FlowReport& from, double seconds, MethodReport& to) {
     to.depth = from.depth;
-    to.cell_size = from.cell_size;
     to.unknowns = from.unknowns;
     to.split_triangles = from.split_triangles;
     if (from.steps.empty()) return;

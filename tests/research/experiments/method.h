@@ -20,7 +20,6 @@ struct MethodReport {
     double solve_seconds = 0;       ///< their solutions
     double residual = 0;            ///< of the last step, relative to that before the solve
     int iterations = 0;             ///< of all steps
-    double cell_size = 0;           ///< side of a finest cell, mesh units
     double collapsed = 0;           ///< share of the samples whose area has collapsed
     bool reached_tolerance = true;  ///< in the last step
 };

@@ -16,16 +16,15 @@ struct Options {
     std::string mesh;
     std::vector<int> depths = {0};
     std::vector<int> steps = {1};
-    std::vector<double> step_sizes = {1e-5};
+    double step_size = 1e-5;
     std::vector<std::string> configurations = {"converged"};
 
-    double step_size() const { return step_sizes.front(); }
     int last_step() const { return *std::max_element(steps.begin(), steps.end()); }
     bool measures_after(int step) const {
         return std::find(steps.begin(), steps.end(), step) != steps.end();
     }
 
-    /// Returns the parameters of a configuration at a depth, with the first step size, for a mesh
+    /// Returns the parameters of a configuration at a depth, for a mesh
     /// of which the longest side is `unit`: as in the paper, a step size is for longest side 1.
     FlowParameters parameters(int depth, const std::string& configuration, double unit = 1) const;
 
@@ -61,7 +60,7 @@ template <class OwnOptions = Options>
 OwnOptions with_defaults(const std::vector<int>& steps, double step_size) {
     OwnOptions options;
     options.steps = steps;
-    options.step_sizes = {step_size};
+    options.step_size = step_size;
     return options;
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -27,61 +26,9 @@ struct StageOptions : Options {
     std::filesystem::path folder;
 };
 
-/// Returns a third of the area of the triangles around each vertex.
-std::vector<double> vertex_areas(const TriangleMesh& mesh) {
-    std::vector<double> areas(mesh.positions.size());
-    for (const Triangle& t : mesh.triangles) {
-        for (const std::int32_t vertex : t) areas[vertex] += twice_vector_area(mesh, t).norm() / 6;
-    }
-    return areas;
-}
-
-/// The vertices' distances from a sphere about the surface's centroid, relative to its mean radius.
-struct Roundness {
-    double by_area = 0;    ///< standard deviation, vertices weighted by the area around them
-    double by_vertex = 0;  ///< the same, not weighted
-    double worst = 0;      ///< the largest
-};
-
-Roundness roundness(const TriangleMesh& mesh) {
-    const Eigen::Vector3d centre = shapes::surface_centroid(mesh);
-    const std::vector<double> areas = vertex_areas(mesh);
-    std::vector<double> radii;
-    radii.reserve(mesh.positions.size());
-    for (const Eigen::Vector3d& position : mesh.positions) {
-        radii.push_back((position - centre).norm());
-    }
-    const auto deviation = [&](const auto& weight_of, double& mean) {
-        double sum = 0;
-        double first = 0;
-        double second = 0;
-        for (std::size_t i = 0; i < radii.size(); ++i) {
-            sum += weight_of(i);
-            first += weight_of(i) * radii[i];
-            second += weight_of(i) * radii[i] * radii[i];
-        }
-        mean = first / sum;
-        return std::sqrt(std::max(0.0, second / sum - mean * mean)) / mean;
-    };
-    Roundness result;
-    double mean = 0;
-    result.by_vertex = deviation([&](std::size_t i) { return areas[i] > 0 ? 1.0 : 0.0; }, mean);
-    result.by_area = deviation([&](std::size_t i) { return areas[i]; }, mean);
-    for (std::size_t i = 0; i < radii.size(); ++i) {
-        if (areas[i] > 0) result.worst = std::max(result.worst, std::abs(radii[i] / mean - 1));
-    }
-    return result;
-}
-
 bool all_finite(const TriangleMesh& mesh) {
     return std::all_of(mesh.positions.begin(), mesh.positions.end(),
                        [](const Eigen::Vector3d& position) { return position.allFinite(); });
-}
-
-Eigen::AlignedBox3d bounding_box(const TriangleMesh& mesh) {
-    Eigen::AlignedBox3d box;
-    for (const Eigen::Vector3d& position : mesh.positions) box.extend(position);
-    return box;
 }
 
 /// Returns the bounding box of the boundary, empty for a closed mesh.
@@ -146,11 +93,9 @@ private:
 
     void print(const std::string& configuration, int step, int made, const MethodReport& report,
                std::int64_t memory, const TriangleMesh& moved) const {
-        const Roundness round = roundness(moved);
         const double diagonal = box_.diagonal().norm();
-        print_row(report.depth, options_.step_size(), configuration, options_.method, step, made,
-                  all_finite(moved) ? 1 : 0, round.by_area, round.by_vertex, round.worst,
-                  surface_area(moved) / surface_area(mesh_),
+        print_row(report.depth, options_.step_size, configuration, options_.method, step, made,
+                  all_finite(moved) ? 1 : 0, surface_area(moved) / surface_area(mesh_),
                   shapes::volume(moved) / shapes::volume(mesh_),
                   distance_outside(box_, moved) / diagonal,
                   distance_outside(boundary_box_, moved) / diagonal, report.collapsed,
@@ -175,10 +120,9 @@ private:
 
 void run(const StageOptions& options) {
     print_row("depth", "step_size", "configuration", "method", "steps", "steps_made", "finite",
-              "by_area", "by_vertex", "worst", "area", "volume", "outside", "beyond_boundary",
-              "collapsed", "iterations", "reached_tolerance", "residual", "unknowns", "vertices",
-              "split_triangles", "setup_seconds", "assemble_seconds", "solve_seconds",
-              "memory_bytes");
+              "area", "volume", "outside", "beyond_boundary", "collapsed", "iterations",
+              "reached_tolerance", "residual", "unknowns", "vertices", "split_triangles",
+              "setup_seconds", "assemble_seconds", "solve_seconds", "memory_bytes");
     Runner(options).run();
 }
 
@@ -188,9 +132,7 @@ void add_stages(CLI::App& app) {
     const auto [command, options] = add_experiment(
         app, "stages",
         "Prints stages of the flow of a file: the area and the enclosed volume relative to the "
-        "start, and the surface's difference from a sphere: the standard deviation of the radius "
-        "about the surface's centroid relative to its mean, by area and by vertex, and the "
-        "largest deviation. 'outside' is the largest distance of a vertex from the initial "
+        "start. 'outside' is the largest distance of a vertex from the initial "
         "bounding box, 'beyond_boundary' that from the bounding box of the boundary, 0 for a "
         "closed mesh; both in diagonals of the initial box. 'collapsed' is a fraction of the "
         "samples, the residual is that of the last step, relative to its start; iterations and "
