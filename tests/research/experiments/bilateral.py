@@ -7,6 +7,7 @@ move to fit them (Sun, Rosin, Martin and Langbein 2007).
 """
 
 import numpy
+from scipy.sparse import csr_matrix
 
 VERTEX_STEPS = 20
 
@@ -57,16 +58,8 @@ class BilateralFilter:
 
 def pairs_of_faces(faces):
     """Returns all pairs of faces that share a vertex, each face with itself included."""
-    order = numpy.argsort(faces.ravel(), kind="stable")
-    count = numpy.bincount(faces.ravel())
-    begin = numpy.cumsum(count) - count
-    of_vertex = faces.ravel()[order]
-    repeats = count[of_vertex]
-    first = numpy.repeat(order // 3, repeats)
-    within = numpy.arange(len(first)) - numpy.repeat(numpy.cumsum(repeats) - repeats, repeats)
-    second = order[numpy.repeat(begin[of_vertex], repeats) + within] // 3
-    keys = numpy.unique(first.astype(numpy.int64) * len(faces) + second)
-    return keys // len(faces), keys % len(faces)
+    of_faces = csr_matrix((numpy.ones(faces.size, numpy.int32), faces.ravel(), numpy.arange(0, faces.size + 1, 3)))
+    return (of_faces @ of_faces.T).sorted_indices().nonzero()
 
 
 def gaussian(x, width):
