@@ -8,17 +8,15 @@ normally distributed along the normals; its standard deviation is in mean edge l
 lengths of the noisy mesh. MeshLab's Taubin smoother has the best of many settings for each scan, for the distance and for
 the angle each, which only somebody can choose who has the clean mesh.
 
-Needs PyMeshLab: external/pymeshlab.sh build/pymeshlab, then build/pymeshlab/bin/python detail_size.py.
+Needs PyMeshLab and SciPy: README.md says how to install them.
 """
 
 import itertools
-import pathlib
-import tempfile
+from statistics import geometric_mean
 
 import numpy
-from experiment import CGAL_MESHES, Experiment, geometric_mean
+from experiment import CGAL_MESHES, Experiment
 from measures import angles, distance
-from ply import read_mesh, write_ply
 from removing_noise import SCANS
 from scan import Scan
 from smoothers import best, taubin_families
@@ -34,16 +32,14 @@ def figures(scan, vertices):
     return distance(scan, vertices), float(angles(scan, vertices).mean())
 
 
-def results(experiment, folder, scan, noise):
+def results(experiment, scan, noise):
     """Returns, by setting, the ratios of distance and angle to those of the noisy scan."""
     noisy = scan.noisy(noise)
     edge = Surface("noisy", noisy, scan.faces).edge
-    source, target = folder / "in.ply", folder / "out.ply"
-    write_ply(source, noisy, scan.faces)
     found = {}
     for order, size in itertools.product(ORDERS, SIZES):
-        experiment.smooth(source, target, "--order", order, "--detail-size", size * edge)
-        found[order, size] = figures(scan, read_mesh(target)[0])
+        moved, *_ = experiment.smoothed(noisy, scan.faces, "--order", order, "--detail-size", size * edge)
+        found[order, size] = figures(scan, moved)
     taubin, angle = best(scan, noisy, taubin_families(scan, noisy))
     found[TAUBIN] = taubin["RMS"], angle
     before = figures(scan, noisy)
@@ -57,13 +53,12 @@ def main():
     paths = [folder / name for name in SCANS for folder in folders if (folder / name).exists()]
     scans = [Scan(path) for path in (paths[:1] if options.quick else paths)]
     ratios = {}
-    with tempfile.TemporaryDirectory() as folder:
-        for scan, noise in itertools.product(scans, NOISES):
-            print(f"... {scan.name}, {noise}", flush=True)
-            for setting, pair in results(experiment, pathlib.Path(folder), scan, noise).items():
-                ratios.setdefault((noise, setting), []).append(pair)
-                experiment.record([{"scan": scan.name, "noise": noise, "setting": setting, "distance": pair[0],
-                                    "angle": pair[1]}])
+    for scan, noise in itertools.product(scans, NOISES):
+        print(f"... {scan.name}, {noise}", flush=True)
+        for setting, pair in results(experiment, scan, noise).items():
+            ratios.setdefault((noise, setting), []).append(pair)
+            experiment.record([{"scan": scan.name, "noise": noise, "setting": setting, "distance": pair[0],
+                                "angle": pair[1]}])
 
     def cell(noise, setting):
         distances, of_normals = zip(*ratios[noise, setting])

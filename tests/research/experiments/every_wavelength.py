@@ -16,14 +16,13 @@ waves, over that of the waves; "sideways" is the RMS across the normal, over the
   linear elements. So it shares the effects of curvature and of the elements, but not those of the solver;
 - a wave over a plane whose edges are five times as long on one side as on the other: the share that either side keeps.
 
-Needs PyMeshLab and VTK: external/pymeshlab.sh build/pymeshlab, build/pymeshlab/bin/python -m pip install vtk, then
-build/pymeshlab/bin/python every_wavelength.py. The scans need SciPy, too: build/pymeshlab/bin/python -m pip install scipy.
+Needs PyMeshLab, PyVista and SciPy: README.md says how to install them.
 """
 
 import numpy
 import shapes
 from experiment import Experiment
-from flow import Flow, kept, kept_on_sphere
+from flow import kept, kept_on_sphere
 from measures import across, along, root_mean_square, topology_of
 from other_noise import rotation
 from scan import Scan
@@ -120,7 +119,7 @@ def bumps_on_a_sphere(experiment, flow):
             wave = 2 * numpy.pi * radius / numpy.sqrt(degree * (degree + 1))
             scale = height_of(wave) / root_mean_square(harmonic(degree, directions))
             bumpy = directions * (radius + scale * harmonic(degree, directions))[:, None]
-            moved, _ = flow(bumpy, ball.faces, "--detail-size", detail_size, "--order", order)
+            moved, *_ = flow(bumpy, ball.faces, "--detail-size", detail_size, "--order", order)
             radii = numpy.linalg.norm(moved, axis=1)
             ideal, last_radius = kept_on_sphere(degree, radius, detail_size, order)
             share, rest = split(radii - radii.mean(), scale * harmonic(degree, moved / radii[:, None]))
@@ -192,9 +191,8 @@ def two_resolutions(experiment, flow):
 
 def main():
     experiment = Experiment("every_wavelength", __doc__)
-    flow = Flow(experiment)
     for table in (waves_over_a_plane, bumps_on_a_sphere, heights_on_scans, two_resolutions):
-        table(experiment, flow)
+        table(experiment, experiment.smoothed)
     experiment.finish()
 
 

@@ -12,15 +12,16 @@ import csv
 import datetime
 import io
 import json
-import lzma
-import math
 import os
 import pathlib
 import resource
 import shutil
 import subprocess
 import sys
+import tempfile
 import time
+
+from ply import read_mesh, unpacked, write_ply
 
 TOP = pathlib.Path(__file__).resolve().parents[3]
 RENDER = TOP / "tests" / "demo" / "render.py"
@@ -110,20 +111,20 @@ class Experiment:
         """Returns the path of a file, or of its unpacked copy if it is packed by xz."""
         if path.suffix != ".xz":
             return path
-        target = self.options.build / "unpacked" / path.stem
-        target.parent.mkdir(parents=True, exist_ok=True)
-        with lzma.open(path) as packed, open(target, "wb") as file:
-            shutil.copyfileobj(packed, file)
-        return target
+        return unpacked(path, self.options.build / "unpacked")
 
-    def smooth(self, source, target, *words, command=None):
-        """Runs the program tracked_mcf, or a command of it, with options, which are `words`. Returns its
-        report as a dictionary, and its processor seconds, files included."""
-        report = target.with_suffix(".json")
-        begin = processor_seconds()
-        subprocess.run([self.program, *([command] if command else []), source, target, "--quiet", "--report", report,
-                        *map(str, words)], check=True)
-        return json.loads(report.read_text(encoding="utf-8")), processor_seconds() - begin
+    def smoothed(self, vertices, faces, *words, command="smooth", selected=None):
+        """Runs a command of the program tracked_mcf on a mesh with options, which are `words`. `selected` has a number
+        for each face. Returns the moved vertices, the report as a dictionary, and the processor seconds, files
+        included."""
+        with tempfile.TemporaryDirectory() as folder:
+            source, target, report = (pathlib.Path(folder) / name for name in ("in.ply", "out.ply", "report.json"))
+            write_ply(source, vertices, faces, selected)
+            begin = processor_seconds()
+            subprocess.run([self.program, command, source, target, "--quiet", "--report", report, *map(str, words)],
+                           check=True)
+            seconds = processor_seconds() - begin
+            return read_mesh(target)[0], json.loads(report.read_text(encoding="utf-8")), seconds
 
     def run(self, command, *words, **more):
         """Runs the driver. Returns its rows as dictionaries, each with the entries of `more`."""
@@ -242,7 +243,7 @@ def pyplot():
     try:
         import matplotlib
     except ImportError:
-        skip("matplotlib is missing. On Debian, run external/install_debian.sh experiments and start "
+        skip("matplotlib is missing. On Debian, run external/install_debian.sh research and start "
              "this script with /usr/bin/python3.")
     matplotlib.use("Agg")  # no display
     from matplotlib import pyplot as module
@@ -260,10 +261,6 @@ def number_or_text(value):
 
 def three_digits(value):
     return f"{value:.3g}" if isinstance(value, float) else str(value)
-
-
-def geometric_mean(values):
-    return math.exp(sum(math.log(value) for value in values) / len(values))
 
 
 def label(mesh):

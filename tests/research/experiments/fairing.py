@@ -23,10 +23,15 @@ import subprocess
 import tempfile
 
 import numpy
+from bilateral import area_vectors, unit
 from experiment import Experiment
-from ply import read_mesh, read_vertices, write_ply
+from measures import pair_cosines, topology_of
+from ply import read_mesh, write_ply
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import dijkstra
 from scipy.spatial import cKDTree
 from shapes import grid_faces
+from surface import Surface
 
 CONTINUITIES = ["position", "tangent", "curvature"]
 SEED = 1
@@ -44,13 +49,11 @@ class Runner:
         self.experiment, self.folder = experiment, pathlib.Path(folder)
         self.cgal_program = experiment.options.build / "tracked_mcf_cgal_fair"
 
-    def ours(self, vertices, faces, selected, continuity, *words):
+    def ours(self, vertices, faces, selected, continuity):
         """Returns vertices, and the report with the processor seconds, files included."""
-        source, target = self.folder / "in.ply", self.folder / "out.ply"
-        write_ply(source, vertices, faces, selected)
-        report, seconds = self.experiment.smooth(source, target, "--selected", "selected", "--continuity",
-                                                 continuity, *words, command="fair")
-        return read_vertices(target, len(vertices)), {**report, "processor_seconds": seconds}
+        moved, report, seconds = self.experiment.smoothed(
+            vertices, faces, "--selected", "selected", "--continuity", continuity, command="fair", selected=selected)
+        return moved, {**report, "processor_seconds": seconds}
 
     def cgal(self, vertices, faces, selected, continuity):
         """Returns vertices and times, or None."""
@@ -199,7 +202,7 @@ def crossings(vertices, faces, selected):
 
 def surroundings(vertices, faces, selected, random):
     """Yields names and vertices with noise, or with needles around what is selected."""
-    edge = numpy.linalg.norm(vertices[faces] - vertices[faces[:, [1, 2, 0]]], axis=2).mean()
+    edge = mean_edge(vertices, faces)
     yield "smooth", vertices
     for noise in (0.03, 0.1, 0.3):
         yield f"noise of {noise} edges", vertices + noise * edge * random.normal(size=vertices.shape)
@@ -228,8 +231,7 @@ def measure_surroundings(experiment, runner):
             vertices, faces = make(size)
             moving = inside(vertices)
             selected = moving[faces].any(axis=1)
-            edge = numpy.linalg.norm(vertices[faces] - vertices[faces[:, [1, 2, 0]]], axis=2).mean()
-            scale = edge / (0.4 if name == "torus" else 1)
+            scale = mean_edge(vertices, faces) / (0.4 if name == "torus" else 1)
             for around, rough in surroundings(vertices, faces, selected, random):
                 flat, _ = runner.ours(rough, faces, selected, "position")
                 row = {"table": "surroundings", "shape": name, "size": size, "around": around}
@@ -257,22 +259,13 @@ def measure_surroundings(experiment, runner):
 
 
 def neighbours(faces, count):
-    """Returns the sparse adjacency as lists."""
-    from scipy.sparse import coo_matrix
+    """Returns the sparse adjacency of the vertices."""
     i, j = faces.ravel(), faces[:, [1, 2, 0]].ravel()
     return coo_matrix((numpy.ones(2 * len(i), bool), (numpy.r_[i, j], numpy.r_[j, i])), (count, count)).tocsr()
 
 
-def rings_from(adjacency, seed, count):
-    """Returns each vertex's distance in edges, at most count + 1."""
-    rings = numpy.full(adjacency.shape[0], count + 1)
-    front = numpy.array([seed])
-    rings[front] = 0
-    for ring in range(1, count + 1):
-        front = numpy.unique(adjacency[front].indices)
-        front = front[rings[front] > ring]
-        rings[front] = ring
-    return rings
+def mean_edge(vertices, faces):
+    return numpy.linalg.norm(vertices[faces] - vertices[faces[:, [1, 2, 0]]], axis=2).mean()
 
 
 def distance_to(points, vertices, faces):
@@ -280,12 +273,10 @@ def distance_to(points, vertices, faces):
     n = 6
     weights = numpy.array([(i, j, n - i - j) for i in range(n + 1) for j in range(n + 1 - i)]) / n
     samples = (vertices[faces][:, None] * weights[None, :, :, None]).sum(axis=2).reshape(-1, 3)
-    normals = numpy.cross(vertices[faces[:, 1]] - vertices[faces[:, 0]], vertices[faces[:, 2]] - vertices[faces[:, 0]])
-    normals /= numpy.maximum(numpy.linalg.norm(normals, axis=1), 1e-300)[:, None]
+    normals = unit(area_vectors(vertices, faces))
     away, nearest = cKDTree(samples).query(points)
     along = abs(((points - samples[nearest]) * normals[nearest // len(weights)]).sum(axis=1))
-    edge = numpy.sqrt(((vertices[faces] - vertices[faces[:, [1, 2, 0]]]) ** 2).sum(axis=2)).mean()
-    return numpy.where(away < edge / 4, along, away)
+    return numpy.where(away < mean_edge(vertices, faces) / 4, along, away)
 
 
 def measure_holes(experiment, runner):
@@ -301,15 +292,15 @@ def measure_holes(experiment, runner):
         if number < len(found):
             print(f"... {path.stem}", flush=True)
         vertices, faces, _ = read_mesh(path)
-        adjacency = neighbours(faces, len(vertices))
         size = RINGS[number // len(found) % len(RINGS)]
-        rings = rings_from(adjacency, random.integers(len(vertices)), size + 8)
+        rings = dijkstra(neighbours(faces, len(vertices)), indices=random.integers(len(vertices)), unweighted=True,
+                         limit=size + 8)
         near = (rings[faces] <= size + 8).all(axis=1)
         used = numpy.unique(faces[near])
         index = numpy.full(len(vertices), -1)
         index[used] = numpy.arange(len(used))
         part, part_faces, part_rings = vertices[used], index[faces[near]], rings[used]
-        edge = numpy.sqrt(((part[part_faces] - part[part_faces[:, [1, 2, 0]]]) ** 2).sum(axis=2)).mean()
+        edge = mean_edge(part, part_faces)
         moving = part_rings < size
         selected = moving[part_faces].any(axis=1)
 
@@ -368,28 +359,17 @@ FILL = """<!DOCTYPE FilterScript><FilterScript><filter name="Close Holes">
 def filled(path, folder):
     """Returns the vertices and faces of an open scan whose holes MeshLab has filled, and which faces are new."""
     vertices, faces, _ = read_mesh(path)
-    edge = numpy.linalg.norm(vertices[faces] - vertices[faces[:, [1, 2, 0]]], axis=2).mean()
-    (folder / "fill.mlx").write_text(FILL.format(edge=edge), encoding="utf-8")
+    (folder / "fill.mlx").write_text(FILL.format(edge=mean_edge(vertices, faces)), encoding="utf-8")
     subprocess.run(["xvfb-run", "-a", "meshlabserver", "-i", path, "-s", folder / "fill.mlx", "-o",
                     folder / "filled.ply", "-m", "ff"], check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     return read_mesh(folder / "filled.ply")
 
 
-def unit_normals(vertices, faces):
-    normals = numpy.cross(vertices[faces[:, 1]] - vertices[faces[:, 0]], vertices[faces[:, 2]] - vertices[faces[:, 0]])
-    return normals / numpy.maximum(numpy.linalg.norm(normals, axis=1), 1e-300)[:, None]
-
-
 def seam_angle(vertices, faces, selected):
     """Returns the mean angle between the normals of a selected face and of its neighbour that is not."""
-    edges = numpy.sort(numpy.stack([faces, faces[:, [1, 2, 0]]], 2).reshape(-1, 2), axis=1)
-    order = numpy.lexsort(edges.T)
-    pairs = order[:-1][(edges[order][1:] == edges[order][:-1]).all(axis=1)], order[1:][
-        (edges[order][1:] == edges[order][:-1]).all(axis=1)]
-    a, b = pairs[0] // 3, pairs[1] // 3
-    seam = selected[a] != selected[b]
-    normals = unit_normals(vertices, faces)
-    cosines = (normals[a[seam]] * normals[b[seam]]).sum(axis=1)
+    pairs = topology_of(Surface("", vertices, faces)).pairs_of_faces
+    seam = pairs[selected[pairs[:, 0]] != selected[pairs[:, 1]]]
+    cosines = pair_cosines(faces, vertices, seam)
     return float(numpy.degrees(numpy.arccos(numpy.clip(cosines, -1, 1))).mean())
 
 

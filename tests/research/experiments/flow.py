@@ -1,27 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs the program's flow on vertices and faces, and says what a plane wave ideally keeps."""
-
-import pathlib
-import tempfile
+"""What waves ideally keep of their height under the program's flow."""
 
 import numpy
-from ply import read_mesh, write_ply
 
 STEPS = 3  # the program's default
-
-
-class Flow:
-    """The program's flow. It keeps its files in a folder that ends with the program."""
-
-    def __init__(self, experiment):
-        self.experiment, self._folder = experiment, tempfile.TemporaryDirectory()
-
-    def __call__(self, vertices, faces, *words):
-        """Returns the moved vertices, and the report."""
-        source, target = (pathlib.Path(self._folder.name) / name for name in ("in.ply", "out.ply"))
-        write_ply(source, vertices, faces)
-        report, _ = self.experiment.smooth(source, target, *words)
-        return read_mesh(target)[0], report
 
 
 def step_size(detail_size, order):

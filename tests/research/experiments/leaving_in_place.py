@@ -22,8 +22,7 @@ VTK's windowed sinc filter, with their defaults and with the settings of least R
 the clean surface. A program that refuses an input leaves it as it is. Below each table are the first line and the warnings
 that the program prints.
 
-Needs PyMeshLab and VTK: external/pymeshlab.sh build/pymeshlab, build/pymeshlab/bin/python -m pip install vtk, then
-build/pymeshlab/bin/python leaving_in_place.py.
+Needs PyMeshLab, PyVista and SciPy: README.md says how to install them.
 """
 
 import pathlib

@@ -19,19 +19,14 @@ The program runs with its defaults, and where noise has a size that the mesh doe
 Taubin and two-step smoothers, VTK's windowed sinc filter and our flow have the best of many settings, for the distance and
 for the angle each, which only somebody can choose who has the clean surface. --seed makes other noise.
 
-Needs PyMeshLab and VTK: external/pymeshlab.sh build/pymeshlab, build/pymeshlab/bin/python -m pip install vtk, then
-build/pymeshlab/bin/python other_noise.py.
+Needs PyMeshLab, PyVista and SciPy: README.md says how to install them.
 """
-
-import pathlib
-import tempfile
 
 import numpy
 import shapes
 from experiment import CGAL_MESHES, Experiment
 from leaving_in_place import terrain
 from measures import angles, distance, heights
-from ply import read_mesh, write_ply
 from scan import Scan
 from smoothers import best, taubin_families, two_step_families
 from surface import Surface
@@ -202,17 +197,14 @@ def cases(experiment, random):
         yield from cases_of_varying_noise(experiment, random)
 
 
-def program(experiment, case, *words, command=None):
+def program(experiment, case, command, *words):
     """Returns the vertices of the program's result, and its processor seconds."""
-    with tempfile.TemporaryDirectory() as folder:
-        source, target = pathlib.Path(folder) / "in.ply", pathlib.Path(folder) / "out.ply"
-        write_ply(source, case.noisy, case.surface.faces)
-        _, seconds = experiment.smooth(source, target, *words, command=command)
-        return read_mesh(target)[0], seconds
+    vertices, _, seconds = experiment.smoothed(case.noisy, case.surface.faces, *words, command=command)
+    return vertices, seconds
 
 
 def flow_families(experiment, case):
-    return [[lambda size=size: program(experiment, case, "--detail-size", size * case.surface.edge, "--order", 2)
+    return [[lambda size=size: program(experiment, case, "smooth", "--detail-size", size * case.surface.edge, "--order", 2)
              for size in DETAIL_SIZES]]
 
 
@@ -226,11 +218,11 @@ def error(case, vertices):
 
 def results(experiment, case):
     """Returns a dictionary of the measures of each smoother, and the seconds of the program."""
-    vertices, seconds = program(experiment, case, command="remove-noise")
+    vertices, seconds = program(experiment, case, "remove-noise")
     row = {"noisy": error(case, case.noisy), "ours": {**error(case, vertices), "seconds": seconds}}
     if case.size:
         size = case.size * case.surface.edge
-        vertices, seconds = program(experiment, case, "--noise-size", size, command="remove-noise")
+        vertices, seconds = program(experiment, case, "remove-noise", "--noise-size", size)
         row["ours, size given"] = {**error(case, vertices), "seconds": seconds}
     if not experiment.options.quick:
         for name, families in (("windowed sinc", sinc_families(case.surface, case.noisy)),

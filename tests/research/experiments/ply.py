@@ -1,29 +1,36 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Writes and reads binary PLY files in double precision."""
+"""Writes, reads and unpacks binary PLY files."""
+
+import lzma
+import shutil
 
 import numpy
 
 
-def write_ply(path, vertices, triangles, selected=None):
-    """Writes vertices (n x 3), triangles (m x 3) and, if given, m numbers as the faces' property
-    "selected"."""
-    header = (f"ply\nformat binary_little_endian 1.0\nelement vertex {len(vertices)}\n"
-              "property double x\nproperty double y\nproperty double z\n"
-              f"element face {len(triangles)}\nproperty list uchar int vertex_indices\n"
-              "property uchar selected\nend_header\n")
-    faces = numpy.zeros(len(triangles), dtype=[("count", "u1"), ("corners", "<i4", 3),
-                                               ("selected", "u1")])
-    faces["count"], faces["corners"] = 3, triangles
+def write_ply(path, vertices, faces, selected=None):
+    """Writes vertices (n x 3), faces (m x 3 for triangles) and, if given, m numbers as the faces' property
+    "selected". Vertices of float32 stay in single precision."""
+    kind, real = ("float", "<f4") if vertices.dtype == numpy.float32 else ("double", "<f8")
+    header = ["ply", "format binary_little_endian 1.0", f"element vertex {len(vertices)}",
+              *(f"property {kind} {axis}" for axis in "xyz"), f"element face {len(faces)}",
+              "property list uchar int vertex_indices", *(["property uchar selected"] if selected is not None else []),
+              "end_header\n"]
+    rows = numpy.zeros(len(faces), dtype=[("count", "u1"), ("corners", "<i4", faces.shape[1]),
+                                          *([("selected", "u1")] if selected is not None else [])])
+    rows["count"], rows["corners"] = faces.shape[1], faces
     if selected is not None:
-        faces["selected"] = selected
-    path.write_bytes(header.encode() + vertices.astype("<f8").tobytes() + faces.tobytes())
+        rows["selected"] = selected
+    path.write_bytes("\n".join(header).encode() + vertices.astype(real).tobytes() + rows.tobytes())
 
 
-def read_vertices(path, count):
-    """Returns the positions (count x 3) of a file whose vertices have nothing else."""
-    data = path.read_bytes()
-    begin = data.index(b"end_header\n") + len(b"end_header\n")
-    return numpy.frombuffer(data, "<f8", 3 * count, begin).reshape(-1, 3)
+def unpacked(packed, folder):
+    """Returns the path of the unpacked copy in a folder of a file that is packed by xz."""
+    path = folder / packed.stem
+    if not path.exists():
+        folder.mkdir(parents=True, exist_ok=True)
+        with lzma.open(packed) as source, open(path, "wb") as target:
+            shutil.copyfileobj(source, target)
+    return path
 
 
 def read_mesh(path):

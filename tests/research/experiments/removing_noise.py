@@ -14,7 +14,7 @@ noise of 0.2 edges and on the pairs. Guided normal filtering is quoted: its auth
 Our seconds include reading and writing files, the others' do not. A second table has what the first cannot see, for our
 results: measures.py defines its columns. Each entry is the worst over all noise of a mesh.
 
-Needs PyMeshLab: external/pymeshlab.sh build/pymeshlab, then build/pymeshlab/bin/python removing_noise.py.
+Needs PyMeshLab and SciPy: README.md says how to install them.
 """
 
 import csv
@@ -22,12 +22,13 @@ import itertools
 import pathlib
 import subprocess
 import tempfile
+from statistics import geometric_mean
 
 import numpy
-from experiment import CGAL_MESHES, RENDER, Experiment, geometric_mean
+from experiment import CGAL_MESHES, RENDER, Experiment
 from measures import angles
 from ply import read_mesh
-from scan import Scan, loaded, mesh_set, pymeshlab
+from scan import Scan, loaded, pymeshlab
 from shapes import cube
 from smoothers import STEPS, best, bilateral_families, result, taubin_families, two_step_families
 from surface import SEED, Surface
@@ -76,12 +77,8 @@ def noisy(scan, noise):
 
 def ours(experiment, scan, vertices):
     """Returns the result of the program with its default parameters."""
-    with tempfile.TemporaryDirectory() as folder:
-        source, target = pathlib.Path(folder) / "in.ply", pathlib.Path(folder) / "out.ply"
-        mesh_set(scan, vertices).save_current_mesh(str(source), save_vertex_quality=False)
-        _, seconds = experiment.smooth(source, target, command="remove-noise")
-        clean = loaded(target)
-        return result(scan, vertices, clean.current_mesh().vertex_matrix(), seconds)
+    clean, _, seconds = experiment.smoothed(vertices, scan.faces, command="remove-noise")
+    return result(scan, vertices, clean, seconds)
 
 
 def kept_peers(experiment, scan, noise):
