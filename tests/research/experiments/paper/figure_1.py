@@ -9,12 +9,18 @@ tracked cells. The claim: the surface leaves its initial cells, so that a tenth 
 are new.
 """
 
-from reproduction import Reproduction
+import numpy
+
+from reproduction import Reproduction  # finds the folder of ply.py
+
+from ply import write_ply
 
 STEPS = [0, 4, 16]
 STEP_SIZE = 5e-5
 LEG = [0, 0.12, 0, 0.4, 0.42, 1]  # in fractions of the bounding box
 VIEW = ["--view", -0.3, -0.2, 1, "--zoom", 2.4, "--center", 0.3, -0.45, "--height", 340]
+CORNERS = numpy.array([[corner >> axis & 1 for axis in range(3)] for corner in range(8)])
+SIDES = numpy.array([[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]])  # of a cell
 LARGEST_DISTANCE = 1e-6  # in sides of a cell
 SMALLEST_SHARE = 0.1  # of new cells
 
@@ -23,12 +29,58 @@ def add_options(parser):
     parser.add_argument("--depth", type=int, default=5, help="of the octree")
 
 
+def outside(positions, corners):
+    """Returns the distances of positions (n x 3) from the bounding boxes of corners (n x 8 x 3)."""
+    below, above = corners.min(axis=1) - positions, positions - corners.max(axis=1)
+    return numpy.linalg.norm(numpy.maximum(numpy.maximum(below, above), 0), axis=1)
+
+
+class Leg:
+    """The finest cells with their centre in the box LEG, and the vertices in them, in units of the grid."""
+
+    def __init__(self, folder):
+        self._folder = folder
+        self._cells = self._numbers("cells.i32", numpy.int32, 3)
+        start = self._numbers("vertices_0.f64", float, 3)
+        low, high = start.min(axis=0) + numpy.reshape(LEG, (2, 3)) * numpy.ptp(start, axis=0)
+        self._inside = ((self._cells + 0.5 >= low) & (self._cells + 0.5 <= high)).all(axis=1)
+        elements = self._numbers("elements.i32", numpy.int32, 1)[:, 0]
+        self._vertices = numpy.flatnonzero((elements >= 0) & self._inside[elements])
+        self._elements = elements[self._vertices]
+
+    def _numbers(self, name, kind, width):
+        return numpy.fromfile(self._folder / name, kind).reshape(-1, width)
+
+    def measured(self, row):
+        """Adds the measures after the steps of a row of the driver, and writes the cells."""
+        corners = self._numbers(f"corners_{row['steps']}.f64", float, 24).reshape(-1, 8, 3)
+        positions = self._numbers(f"vertices_{row['steps']}.f64", float, 3)[self._vertices]
+        present = numpy.unique(numpy.floor(positions).astype(int), axis=0)
+        initial = set(map(tuple, self._cells[self._inside].tolist()))
+        left = outside(positions, self._cells[self._elements][:, None] + CORNERS)
+        self._write(row, "tracked", corners[self._inside])
+        self._write(row, "grid", present[:, None] + CORNERS)
+        row.update({"tracked_cells": int(self._inside.sum()), "grid_cells": len(present),
+                    "fresh_grid_cells": sum(tuple(cell) not in initial for cell in present.tolist()),
+                    "vertices": len(positions), "crossed": float((left > 1e-6).mean()),
+                    "outside": float(outside(positions, corners[self._elements]).max()), "outside_initial": float(left.max())})
+
+    def _write(self, row, kind, corners):
+        """Writes cells (n x 8 x 3) as quads in the units of the surface."""
+        vertices = numpy.array([row[axis] for axis in "xyz"]) + row["cell_size"] * corners.reshape(-1, 3)
+        quads = 8 * numpy.arange(len(corners))[:, None, None] + SIDES
+        write_ply(self._folder / f"{kind}_{row['steps']}.ply", vertices, quads.reshape(-1, 4))
+
+
 def main():
     figure = Reproduction("figure_1", __doc__, add_options)
     [scan] = figure.scans(["armadillo_50k.ply"], ["armadillo.off"])
     folder = figure.surfaces / f"{scan.stem}_cells"
     rows = figure.run("cells", scan, "--depth", figure.options.depth, "--step-size", STEP_SIZE,
-                      "--steps", *STEPS, "--box", *LEG, "--folder", folder, mesh=scan.stem)
+                      "--steps", *STEPS, "--folder", folder, mesh=scan.stem)
+    leg = Leg(folder)
+    for row in rows:
+        leg.measured(row)
     figure.table(["steps", "tracked cells", "grid cells", "of these new", "vertices that left",
                   "outside tracked cell", "outside initial cell"],
                  [[row["steps"], row["tracked_cells"], row["grid_cells"], row["fresh_grid_cells"],
