@@ -12,7 +12,6 @@ int main(int argc, char** argv) {
     CLI::App app("Measures the flow and its peers. run_benchmark.py calls this program.");
     app.require_subcommand(1);
     add_flow(app);
-    add_rebuilt(app);
     add_incomplete_cholesky(app);
     add_cgal(app);
     try {

@@ -11,8 +11,7 @@ import statistics
 import subprocess
 import sys
 
-OURS, TRACKED, REBUILT = "ours", "paper's, tracked", "paper's, rebuilt"
-IC, CGAL = "IC(0)-CG", "CGAL"
+OURS, IC, CGAL = "ours", "IC(0)-CG", "CGAL"
 # Of ours, then of PyMeshLab.
 WHOLE_JOBS = ("flow, default parameters", "flow, one thread", "flow, detail of 10 edges", "flow, detail of 40 edges",
               "remove noise, default parameters", "remove noise, one thread",
@@ -46,6 +45,12 @@ def endless_loops(count):
         for loop in loops:
             loop.kill()
             loop.wait()
+
+
+def has_cgal(driver):
+    """Returns whether the driver was built with CGAL."""
+    text = subprocess.run([driver, "--help"], check=True, stdout=subprocess.PIPE, text=True).stdout
+    return "  cgal " in text
 
 
 class Measurements:

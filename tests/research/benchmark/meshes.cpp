@@ -2,12 +2,12 @@
 #include "tests/research/benchmark/meshes.h"
 
 #include <algorithm>
-#include <cmath>
 #include <random>
 #include <sstream>
+#include <utility>
 #include <vector>
 
-#include "filter_tracked_mcf/core/flow/cells/grid.h"
+#include "filter_tracked_mcf/core/mesh/measures.h"
 #include "filter_tracked_mcf/core/mesh/mesh_topology.h"
 #include "filter_tracked_mcf/hosts/cli/mesh_file.h"
 #include "tests/support/shapes.h"
@@ -26,22 +26,12 @@ std::vector<std::string> words_of(const std::string& name) {
     return words;
 }
 
-double mean_edge(const TriangleMesh& mesh) {
-    double sum = 0;
-    for (const Triangle& t : mesh.triangles) {
-        for (int i = 0; i < 3; ++i) {
-            sum += (mesh.positions[t[i]] - mesh.positions[t[(i + 1) % 3]]).norm();
-        }
-    }
-    return sum / (3 * static_cast<double>(mesh.triangles.size()));
-}
-
 /// Returns the same mesh at each call.
 TriangleMesh noisy_sphere(int frequency, double amplitude) {
     TriangleMesh mesh = shapes::geodesic_sphere(frequency);
     std::mt19937 random(1);
     std::uniform_real_distribution<double> noise(-1, 1);
-    const double height = amplitude * mean_edge(mesh);
+    const double height = amplitude * mean_edge_length(mesh);
     for (Vector3d& position : mesh.positions) {
         position *= kSphereRadius * (1 + height * noise(random));
     }

@@ -4,7 +4,7 @@
 import os
 
 import machine
-from measurements import CGAL, IC, JOBS_BY_SIZE, OURS, REBUILT, RELIEF, TRACKED, WHOLE_JOBS
+from measurements import CGAL, IC, JOBS_BY_SIZE, OURS, RELIEF, WHOLE_JOBS
 
 
 def digits(value, unit=""):
@@ -41,7 +41,6 @@ class Page:
         self._machine()
         self._steps()
         self._setup()
-        self._rebuilt()
         self._threads()
         self._accuracy()
         self._scale()
@@ -157,19 +156,6 @@ class Page:
                          digits(self._of.median(wall, threads=2, **case)),
                          digits(1e6 * one / triangles, "µs")])
         self._table(["phase", "processor seconds", "wall", "wall, two threads", "a triangle"], rows)
-
-    def _rebuilt(self):
-        self._title("Tracked against rebuilt", "The paper's method. The non-tracked octree is set up anew from "
-                    "the evolved mesh before every step.")
-        rows = []
-        for peer in (TRACKED, REBUILT):
-            case = {"peer": peer, "mesh": self._main, "threads": 1, "step_size": self._middle}
-            setup = self._of.median("setup_cpu_seconds", **case) if peer == REBUILT else None
-            rows.append([peer, *map(digits, (
-                setup, self._phase("assemble", **case), self._phase("solve", **case),
-                self._of.median("move_cpu_seconds", **case) if peer == REBUILT else None,
-                self._step(peer, self._middle)))])
-        self._table(["", "set-up", "assemble", "solve", "move vertices", "whole step"], rows)
 
     def _threads(self):
         self._title("Threads", f"Ours, δ = {self._middle:g}. Wall seconds mean something only if nothing else runs.")

@@ -8,19 +8,22 @@ from this file alone. A whole run takes about 20 minutes, a quick run two.
 
 import argparse
 import json
-import lzma
 import os
 import pathlib
-import shutil
 import subprocess
 import sys
 
 import numpy
 
-from measurements import CGAL, IC, JOBS_BY_SIZE, OURS, REBUILT, RELIEF, TRACKED, WHOLE_JOBS, Case, Measurements
+from measurements import CGAL, IC, JOBS_BY_SIZE, OURS, RELIEF, WHOLE_JOBS, Case, Measurements, has_cgal
 from results_page import Page
 
 TOP = pathlib.Path(__file__).resolve().parents[3]
+sys.path.insert(0, str(TOP / "tests" / "research" / "experiments"))
+
+import shapes  # noqa: E402
+from ply import unpacked, write_ply  # noqa: E402
+
 ARMADILLO = TOP / "build" / "cgal-meshes" / "armadillo.off"
 STEP_SIZES = (1e-5, 5e-4, 5e-3)
 MIDDLE = 5e-4
@@ -71,20 +74,13 @@ def label(frequency):
     return f"sphere, {vertices / 1e6:.1f} M" if vertices >= 1e6 else f"sphere, {vertices // 1000} k"
 
 
-def ours(mesh, name, step_size, threads=1, steps=STEPS, peer=OURS):
-    return Case(peer, name, step_size, threads,
-                ("rebuilt" if peer == REBUILT else "flow", mesh, "--step-size", step_size, "--threads",
-                 threads, "--steps", steps, "--solver", "paper" if peer in (TRACKED, REBUILT) else "converged"))
+def ours(mesh, name, step_size, threads=1, steps=STEPS):
+    return Case(OURS, name, step_size, threads,
+                ("flow", mesh, "--step-size", step_size, "--threads", threads, "--steps", steps))
 
 
 def incomplete_cholesky(mesh, name, step_size, steps=STEPS):
     return Case(IC, name, step_size, 1, ("incomplete-cholesky", mesh, "--step-size", step_size, "--steps", steps))
-
-
-def has_cgal(build):
-    """Returns whether the driver was built with CGAL."""
-    cache = (build / "CMakeCache.txt").read_text(encoding="utf-8")
-    return "TRACKED_MCF_CGAL:BOOL=ON" in cache
 
 
 def cgal(mesh, name, step_size):
@@ -108,7 +104,7 @@ class Benchmark:
             measurements.run(self._sizes(), self._repetitions)
             return
         measurements.run(self._compared(), self._repetitions)
-        measurements.run(self._cgal() + self._papers() + self._accuracy(), 1)
+        measurements.run(self._cgal() + self._accuracy(), 1)
         measurements.run(self._other_meshes() + self._scale(), 1)
 
     def _compared(self):
@@ -117,15 +113,12 @@ class Benchmark:
             ours(mesh, self.main, MIDDLE, threads=2)]
 
     def _cgal(self):
-        if not has_cgal(self._arguments.build):
+        if not has_cgal(self._arguments.build / "tracked_mcf_benchmark"):
             return []
         step_sizes = [MIDDLE] if self._arguments.quick else STEP_SIZES
         clean = sphere(self._frequency, noise=0)
         return [cgal(sphere(self._frequency), self.main, step_size) for step_size in step_sizes] + [
             cgal(clean, self.clean, MIDDLE), ours(clean, self.clean, MIDDLE, steps=1)]
-
-    def _papers(self):
-        return [ours(sphere(self._frequency), self.main, MIDDLE, steps=2, peer=peer) for peer in (TRACKED, REBUILT)]
 
     def _accuracy(self):
         """Returns cases with a known exact radius, on a coarser mesh, too."""
@@ -201,18 +194,9 @@ def relief(side, folder):
     path = folder / f"relief_{side}.ply"
     if path.exists():
         return path
-    x, y = numpy.indices((side, side)).reshape(2, -1)
-    z = side / 30 * numpy.sin(20 / side * x) + numpy.random.default_rng(1).normal(scale=NOISE, size=side * side)
-    corner = numpy.arange(side * side).reshape(side, side)[:-1, :-1].reshape(-1, 1)
-    faces = numpy.empty(2 * corner.size, dtype=[("count", "u1"), ("corners", "<i4", 3)])
-    faces["count"] = 3
-    faces["corners"] = numpy.vstack([corner + [0, side, side + 1], corner + [0, side + 1, 1]])
-    with open(path, "wb") as file:
-        file.write(f"ply\nformat binary_little_endian 1.0\nelement vertex {side * side}\n"
-                   "property float x\nproperty float y\nproperty float z\n"
-                   f"element face {faces.size}\nproperty list uchar int vertex_indices\nend_header\n".encode())
-        file.write(numpy.stack([x, y, z], axis=1).astype("<f4").tobytes())
-        file.write(faces.tobytes())
+    noise = numpy.random.default_rng(1).normal(scale=NOISE, size=side * side)
+    vertices, faces = shapes.sheet(side - 1, side - 1, lambda x, y: side / 30 * numpy.sin(20 / side * x) + noise)
+    write_ply(path, vertices.astype(numpy.float32), faces)
     return path
 
 
@@ -222,14 +206,6 @@ def mean_edge(tool, mesh, folder):
     subprocess.run([tool, "--quiet", "--iterations", "1", "--report", report, mesh, folder / f"mean_edge{mesh.suffix}"],
                    check=True)
     return json.loads(report.read_text(encoding="utf-8"))["detail_size"] / 3
-
-
-def unpacked(packed, folder):
-    path = folder / packed.stem
-    if not path.exists():
-        with lzma.open(packed) as source, open(path, "wb") as target:
-            shutil.copyfileobj(source, target)
-    return path
 
 
 def command_line(arguments):

@@ -13,9 +13,6 @@ namespace tracked_mcf::benchmark {
 /// Measures our flow.
 void add_flow(CLI::App& app);
 
-/// Measures our flow without tracking: a new set-up from the evolved mesh before each step.
-void add_rebuilt(CLI::App& app);
-
 /// Measures the cotangent flow by Eigen's conjugate gradients with incomplete Cholesky factors.
 void add_incomplete_cholesky(CLI::App& app);
 

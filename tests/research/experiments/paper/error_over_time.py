@@ -13,14 +13,13 @@ of ours with steps of 0.0005 (tests/research/benchmark/removed_peers.md, with ot
 """
 
 import statistics
-import subprocess
 import sys
 
 from reproduction import HERE, Reproduction
 
 sys.path.insert(0, str(HERE.parents[1] / "benchmark"))
 
-from measurements import Case, Measurements  # noqa: E402
+from measurements import Case, Measurements, has_cgal  # noqa: E402
 
 W_CYCLE, OURS = "paper's W-cycle", "ours"
 IC, CGAL = "cotangent, IC(0)-CG", "cotangent, CGAL"
@@ -31,11 +30,6 @@ OUR_TOLERANCES = ["1e-2", DEFAULT, "1e-4", "1e-6"]
 STEPS = [1, 10]
 STEP_SIZES = [5e-4, 5e-3]
 ERRORS = {"rms_radius_error": "RMS", "worst_radius_error": "worst"}
-
-
-def has_cgal(driver):
-    text = subprocess.run([driver, "--help"], check=True, stdout=subprocess.PIPE, text=True).stdout
-    return "  cgal " in text
 
 
 def cases_of(mesh, depths, step_sizes, with_cgal):
