@@ -42,7 +42,6 @@ class Page:
         self._steps()
         self._setup()
         self._threads()
-        self._accuracy()
         self._scale()
         self._other_meshes()
         return "\n".join(self._lines)
@@ -165,23 +164,6 @@ class Page:
                        for kind in ("", "_cpu") for threads in (1, 2)]
             rows.append([what, *map(digits, figures), digits(ratio(*figures[:2]))])
         self._table(["what", "wall, 1 thread", "wall, 2", "processor, 1", "processor, 2", "times faster"], rows)
-
-    def _accuracy(self):
-        self._title("Geometric error at equal time", "Spheres of radius 0.5 without noise after steps of "
-                    f"δ = {self._middle:g}, against the exact radius of semi-implicit steps. Seconds are "
-                    "those of set-up and all steps.")
-        rows = []
-        for mesh in self._of.meshes():
-            if "without noise" not in mesh:
-                continue
-            for peer in (OURS, IC, CGAL):
-                case = {"peer": peer, "mesh": mesh}
-                steps = self._of.values("step_cpu_seconds", **case)
-                if steps:
-                    rows.append([mesh, peer, digits(self._of.median("mean_radius_error", **case)),
-                                 digits(self._of.median("worst_radius_error", **case)),
-                                 digits(self._of.median("setup_cpu_seconds", **case) + sum(steps))])
-        self._table(["mesh", "peer", "mean radius off by", "worst vertex", "seconds"], rows)
 
     def _scaled(self):
         return [mesh for mesh in self._of.meshes(peer=OURS) if mesh.endswith(", scaled")]

@@ -63,9 +63,9 @@ def options():
     return parser.parse_args()
 
 
-def sphere(frequency, noise=NOISE):
-    """Returns the mesh's name for the driver."""
-    return f"sphere:{frequency}:{noise}" if noise else f"sphere:{frequency}"
+def sphere(frequency):
+    """Returns the name for the driver of a sphere with noise."""
+    return f"sphere:{frequency}:{NOISE}"
 
 
 def label(frequency):
@@ -88,7 +88,7 @@ def cgal(mesh, name, step_size):
 
 
 class Benchmark:
-    """All cases. `main` is the sphere of the targets, `clean` the same without noise."""
+    """All cases. `main` is the sphere of most tables."""
 
     def __init__(self, arguments, output):
         self._arguments = arguments
@@ -96,7 +96,6 @@ class Benchmark:
         self._frequency = arguments.frequency or (128 if arguments.quick else 256)
         self._repetitions = 1 if arguments.quick else arguments.repetitions or 3
         self.main = label(self._frequency)
-        self.clean = f"{self.main}, without noise"
 
     def run(self, measurements):
         if self._arguments.whole_jobs:
@@ -104,7 +103,7 @@ class Benchmark:
             measurements.run(self._sizes(), self._repetitions)
             return
         measurements.run(self._compared(), self._repetitions)
-        measurements.run(self._cgal() + self._accuracy(), 1)
+        measurements.run(self._cgal(), 1)
         measurements.run(self._other_meshes() + self._scale(), 1)
 
     def _compared(self):
@@ -116,18 +115,7 @@ class Benchmark:
         if not has_cgal(self._arguments.build / "tracked_mcf_benchmark"):
             return []
         step_sizes = [MIDDLE] if self._arguments.quick else STEP_SIZES
-        clean = sphere(self._frequency, noise=0)
-        return [cgal(sphere(self._frequency), self.main, step_size) for step_size in step_sizes] + [
-            cgal(clean, self.clean, MIDDLE), ours(clean, self.clean, MIDDLE, steps=1)]
-
-    def _accuracy(self):
-        """Returns cases with a known exact radius, on a coarser mesh, too."""
-        cases = []
-        for frequency in (self._frequency // 2, self._frequency):
-            name = f"{label(frequency)}, without noise, {STEPS} steps"
-            mesh = sphere(frequency, noise=0)
-            cases += [incomplete_cholesky(mesh, name, MIDDLE), ours(mesh, name, MIDDLE)]
-        return cases
+        return [cgal(sphere(self._frequency), self.main, step_size) for step_size in step_sizes]
 
     def _scale(self):
         largest = 2 * self._frequency if self._arguments.quick else self._arguments.largest or 1024
