@@ -30,13 +30,6 @@ sys.path.insert(0, str(TOP / "tests" / "research" / "benchmark"))
 
 from machine import processor  # noqa: E402
 
-# Meshes of Debian's libcgal-demo, and of a folder of further scans for comparison.
-CGAL_SCANS = ["armadillo.off", "nefertiti.off", "elephant.off", "hand.off", "camel.off"]
-CGAL_THIN_SCANS = ["armadillo.off", "elephant.off", "camel.off"]
-SHARED_SCANS = ["armadillo_50k.ply", "nefertiti_50k.ply", "skull_50k.ply", "hand_8k.ply",
-                "boot_genus12.ply"]
-SHARED_THIN_SCANS = ["armadillo_50k.ply", "hand_8k.ply", "elephant_5cc.ply"]
-
 SKIPPED = 77
 CLAIM = ("- **holds**: ", "- **does not hold**: ")
 
@@ -100,7 +93,7 @@ class Experiment:
                  "external/cgal_meshes.sh fetches them")
         return [folder / name for name in names]
 
-    def scans(self, shared=SHARED_SCANS, cgal=CGAL_SCANS):
+    def scans(self, shared, cgal):
         """Returns the paths of the scans to measure, unpacked: those of --scans if given; only the
         smallest with --quick."""
         named = self.options.scans

@@ -34,6 +34,7 @@ from windowed_sinc import isosurface, sinc_families
 
 DETAIL_SIZES = [4, 8, 12, 16]  # of the flow, in edges
 NEAR = 1.5  # metres
+PIXELS = 200  # of the depth camera, along each side
 
 
 class Case:
@@ -157,10 +158,9 @@ def hands(experiment):
     return [Scan(experiment.options.meshes / "hand_8k.ply")] if experiment.options.meshes else []
 
 
-def depth_camera(random, columns=200, rows=200):
+def depth_camera(random):
     """Returns what a depth camera sees of spheres on a floor, before a wall, with its noise."""
-    focal = 0.9 * columns
-    x, y = numpy.meshgrid((numpy.arange(columns) - columns / 2) / focal, (numpy.arange(rows) - rows / 2) / focal)
+    x, y = numpy.meshgrid(*[(numpy.arange(PIXELS) - PIXELS / 2) / (0.9 * PIXELS)] * 2)
     rays = numpy.stack([x, y, numpy.ones_like(x)], -1)
     depth = numpy.minimum(4.5, numpy.where(y > 0, 1 / numpy.maximum(y, 1e-9), numpy.inf))
     for centre, radius in (((-0.35, 0.3, 1.2), 0.3), ((0.5, 0.4, 2.2), 0.5), ((-0.8, 0.2, 3.2), 0.7)):
@@ -168,7 +168,7 @@ def depth_camera(random, columns=200, rows=200):
         inside = b ** 2 - a * (numpy.dot(centre, centre) - radius ** 2)
         hit = (b - numpy.sqrt(numpy.maximum(inside, 0))) / a
         depth = numpy.where((inside > 0) & (hit < depth), hit, depth)
-    faces = shapes.grid_faces(rows - 1, columns - 1, 0)[:, ::-1]
+    faces = shapes.grid_faces(PIXELS - 1, PIXELS - 1, 0)[:, ::-1]
     corners = depth.ravel()[faces]
     faces = faces[corners.max(axis=1) - corners.min(axis=1) < 0.08 * corners.min(axis=1)]
     used, faces = numpy.unique(faces, return_inverse=True)
