@@ -63,7 +63,8 @@ class Leg:
         row.update({"tracked_cells": int(self._inside.sum()), "grid_cells": len(present),
                     "fresh_grid_cells": sum(tuple(cell) not in initial for cell in present.tolist()),
                     "vertices": len(positions), "crossed": float((left > 1e-6).mean()),
-                    "outside": float(outside(positions, corners[self._elements]).max()), "outside_initial": float(left.max())})
+                    "outside": float(outside(positions, corners[self._elements]).max()),
+                    "outside_initial": float(left.max())})
 
     def _write(self, row, kind, corners):
         """Writes cells (n x 8 x 3) as quads in the units of the surface."""
