@@ -108,17 +108,5 @@ TEST(ConversionWarning, IsEmptyIfNothingIsLeftOut) {
     EXPECT_THAT(left_out(kPly, "ply", "PLY"), IsEmpty());
 }
 
-TEST(ConversionWarning, IsPrintedEvenIfTheProgramIsQuiet) {
-    const TemporaryFolder folder;
-    write_file(folder / "in.ply", kPly);
-    const ProgramRun run = run_program(folder, "in.ply out.stl --quiet --depth 3 --step-size 1e-5");
-    EXPECT_EQ(run.exit_code, 0);
-    EXPECT_EQ(
-        run.errors,
-        "tracked_mcf: warning: out.stl does not keep everything of in.ply. Left out: red, "
-        "green, blue, quality, flags of vertices; texcoord of faces; edge; textures. To keep it, "
-        "write a .ply file.\n");
-}
-
 }  // namespace
 }  // namespace tracked_mcf

@@ -126,20 +126,6 @@ TEST_F(ProgramOnUnix, GermanLocaleChangesNoNumber) {
     EXPECT_THAT(read_file(folder_ / "r.json"), HasSubstr("\"step_size\": 1.5e-05"));
 }
 
-TEST_F(ProgramOnUnix, UnwritableResultsExitWith3BeforeTheWork) {
-    for (const char* loop : {"loop.ply", "loop.json"})
-        std::filesystem::create_symlink(loop, folder_ / loop);
-    const std::string long_name = "a.off b.ply --report " + std::string(300, 'r') + ".json";
-    for (const char* arguments :
-         {"a.off b.ply --report /dev/full", "a.off /proc/b.ply", "a.off loop.ply",
-          "a.off b.ply --report loop.json", long_name.c_str()}) {
-        // An endless job: the test would time out if it were begun.
-        const ProgramRun result = run(std::string(arguments) + " --iterations 1000000 --depth 9");
-        EXPECT_EQ(result.exit_code, 3) << arguments;
-        EXPECT_THAT(result.errors, HasSubstr("tracked_mcf: cannot write ")) << arguments;
-    }
-}
-
 TEST_F(ProgramOnUnix, LinksThatLeadToThemselvesAndLongNamesAreNamed) {
     std::filesystem::create_symlink("loop.ply", folder_ / "loop.ply");
     const std::string long_name = std::string(300, 'a') + ".ply";

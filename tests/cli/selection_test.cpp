@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// --selected and --strength: which triangles the properties of a PLY file select, and how far its
-/// vertices move.
+/// --selected and --strength: which properties of a PLY file they take, and which triangles these
+/// select.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
-#include <sstream>
 
 #include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/hosts/cli/mesh_file.h"
@@ -115,86 +113,21 @@ TEST(Selection, SelectingNothingIsAnError) {
               "--selected out to smooth the whole mesh.");
 }
 
-/// Returns the positions of the smoothed pyramid as rows of text.
-std::vector<std::string> vertex_lines(const TemporaryFolder& folder, const std::string& options) {
-    const ProgramRun run = run_program(folder, "a.ply b.ply --depth 4 --quiet " + options);
-    EXPECT_EQ(run.exit_code, 0) << run.errors;
-    const std::string written = read_file(folder / "b.ply");
-    std::istringstream text(written.substr(written.find("end_header\n") + 11));
-    std::vector<std::string> lines;
-    for (std::string x, y, z, rest; lines.size() < 5 && text >> x >> y >> z;) {
-        lines.push_back(x.append(" ").append(y).append(" ").append(z));
-        std::getline(text, rest);
-    }
-    return lines;
-}
-
-TEST(Selection, OnlySelectedFacesMove) {
-    const TemporaryFolder folder;
-    write_file(folder / "a.ply", kPyramid);
-    const auto all = vertex_lines(folder, "");
-    EXPECT_NE(all[0], "0 0 0");
-    EXPECT_NE(all[4], "0.5 0.5 1");
-    // By the sides, so that only the apex is free.
-    const auto part_file = kPyramid.substr(0, kPyramid.find("4 3 2 1 0"));
-    write_file(folder / "a.ply", part_file +
-                                     "4 3 2 1 0 0 0 0 0\n3 0 1 4 1 0 0 0\n"
-                                     "3 1 2 4 1 0 0 0\n3 2 3 4 1 0 0 0\n"
-                                     "3 3 0 4 1 0 0 0\n");
-    const auto part = vertex_lines(folder, "--selected of_faces --report r.json");
-    EXPECT_EQ(std::vector(part.begin(), part.begin() + 4),
-              (std::vector<std::string>{"0 0 0", "1 0 0", "1 1 0", "0 1 0"}));
-    EXPECT_NE(part[4], "0.5 0.5 1");
-    EXPECT_THAT(read_file(folder / "r.json"), HasSubstr("\"selected\": \"of_faces\""));
-    EXPECT_THAT(read_file(folder / "r.json"), HasSubstr("\"held_vertices\": 4,"));
-}
-
-TEST(Selection, ErrorsOfTheProgramAreOneLineAndLeaveNoOutput) {
-    const TemporaryFolder folder;
-    write_file(folder / "a.ply", kPyramid);
-    write_file(folder / "a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
-    const auto fails = [&](const std::string& arguments, int code, const char* message) {
-        const ProgramRun run = run_program(folder, arguments + " b.ply");
-        EXPECT_EQ(run.exit_code, code) << run.errors;
-        EXPECT_THAT(run.errors, HasSubstr(message));
-        EXPECT_EQ(run.errors.find('\n'), run.errors.size() - 1);
-        EXPECT_FALSE(std::filesystem::exists(folder / "b.ply"));
-    };
-    fails("--selected q a.ply", 2, "a.ply has no number 'q' to select by; its faces have: ");
-    fails("--selected zero a.ply", 1, "No face of a.ply is selected by 'zero'");
-    fails("--selected q a.off", 2, "--selected needs a PLY file");
-    fails("--selected of_faces --preserve area a.ply", 2,
-          "Preserving the area would move vertices that must stay");
-}
-
-TEST(Strength, IsANumberOfTheVertices) {
-    const TemporaryFolder folder;
-    write_file(folder / "a.ply", kPyramid);
-    const auto all = vertex_lines(folder, "");
-    EXPECT_EQ(vertex_lines(folder, "--strength both"), all) << "1 at all vertices";
-    const auto part = vertex_lines(folder, "--strength z --report r.json");
-    EXPECT_EQ(std::vector(part.begin(), part.begin() + 4),
-              (std::vector<std::string>{"0 0 0", "1 0 0", "1 1 0", "0 1 0"}));
-    EXPECT_NE(part[4], "0.5 0.5 1");
-    EXPECT_THAT(read_file(folder / "r.json"), HasSubstr("\"strength\": \"z\""));
-}
-
 TEST(Strength, RefusesOtherNumbersAndFiles) {
     const TemporaryFolder folder;
     write_file(folder / "a.ply", kPyramid);
     write_file(folder / "a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
-    const auto refused = [&](const std::string& arguments, int exit_code) {
+    for (const auto& [arguments, exit_code, message] :
+         {std::tuple{"a.ply b.ply --strength of_faces", 2,
+                     "The vertices of a.ply have no number 'of_faces'; they have: x, y, z, both, "
+                     "of_vertices, flags."},
+          std::tuple{"a.ply b.ply --strength flags", 1,
+                     "The strength of vertex 3 is 33.000000; give numbers from 0 to 1."},
+          std::tuple{"a.off b.ply --strength x", 2, "--strength needs a PLY file"}}) {
         const ProgramRun run = run_program(folder, arguments);
         EXPECT_EQ(run.exit_code, exit_code) << arguments;
-        return run.errors;
-    };
-    EXPECT_THAT(
-        refused("a.ply b.ply --strength of_faces", 2),
-        HasSubstr("The vertices of a.ply have no number 'of_faces'; they have: x, y, z, both, "
-                  "of_vertices, flags."));
-    EXPECT_THAT(refused("a.ply b.ply --strength flags", 1),
-                HasSubstr("The strength of vertex 3 is 33.000000; give numbers from 0 to 1."));
-    EXPECT_THAT(refused("a.off b.ply --strength x", 2), HasSubstr("--strength needs a PLY file"));
+        EXPECT_THAT(run.errors, HasSubstr(message));
+    }
 }
 
 }  // namespace
