@@ -4,25 +4,36 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <tuple>
+
 #include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/parameter_table.h"
+#include "tests/cli/temporary_folder.h"
 
 namespace tracked_mcf {
 namespace {
 
 using ::testing::HasSubstr;
 
-CommandLineOf<FlowParameters> parse(const std::vector<const char*>& arguments) {
-    return parse_command_line<FlowParameters>({arguments.begin(), arguments.end()});
+CommandLineOf<FlowParameters> parse(const std::vector<std::string>& arguments) {
+    return parse_command_line<FlowParameters>(arguments);
 }
 
-std::string complaint(const std::vector<const char*>& arguments) {
+CommandLineOf<FlowParameters> parse(const std::string& line) {
+    return parse(words_of(line));
+}
+
+std::string complaint(const std::vector<std::string>& arguments) {
     try {
         parse(arguments);
     } catch (const InvalidParameter& error) {
         return error.what();
     }
     return "none";
+}
+
+std::string complaint(const std::string& line) {
+    return complaint(words_of(line));
 }
 
 /// Returns the text without line breaks and indentation.
@@ -36,56 +47,25 @@ std::string unwrapped(const std::string& text) {
 }
 
 TEST(CommandLine, DefaultsAreThoseOfTheFlow) {
-    const auto line = parse({"a.ply", "b.stl"});
-    const FlowParameters defaults;
+    const auto line = parse("a.ply b.stl");
     EXPECT_EQ(line.input, "a.ply");
     EXPECT_EQ(line.output, "b.stl");
     EXPECT_EQ(line.report, "");
     EXPECT_FALSE(line.quiet);
     EXPECT_TRUE(line.lengths.empty());
-    EXPECT_EQ(line.parameters.detail_size, defaults.detail_size);
-    EXPECT_EQ(line.parameters.order, defaults.order);
-    EXPECT_EQ(line.parameters.depth, defaults.depth);
-    EXPECT_EQ(line.parameters.step_size, defaults.step_size);
-    EXPECT_EQ(line.parameters.iterations, defaults.iterations);
-    EXPECT_EQ(line.parameters.flow, defaults.flow);
-    EXPECT_EQ(line.parameters.boundary, defaults.boundary);
     EXPECT_EQ(line.properties.at("selected"), "");
-    EXPECT_EQ(line.parameters.preserve, defaults.preserve);
-    EXPECT_EQ(line.parameters.method, defaults.method);
-    EXPECT_EQ(line.parameters.tolerance, defaults.tolerance);
-    EXPECT_EQ(line.parameters.threads, defaults.threads);
+    for (const auto& parameter : parameter_table<FlowParameters>()) {
+        EXPECT_EQ(parameter.get(line.parameters), parameter.get({})) << parameter.name;
+    }
 }
 
 TEST(CommandLine, EveryOptionIsTaken) {
-    const auto line = parse({"a.PLY",
-                             "b.Stl",
-                             "--detail-size",
-                             "0.75%",
-                             "--order",
-                             "4",
-                             "--depth",
-                             "7",
-                             "--step-size",
-                             "2.5e-4",
-                             "--iterations=3",
-                             "--flow",
-                             "conformalized",
-                             "--boundary",
-                             "free",
-                             "--selected",
-                             "my quality",
-                             "--preserve",
-                             "Volume",
-                             "--method",
-                             "paper",
-                             "--tolerance",
-                             "1e-10",
-                             "--threads",
-                             "2",
-                             "--report",
-                             "r.json",
-                             "--quiet"});
+    std::vector<std::string> words = words_of(
+        "a.PLY b.Stl --detail-size 0.75% --order 4 --depth 7 --step-size 2.5e-4 --iterations=3 "
+        "--flow conformalized --boundary free --preserve Volume --method paper --tolerance 1e-10 "
+        "--threads 2 --report r.json --quiet --selected");
+    words.emplace_back("my quality");
+    const auto line = parse(words);
     EXPECT_EQ(line.lengths.at("detail_size").value, 0.75);
     EXPECT_TRUE(line.lengths.at("detail_size").in_per_cent);
     EXPECT_EQ(line.parameters.order, 4);
@@ -104,32 +84,26 @@ TEST(CommandLine, EveryOptionIsTaken) {
 }
 
 TEST(CommandLine, EveryValueOfAChoiceHasTheNameThatSelectsIt) {
-    const auto value = [](const ParameterOf<FlowParameters>& parameter, const std::string& name) {
-        const std::string option = "--" + parameter.name;
-        return parameter.get(parse({"a.ply", "b.ply", option.c_str(), name.c_str()}).parameters);
-    };
     for (const auto& parameter : parameter_table<FlowParameters>()) {
         for (std::size_t i = 0; i < parameter.choices.size(); ++i) {
             const std::string& name = parameter.choices[i].name;
-            EXPECT_EQ(value(parameter, name), ParameterValue(static_cast<int>(i))) << name;
+            const auto line = parse({"a.ply", "b.ply", option_of(parameter.name), name});
+            EXPECT_EQ(parameter.get(line.parameters), ParameterValue(static_cast<int>(i))) << name;
         }
     }
 }
 
 TEST(CommandLine, ALengthIsInUnitsOfTheMeshOrInPerCent) {
-    const auto length = [](const char* text) {
-        return parse({"a.ply", "b.ply", "--detail-size", text}).lengths.at("detail_size");
-    };
-    const auto expect = [&](const char* text, double value, bool in_per_cent) {
-        EXPECT_EQ(length(text).value, value) << text;
-        EXPECT_EQ(length(text).in_per_cent, in_per_cent) << text;
-    };
-    expect("1.5", 1.5, false);
-    expect("2e-3", 2e-3, false);
-    expect("0", 0, false);
-    expect("0.5%", 0.5, true);
-    expect("1e2%", 100, true);
-    expect("0%", 0, true);
+    for (const auto& [text, value, in_per_cent] : {std::tuple{"1.5", 1.5, false},
+                                                   {"2e-3", 2e-3, false},
+                                                   {"0", 0., false},
+                                                   {"0.5%", 0.5, true},
+                                                   {"1e2%", 100., true},
+                                                   {"0%", 0., true}}) {
+        const auto line = parse({"a.ply", "b.ply", "--detail-size", text});
+        EXPECT_EQ(line.lengths.at("detail_size").value, value) << text;
+        EXPECT_EQ(line.lengths.at("detail_size").in_per_cent, in_per_cent) << text;
+    }
 }
 
 TEST(CommandLine, WhatIsNoLengthIsRefusedWithTwoExamples) {
@@ -142,78 +116,52 @@ TEST(CommandLine, WhatIsNoLengthIsRefusedWithTwoExamples) {
 }
 
 TEST(CommandLine, OnlyAPlyHasPropertiesToSelectBy) {
-    EXPECT_THAT(complaint({"a.obj", "b.ply", "--selected", "q"}),
+    EXPECT_THAT(complaint("a.obj b.ply --selected q"),
                 HasSubstr("--selected needs a PLY file as INPUT"));
-    EXPECT_EQ(complaint({"a.Ply", "b.stl", "--selected", "q"}), "none");
+    EXPECT_EQ(complaint("a.Ply b.stl --selected q"), "none");
     EXPECT_THAT(complaint({"a.ply", "b.stl", "--selected", ""}), HasSubstr("--selected"));
 }
 
 TEST(CommandLine, InvalidArgumentsAreNamed) {
-    EXPECT_THAT(complaint({"a.ply"}), HasSubstr("OUTPUT is required"));
-    EXPECT_THAT(complaint({"a.ply", "b.ply", "--iterations", "abc"}),
-                HasSubstr("--iterations = abc"));
-    EXPECT_THAT(complaint({"a.ply", "b.ply", "--iterations", "2.5"}),
-                HasSubstr("--iterations = 2.5"));
-    EXPECT_THAT(complaint({"a.ply", "b.ply", "--depth", "99999999999"}), HasSubstr("--depth"));
-    EXPECT_THAT(complaint({"a.ply", "b.ply", "--rescale", "volume"}), HasSubstr("--rescale"));
-    EXPECT_THAT(complaint({"a.ply", "b.ply", "--order", "1.5"}), HasSubstr("--order = 1.5"));
-    EXPECT_THAT(complaint({"a.ply", "b.ply", "--speed", "2"}), HasSubstr("--speed"));
-    EXPECT_THAT(complaint({"a.ply", "b.ply", "c.ply"}), HasSubstr("c.ply"));
-    EXPECT_THAT(complaint({"a.ply", "b.ply", "--bad"}), HasSubstr("tracked_mcf --help"));
+    for (const auto& [arguments, named] :
+         {std::pair{"a.ply", "OUTPUT is required"},
+          {"a.ply b.ply --iterations abc", "--iterations = abc"},
+          {"a.ply b.ply --iterations 2.5", "--iterations = 2.5"},
+          {"a.ply b.ply --depth 99999999999", "--depth"},
+          {"a.ply b.ply --rescale volume", "--rescale"},
+          {"a.ply b.ply --order 1.5", "--order = 1.5"},
+          {"a.ply b.ply --speed 2", "--speed"},
+          {"a.ply b.ply c.ply d.ply", "not expected: c.ply d.ply."},
+          {"a.ply b.ply --bad", "tracked_mcf --help"},
+          {"a.ply b.ply --report ./b.ply", "--report would overwrite the mesh b.ply"},
+          {"a.ply b.ply --report a.ply", "--report would overwrite the mesh a.ply"},
+          {"a.ply b.ply --report c.ply", "--report would write JSON to c.ply"}}) {
+        EXPECT_THAT(complaint(arguments), HasSubstr(named)) << arguments;
+    }
 }
 
 TEST(CommandLine, TheExtensionTellsTheFormat) {
-    EXPECT_EQ(complaint({"a.ply", "b.xyz"}),
+    EXPECT_EQ(complaint("a.ply b.xyz"),
               "b.xyz: the extension tells the format; give .ply, .obj, .off or .stl.");
-    EXPECT_EQ(complaint({"scan", "b.ply"}),
+    EXPECT_EQ(complaint("scan b.ply"),
               "scan: the extension tells the format; give .ply, .obj, .off or .stl.");
-    EXPECT_EQ(complaint({"a.ply", "b.obj"}),
+    EXPECT_EQ(complaint("a.ply b.obj"),
               "b.obj: only PLY and STL can be written from another format; give OUTPUT the "
               "extension of INPUT, .ply or .stl.");
 }
 
-TEST(CommandLine, TheReportMustNotReplaceAMesh) {
-    EXPECT_THAT(complaint({"a.ply", "b.ply", "--report", "./b.ply"}),
-                HasSubstr("--report would overwrite the mesh b.ply"));
-    EXPECT_THAT(complaint({"a.ply", "b.ply", "--report", "a.ply"}),
-                HasSubstr("--report would overwrite the mesh a.ply"));
-    EXPECT_THAT(complaint({"a.ply", "b.ply", "--report", "c.ply"}),
-                HasSubstr("--report would write JSON to c.ply"));
-    EXPECT_THAT(complaint({"a.ply", "b.ply", "c.ply", "d.ply"}),
-                HasSubstr("not expected: c.ply d.ply."));
-}
-
 TEST(CommandLine, HelpNamesEveryOptionAndExplainsTheSharedParameters) {
-    const std::string help = parse({"--help"}).answer;
-    for (const char* option : {"INPUT",
-                               "OUTPUT",
-                               "--detail-size X|X%",
-                               "--order",
-                               "--depth",
-                               "--step-size",
-                               "--iterations",
-                               "--flow",
-                               "mean-curvature|conformalized",
-                               "--boundary",
-                               "locked|free",
-                               "--selected",
-                               "PROPERTY",
-                               "--preserve",
-                               "none|area|volume",
-                               "--method",
-                               "converged|paper",
-                               "--tolerance",
-                               "--threads",
-                               "--report",
-                               "--quiet",
-                               "--version",
-                               "--help",
-                               "Examples:",
-                               "Exit codes:",
-                               "PLY, OBJ, OFF and STL"}) {
-        EXPECT_THAT(help, HasSubstr(option));
+    const std::string help = parse("--help").answer;
+    for (const char* word :
+         {"INPUT", "OUTPUT", "--detail-size X|X%", "--selected", "PROPERTY", "--report", "--quiet",
+          "--version", "--help", "Examples:", "Exit codes:", "PLY, OBJ, OFF and STL"}) {
+        EXPECT_THAT(help, HasSubstr(word));
     }
     for (const auto& parameter : parameter_table<FlowParameters>()) {
+        std::string option = option_of(parameter.name);
+        for (const NamedChoice& choice : parameter.choices)
+            option += (&choice == &parameter.choices.front() ? ' ' : '|') + choice.name;
+        EXPECT_THAT(help, HasSubstr(option));
         EXPECT_THAT(unwrapped(help), HasSubstr(parameter.help)) << parameter.name;
     }
     // The labels of fields, such as "Detail size (0: auto)", are for dialogs.
@@ -222,14 +170,10 @@ TEST(CommandLine, HelpNamesEveryOptionAndExplainsTheSharedParameters) {
 
 TEST(CommandLine, HelpFitsIntoAHundredColumns) {
     std::size_t column = 0;
-    for (const char c : parse({"--help"}).answer) {
+    for (const char c : parse("--help").answer) {
         column = c == '\n' ? 0 : column + 1;
         ASSERT_LE(column, 100u);
     }
-}
-
-TEST(CommandLine, VersionIsTheProjects) {
-    EXPECT_EQ(parse({"--version"}).answer, "tracked_mcf " TRACKED_MCF_VERSION "\n");
 }
 
 }  // namespace

@@ -47,12 +47,6 @@ std::string wave() {
     return ply.str();
 }
 
-/// The words of a text.
-std::vector<std::string> words_of(const std::string& text) {
-    std::istringstream stream(text);
-    return {std::istream_iterator<std::string>(stream), {}};
-}
-
 class EachCommand : public ProgramFixture, public ::testing::WithParamInterface<Command> {
 protected:
     void SetUp() override { write_file(folder_ / "wave.ply", wave()); }

@@ -18,12 +18,6 @@ std::size_t file_count(const TemporaryFolder& folder) {
         std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()));
 }
 
-void commit(const fs::path& path, const std::string& content) {
-    OutputFile output(path);
-    write_text(output, content);
-    output.commit();
-}
-
 TEST(OutputFile, AppearsWhenCommitted) {
     const TemporaryFolder folder;
     OutputFile output(folder / "a.obj");

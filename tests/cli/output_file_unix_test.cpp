@@ -12,19 +12,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void commit(const fs::path& path, const std::string& content) {
-    OutputFile output(path);
-    write_text(output, content);
-    output.commit();
-}
-
 TEST(OutputFileOnUnix, ReplacesTheFileThatALinkLeadsTo) {
     const TemporaryFolder folder;
     write_file(folder / "real.ply", "before");
     fs::create_symlink(folder / "real.ply", folder / "link.ply");
-    OutputFile output(folder / "link.ply");
-    write_text(output, "after");
-    output.commit();
+    commit(folder / "link.ply", "after");
     EXPECT_TRUE(fs::is_symlink(folder / "link.ply"));
     EXPECT_EQ(read_file(folder / "real.ply"), "after");
 }

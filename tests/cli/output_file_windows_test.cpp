@@ -15,19 +15,14 @@ namespace {
 TEST(OutputFileOnWindows, LeavesAFileThatAnotherProgramHasOpen) {
     const TemporaryFolder folder;
     write_file(folder / "a.ply", "before");
-    const auto commit = [&] {
-        OutputFile output(folder / "a.ply");
-        write_text(output, "after");
-        output.commit();
-    };
     {
         const std::ifstream reader(folder / "a.ply");
-        EXPECT_THROW(commit(), UnwritableFile);
+        EXPECT_THROW(commit(folder / "a.ply", "after"), UnwritableFile);
     }
     EXPECT_EQ(read_file(folder / "a.ply"), "before");
     const std::filesystem::directory_iterator files(folder.path());
     EXPECT_EQ(std::distance(files, {}), 1) << "nothing temporary stays";
-    commit();
+    commit(folder / "a.ply", "after");
     EXPECT_EQ(read_file(folder / "a.ply"), "after");
 }
 

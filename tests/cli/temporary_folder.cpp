@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
+#include <iterator>
 #include <random>
 #include <sstream>
 #include <stdexcept>
@@ -60,6 +61,17 @@ std::string written_with_x_doubled(const std::string& content, const std::string
 
 void write_text(OutputFile& output, const std::string& text) {
     output.write([&](std::ostream& out) { out << text; });
+}
+
+void commit(const fs::path& path, const std::string& text) {
+    OutputFile output(path);
+    write_text(output, text);
+    output.commit();
+}
+
+std::vector<std::string> words_of(const std::string& text) {
+    std::istringstream stream(text);
+    return {std::istream_iterator<std::string>(stream), {}};
 }
 
 namespace {

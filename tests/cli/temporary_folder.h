@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "filter_tracked_mcf/hosts/cli/mesh_file.h"
 #include "filter_tracked_mcf/hosts/cli/output_file.h"
@@ -38,6 +39,10 @@ std::string written_with_x_doubled(const std::string& content, const std::string
 
 /// Writes `text`, and does not commit it.
 void write_text(OutputFile& output, const std::string& text);
+/// Writes `text` and commits it.
+void commit(const std::filesystem::path& path, const std::string& text);
+/// Returns the words of a text.
+std::vector<std::string> words_of(const std::string& text);
 
 /// The results of a run of the program tracked_mcf.
 struct ProgramRun {
