@@ -54,18 +54,6 @@ auto put(float value) {
     return [=](MeshModel& layer, RichParameterList&) { layer.cm.vert[17].P()[1] = value; };
 }
 
-void remove_everything(MeshModel& layer, RichParameterList&) {
-    layer.cm.Clear();
-}
-
-void remove_faces(MeshModel& layer, RichParameterList&) {
-    for (CFaceO& face : layer.cm.face) vcg::tri::Allocator<CMeshO>::DeleteFace(layer.cm, face);
-}
-
-void flatten_every_face(MeshModel& layer, RichParameterList&) {
-    for (CFaceO& face : layer.cm.face) face.V(2) = face.V(1);
-}
-
 void break_a_face(MeshModel& layer, RichParameterList&) {
     layer.cm.face[3].V(1) = nullptr;
 }
@@ -89,38 +77,15 @@ void select_nothing(MeshModel& layer, RichParameterList& list) {
     list.setValue("selected", BoolValue(true));
 }
 
-void preserve_the_area_of_a_selection(MeshModel&, RichParameterList& list) {
-    list.setValue("selected", BoolValue(true));
-    list.setValue("preserve", *host::choice(1));
-}
-
-void conformalize_an_open_volume(MeshModel& layer, RichParameterList& list) {
-    vcg::tri::Allocator<CMeshO>::DeleteFace(layer.cm, layer.cm.face[7]);
-    list.setValue("flow", *host::choice(1));
-    list.setValue("boundary", *host::choice(1));
-    list.setValue("preserve", *host::choice(2));
-}
-
-void preserve_the_volume_of_a_turned_face(MeshModel& layer, RichParameterList& list) {
-    std::swap(layer.cm.face[7].V(0), layer.cm.face[7].V(1));
-    list.setValue("preserve", *host::choice(2));
-}
-
 INSTANTIATE_TEST_SUITE_P(
     BadInputs, PluginRefuses,
     testing::Values(
-        BadInput{"EmptyMesh", remove_everything, "empty"},
-        BadInput{"NoFaces", remove_faces, "no faces"},
         BadInput{"NaNCoordinate", put(kNaN), "finite"},
         BadInput{"InfiniteCoordinate", put(-kInfinity), "finite"},
-        BadInput{"AllFacesDegenerate", flatten_every_face, "degenerate"},
         BadInput{"FaceWithoutAVertex", break_a_face, "does not exist"},
         BadInput{"DetailSizeOfTheWrongType", replace<RichInt>("detail_size", 1), "detail_size"},
         BadInput{"OrderOfTheWrongType", replace<RichBool>("order", true), "order is missing"},
         BadInput{"NothingSelected", select_nothing, "No face is selected"},
-        BadInput{"AreaOfASelection", preserve_the_area_of_a_selection, "Preserving the area"},
-        BadInput{"ConformalizedOpenVolume", conformalize_an_open_volume, "open"},
-        BadInput{"VolumeOfATurnedFace", preserve_the_volume_of_a_turned_face, "oriented"},
         BadInput{"SelectedOfTheWrongType", replace<RichInt>("selected", 1), "selected"},
         BadInput{"DepthOfTheWrongType", replace<RichFloat>("depth", 5.0F), "depth"}),
     [](const auto& test) { return std::string(test.param.name); });

@@ -196,7 +196,7 @@ TEST_P(EachFilter, UpdatesBoxAndNormals) {
     EXPECT_EQ(face_normal, layer.cm.face[11].cN());
 }
 
-TEST_P(EachFilter, DeletedElementsAreIgnored) {
+TEST_P(EachFilter, DeletedElementsAndTheTransformationAreIgnored) {
     select_half();
     delete_first_vertex(layer);
     const Belongings belongings(layer);
@@ -207,12 +207,9 @@ TEST_P(EachFilter, DeletedElementsAreIgnored) {
 
     MeshModel& compact = host::add_layer(document, "compact");
     make_layer(compact);
-    for (std::size_t i = 0; i < compact.cm.face.size(); ++i) {
-        if (layer.cm.face[i].IsS())
-            compact.cm.face[i].SetS();
-        else
-            compact.cm.face[i].ClearS();
-    }
+    compact.cm.Tr.SetIdentity();
+    for (std::size_t i = 0; i < compact.cm.face.size(); ++i)
+        layer.cm.face[i].IsS() ? compact.cm.face[i].SetS() : compact.cm.face[i].ClearS();
     delete_first_vertex(compact);
     vcg::tri::Allocator<CMeshO>::CompactEveryVector(compact.cm);
     ASSERT_TRUE(apply());

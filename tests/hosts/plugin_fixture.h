@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <map>
 #include <string>
 #include <utility>
@@ -61,6 +62,17 @@ protected:
     RichParameterList parameters;
     host::Outcome outcome{};
 };
+
+/// What the user does in the first callback from this percentage on.
+inline std::function<void()> action;
+inline int action_percent = 0;
+
+inline bool process_events(int percent, const char*) {
+    if (percent >= action_percent) {
+        if (const auto act = std::exchange(action, nullptr)) act();
+    }
+    return true;
+}
 
 inline bool contains(const std::string& text, const std::string& word) {
     return text.find(word) != std::string::npos;

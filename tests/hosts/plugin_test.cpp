@@ -60,45 +60,6 @@ TEST_F(Plugin, TheDetailSizeIsAtFirstThatOfTheFacesThatWillFlow) {
     EXPECT_EQ(at_first(), 0) << "the mesh cannot flow";
 }
 
-TEST_F(Plugin, ADetailSizeOfZeroIsTheOneAtFirst) {
-    const auto original = layer.cm.vert;
-    for (CFaceO& face : layer.cm.face) face.ClearS();
-    parameters.setValue("detail_size",
-                        filter().parameters(document).getParameterByName("detail_size").value());
-    ASSERT_TRUE(apply()) << outcome.message;
-    const auto first = layer.cm.vert;
-    for (std::size_t i = 0; i < original.size(); ++i) layer.cm.vert[i].P() = original[i].cP();
-    host::set_length(parameters, "detail_size", 0);
-    ASSERT_TRUE(apply()) << outcome.message;
-    for (std::size_t i = 0; i < original.size(); ++i) {
-        EXPECT_LT(vcg::Distance(layer.cm.vert[i].cP(), first[i].cP()), 1e-6) << i;
-    }
-}
-
-TEST_F(Plugin, SelectedIsOnAtFirstIfFacesAreSelected) {
-    const auto is_on_at_first = [&] { return filter().parameters(document).getBool("selected"); };
-    layer.cm.sfn = 0;
-    EXPECT_TRUE(is_on_at_first()) << "whatever the counter says";
-    for (CFaceO& face : layer.cm.face) face.ClearS();
-    layer.cm.sfn = 17;
-    EXPECT_FALSE(is_on_at_first());
-    layer.cm.face[3].SetS();
-    vcg::tri::Allocator<CMeshO>::DeleteFace(layer.cm, layer.cm.face[3]);
-    EXPECT_FALSE(is_on_at_first()) << "by a deleted face";
-}
-
-TEST_F(Plugin, ABoundaryKeepsItsBits) {
-    delete_first_vertex(layer);
-    const Belongings belongings(layer);
-    const auto before = position_bits(layer);
-    ASSERT_TRUE(apply()) << outcome.message;
-    const auto after = position_bits(layer);
-    std::size_t kept = 0;
-    for (std::size_t i = 1; i < before.size(); ++i) kept += before[i] == after[i] ? 1 : 0;
-    EXPECT_EQ(kept, 6u) << "the neighbours of the vertex that is missing";
-    EXPECT_TRUE(Belongings(layer) == belongings);
-}
-
 TEST_F(Plugin, AFlowThatVanishesSucceedsAndLogsIt) {
     parameters.setValue("step_size", FloatValue(1e3f));
     parameters.setValue("iterations", IntValue(100));

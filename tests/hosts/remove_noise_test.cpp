@@ -27,24 +27,6 @@ protected:
     }
 };
 
-TEST_F(RemoveNoise, MovesTheSurfaceTowardsTheOneWithoutNoise) {
-    // The layer is a torus with bumps finer than its edges, which are noise, too.
-    const auto distance = [&] {
-        double squares = 0;
-        for (const CVertexO& vertex : layer.cm.vert) {
-            const Point3m p = vertex.cP();
-            const double height = std::hypot(std::hypot(p[0], p[1]) - 2, p[2]) - 1;
-            squares += height * height;
-        }
-        return std::sqrt(squares / double(layer.cm.vert.size()));
-    };
-    add_noise(0.02);
-    const double noisy = distance();
-    ASSERT_TRUE(apply()) << outcome.message;
-    EXPECT_LT(distance(), 0.5 * noisy);
-    EXPECT_TRUE(contains(outcome.log, ": Removed noise from 1800 vertices")) << outcome.log;
-}
-
 TEST_F(RemoveNoise, MovesNoVertexFartherThanTheBound) {
     add_noise(0.02);
     const auto before = layer.cm.vert;

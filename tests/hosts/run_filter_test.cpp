@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Tests the code of the plugin that needs no host: it converts the values that hosts pass.
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,8 +14,6 @@
 namespace tracked_mcf {
 
 namespace {
-
-using ::testing::HasSubstr;
 
 /// Returns the message of a filter that fails with this error.
 template <class Error>
@@ -60,37 +57,6 @@ TEST(Outputs, AreAllNumbersOfTheReport) {
     EXPECT_EQ(outputs.at("peak_memory_bytes"), Outputs::mapped_type(std::pow(2.0, 40)));
     EXPECT_EQ(outputs.count("stop") + outputs.count("steps"), 0U) << "they are no numbers";
     EXPECT_EQ(outputs.size(), report_table<FlowReport>().size() - 2);
-}
-
-TEST(Message, NamesTheFirstStepAboveTheToleranceAndTheRemedy) {
-    using run_filter_detail::message_of;
-    FlowReport report;
-    report.steps.resize(5);
-    EXPECT_EQ(message_of(FlowParameters(), report).find("Warning"), std::string::npos);
-    report.steps[3].reached_tolerance = false;
-    report.steps[3].error_estimate = 0.02;
-    report.steps[3].solver_iterations = 100;
-    EXPECT_THAT(message_of(FlowParameters(), report),
-                HasSubstr("\nWarning: The solver stopped short of the tolerance 0.001 in 1 of 5 "
-                          "steps: step 4, at 0.02 after 100 iterations. Look at the result; "));
-}
-
-TEST(DefaultDetailSize, IsThatOfTheSelectedTriangles) {
-    using run_filter_detail::default_detail_size_or_zero;
-    const TriangleMesh mesh = {{{0, 0, 0}, {3, 0, 0}, {0, 4, 0}, {0, 4, 6}},
-                               {{0, 1, 2}, {0, 2, 3}}};
-    const double second = 10 + std::sqrt(52);
-    EXPECT_DOUBLE_EQ(default_detail_size_or_zero(mesh, {1, 0}), kDefaultDetailInEdges * 4);
-    EXPECT_DOUBLE_EQ(default_detail_size_or_zero(mesh, {}),
-                     kDefaultDetailInEdges * (12 + second) / 6);
-}
-
-TEST(DefaultDetailSize, OfAMeshThatCannotFlowIsZero) {
-    using run_filter_detail::default_detail_size_or_zero;
-    EXPECT_EQ(default_detail_size_or_zero({}, {}), 0);
-    EXPECT_EQ(default_detail_size_or_zero({{{0, 0, 0}, {1, 0, 0}, {0, NAN, 0}}, {{0, 1, 2}}}, {}),
-              0);
-    EXPECT_EQ(default_detail_size_or_zero({{{0, 0, 0}}, {{0, 1, 2}}}, {}), 0);
 }
 
 TEST(Guard, TurnsEveryExceptionIntoAMessage) {

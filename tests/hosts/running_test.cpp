@@ -12,17 +12,6 @@ namespace tracked_mcf {
 
 namespace {
 
-/// What the user does in the first callback from this percentage on.
-std::function<void()> action;
-int action_percent = 0;
-
-bool process_events(int percent, const char*) {
-    if (percent >= action_percent) {
-        if (const auto act = std::exchange(action, nullptr)) act();
-    }
-    return true;
-}
-
 /// The percentage at which the user acts. 100 is that of the last callback.
 class Running : public Plugin, public testing::WithParamInterface<int> {
 protected:

@@ -13,7 +13,7 @@ external=$here/../../../external
 python=$build/python/bin/python
 "$external/pymeshlab.sh" "$build/python" || python=/usr/bin/python3
 "$external/meshlab_source.sh" "$build/meshlab-source" 2025.07
-"$here/../build_meshlab.sh" "$build/meshlab-source" "$build/meshlab" double io_base filter_unsharp
+"$here/../build_meshlab.sh" "$build/meshlab-source" "$build/meshlab" double io_base
 library=$build/meshlab/src/distrib
 "$here/../run_host_tests.sh" "$build/plugin" -DMESHLAB_SCALAR=double \
     -DMESHLAB_SOURCE_DIR="$build/meshlab-source" -DTRACKED_MCF_PYTHON="$python" \
