@@ -66,8 +66,7 @@ FlowReport flow(TriangleMesh& mesh, Method method, double step_size, int iterati
         EXPECT_LE(report.steps[i].area, report.steps[i - 1].area + 1e-6 * report.area_before) << i;
     }
     for (const StepReport& step : report.steps) EXPECT_TRUE(step.reached_tolerance);
-    Eigen::AlignedBox3d box;
-    for (const auto& position : before.positions) box.extend(position);
+    const Eigen::AlignedBox3d box = bounding_box(before);
     for (const auto& position : mesh.positions) EXPECT_TRUE(box.contains(position));
     // Beside a pinch, edges do grow: LongStepsStayStable prints by how much. An unstable vertex
     // would cross much of the mesh.

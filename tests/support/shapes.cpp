@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <map>
 #include <random>
 
@@ -306,6 +305,27 @@ TriangleMesh separate_triangles(int count) {
         mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
     }
     return mesh;
+}
+
+TriangleMesh voxels(int begin, int end,
+                    const std::function<bool(const Eigen::Vector3i&)>& is_solid) {
+    const int side = end - begin;
+    const auto is_filled = [&](const Eigen::Vector3i& at) {
+        return at.minCoeff() >= begin && at.maxCoeff() < end && is_solid(at);
+    };
+    Welder welder;
+    for (int i = 0; i < side * side * side; ++i) {
+        const Eigen::Vector3i at =
+            Eigen::Vector3i(i % side, i / side % side, i / side / side).array() + begin;
+        if (!is_filled(at)) continue;
+        for (int axis = 0; axis < 3; ++axis) {
+            Vector3d u = Vector3d::Unit((axis + 1) % 3), v = Vector3d::Unit((axis + 2) % 3);
+            const Eigen::Vector3i up = Eigen::Vector3i::Unit(axis);
+            if (!is_filled(at + up)) add_square(welder, (at + up).cast<double>(), u, v, 1);
+            if (!is_filled(at - up)) add_square(welder, at.cast<double>(), v, u, 1);
+        }
+    }
+    return std::move(welder).mesh();
 }
 
 double volume(const TriangleMesh& mesh) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <functional>
 
 #include "filter_tracked_mcf/core/triangle_mesh.h"
 
@@ -56,6 +57,11 @@ TriangleMesh split_in_four(const TriangleMesh& mesh);
 
 /// Small unconnected triangles at random positions in the unit cube.
 TriangleMesh separate_triangles(int count);
+
+/// The faces between solid and empty cells of side 1, among the cells whose lower corners have
+/// coordinates from `begin` to `end` - 1. The others are empty. Vertices are welded.
+TriangleMesh voxels(int begin, int end,
+                    const std::function<bool(const Eigen::Vector3i&)>& is_solid);
 
 /// Returns the volume inside a closed mesh: the sum of the signed volumes of the tetrahedra between
 /// its triangles and the origin.

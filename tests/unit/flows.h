@@ -3,12 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <random>
 
 #include "filter_tracked_mcf/core/evolve.h"
 #include "filter_tracked_mcf/core/mesh/measures.h"
+#include "tests/support/same_bits.h"
 #include "tests/support/shapes.h"
+#include "tests/support/surface_distance.h"
 
 namespace tracked_mcf {
 
@@ -42,27 +43,16 @@ inline TriangleMesh evolved(TriangleMesh mesh, const FlowParameters& p) {
 
 /// Returns the largest distance between vertices of the same index.
 inline double distance(const TriangleMesh& a, const TriangleMesh& b) {
-    double largest = 0;
-    for (std::size_t i = 0; i < a.positions.size(); ++i) {
-        largest = std::max(largest, (a.positions[i] - b.positions[i]).norm());
-    }
-    return largest;
+    return worst_distance(a, b);
 }
 
-/// Compares bits: unlike ==, it distinguishes -0 from 0, and a NaN equals itself.
-inline bool same_bits(const TriangleMesh& a, const TriangleMesh& b) {
-    if (a.positions.size() != b.positions.size()) return false;
-    if (a.positions.empty()) return true;  // memcmp must not get null pointers
-    const std::size_t bytes = a.positions.size() * sizeof(Eigen::Vector3d);
-    return std::memcmp(a.positions.data(), b.positions.data(), bytes) == 0;
-}
-
-/// Compares points without NaN in the same way.
-inline bool same_bits(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-    for (int axis = 0; axis < 3; ++axis) {
-        if (a[axis] != b[axis] || std::signbit(a[axis]) != std::signbit(b[axis])) return false;
+/// Returns the volume between two states of a surface.
+inline double volume_between(const TriangleMesh& before, const TriangleMesh& after) {
+    double sum = 0;
+    for (const Triangle& t : before.triangles) {
+        sum += swept_volume(corners_of(before.positions, t), corners_of(after.positions, t));
     }
-    return true;
+    return sum;
 }
 
 inline TriangleMesh turned(const TriangleMesh& mesh, double angle, const Eigen::Vector3d& axis) {

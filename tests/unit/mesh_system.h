@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <random>
+#include <vector>
 
 #include "filter_tracked_mcf/core/flow/solver/field.h"
 #include "filter_tracked_mcf/core/flow/stepping/flow_surface.h"
@@ -14,6 +15,13 @@ namespace tracked_mcf {
 inline FlowSurface flow_surface(const TriangleMesh& mesh,
                                 BoundaryCondition boundary = BoundaryCondition::Free) {
     return flow_surface_of(Domain(mesh, boundary), {});
+}
+
+/// Returns the grid of an octree of these vertices.
+inline Grid grid_around(const std::vector<Eigen::Vector3d>& positions, int depth) {
+    Eigen::AlignedBox3d box;
+    for (const Eigen::Vector3d& position : positions) box.extend(position);
+    return with_depth(cube_around(box), depth);
 }
 
 inline TriangleElements elements_of(const FlowSurface& surface) {

@@ -27,9 +27,7 @@ struct LevelSystem {
 /// vertices, in which close sheets have elements of their own. `step` is in squared cells.
 inline LevelSystem vertex_system(const TriangleMesh& mesh, int depth, double step) {
     const FlowSurface surface = flow_surface(mesh);
-    Eigen::AlignedBox3d box;
-    for (const Eigen::Vector3d& position : surface.positions) box.extend(position);
-    const Grid grid = with_depth(cube_around(box), depth);
+    const Grid grid = grid_around(surface.positions, depth);
     const VertexOctree octree(surface.stars, surface.positions, grid);
     const TriangleElements elements = elements_of(surface);
     MeshSystem system(surface.stars, surface.fixed);

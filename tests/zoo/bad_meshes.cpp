@@ -292,14 +292,8 @@ TriangleMesh on_grid_planes(Random& random) {
 }
 
 TriangleMesh sheets(Random& random) {
-    TriangleMesh mesh;
     const int count = random.integer(2, 40), n = random.integer(1, 5);
-    const double distance = random.log_between(1e-12, 0.1);
-    for (int i = 0; i < count; ++i) {
-        mesh = shapes::merged(
-            mesh, shapes::transformed(shapes::square(n), placed({0, 0, i * distance}, 1)));
-    }
-    return mesh;
+    return shapes::stack(shapes::square(n), count, random.log_between(1e-12, 0.1));
 }
 
 /// Pages that share a spine.
@@ -387,33 +381,9 @@ TriangleMesh voxels(Random& random) {
     for (int i = 0; i < n * n * n; ++i) {
         if (random.chance(filled)) solid.insert({i % n, i / n % n, i / n / n});
     }
-    TriangleMesh mesh;
-    std::vector<std::int32_t> vertex_at;
-    const auto vertex = [&](const Eigen::Vector3i& p) {
-        return p[0] + (n + 1) * (p[1] + (n + 1) * p[2]);
-    };
-    for (int i = 0; i < (n + 1) * (n + 1) * (n + 1); ++i) {
-        mesh.positions.emplace_back(i % (n + 1), i / (n + 1) % (n + 1), i / (n + 1) / (n + 1));
-    }
-    for (const auto& cube : solid) {
-        for (int axis = 0; axis < 3; ++axis) {
-            for (const int side : {0, 1}) {
-                auto neighbour = cube;
-                neighbour[axis] += 2 * side - 1;
-                if (solid.count(neighbour) > 0) continue;
-                Eigen::Vector3i corner(cube[0], cube[1], cube[2]);
-                corner[axis] += side;
-                Eigen::Vector3i u = Eigen::Vector3i::Unit((axis + 1) % 3);
-                Eigen::Vector3i v = Eigen::Vector3i::Unit((axis + 2) % 3);
-                if (side == 0) std::swap(u, v);
-                const std::array<std::int32_t, 4> quad = {
-                    vertex(corner), vertex(corner + u), vertex(corner + u + v), vertex(corner + v)};
-                mesh.triangles.push_back({quad[0], quad[1], quad[2]});
-                mesh.triangles.push_back({quad[0], quad[2], quad[3]});
-            }
-        }
-    }
-    return mesh;
+    return shapes::voxels(0, n, [&](const Eigen::Vector3i& at) {
+        return solid.count({at[0], at[1], at[2]}) > 0;
+    });
 }
 
 /// Two spheres joined by a tube that may be thinner than a cell; not welded.

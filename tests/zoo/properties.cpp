@@ -3,10 +3,8 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <string>
 #include <utility>
 
@@ -14,6 +12,7 @@
 #include "filter_tracked_mcf/core/mesh/measures.h"
 #include "filter_tracked_mcf/core/mesh/mesh_topology.h"
 #include "filter_tracked_mcf/core/mesh/weld.h"
+#include "tests/support/same_bits.h"
 #include "tests/zoo/case_run.h"
 #include "tests/zoo/invariance.h"
 #include "tests/zoo/reports.h"
@@ -21,22 +20,6 @@
 namespace tracked_mcf::zoo {
 
 namespace {
-
-std::array<std::uint64_t, 3> bits_of(const Eigen::Vector3d& vector) {
-    std::array<std::uint64_t, 3> bits{};
-    std::memcpy(bits.data(), vector.data(), sizeof(bits));
-    return bits;
-}
-
-/// Unlike ==, it distinguishes -0 from 0, and a NaN equals itself.
-bool same_bits(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-    return bits_of(a) == bits_of(b);
-}
-
-bool same_bits(const std::vector<Eigen::Vector3d>& a, const std::vector<Eigen::Vector3d>& b) {
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                      [](const auto& p, const auto& q) { return same_bits(p, q); });
-}
 
 /// Returns, per vertex, whether it keeps its place though a selected triangle may use it: where the
 /// strength is 0, and, for fair(), where a triangle that is not selected uses it, too.

@@ -17,6 +17,7 @@
 #include "filter_tracked_mcf/core/parameter_table.h"
 #include "tests/support/shapes.h"
 #include "tests/zoo/bad_meshes.h"
+#include "tests/zoo/case_run.h"
 
 namespace tracked_mcf::zoo {
 
@@ -30,12 +31,7 @@ bool is_selected(const Selection& selection, std::size_t triangle) {
 }
 
 Eigen::AlignedBox3d box_of_selected(const TriangleMesh& mesh, const Selection& selection) {
-    Eigen::AlignedBox3d box;
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-        if (!is_selected(selection, i)) continue;
-        for (const std::int32_t vertex : mesh.triangles[i]) box.extend(mesh.positions[vertex]);
-    }
-    return box;
+    return box_of(mesh, vertices_of(mesh, selection));
 }
 
 /// The triangles on one side of a plane, or random ones.

@@ -10,6 +10,7 @@
 
 #include "filter_tracked_mcf/core/parallel/raw_vector.h"
 #include "tests/support/shapes.h"
+#include "tests/unit/flows.h"
 
 namespace tracked_mcf {
 namespace {
@@ -51,15 +52,6 @@ TEST(EnclosedVolume, OfABoxIsTheProductOfItsSidesAndChangesSignWithTheNormals) {
     EXPECT_NEAR(enclosed_volume(box), -6, 1e-13);
 }
 
-/// Returns the volume that all triangles of a mesh sweep.
-double swept_by(const TriangleMesh& before, const TriangleMesh& after) {
-    double sum = 0;
-    for (const Triangle& t : before.triangles) {
-        sum += swept_volume(corners_of(before.positions, t), corners_of(after.positions, t));
-    }
-    return sum;
-}
-
 TEST(SweptVolume, OfAPrismIsBaseTimesHeightAndPositiveAlongTheNormal) {
     const std::array<Eigen::Vector3d, 3> base = {{{0, 0, 0}, {2, 0, 0}, {0, 3, 0}}};
     std::array<Eigen::Vector3d, 3> moved = base;
@@ -85,8 +77,9 @@ TEST(SweptVolume, OfAClosedSurfaceIsTheChangeOfItsVolume) {
     for (Eigen::Vector3d& p : after.positions) {
         p = {1 - p[1] + 0.3 * std::sin(2 * p[2]), 2 * p[0], p[2] * (1 + 0.5 * p[0])};
     }
-    EXPECT_NEAR(swept_by(before, after), enclosed_volume(after) - enclosed_volume(before), 1e-12);
-    EXPECT_GT(std::abs(swept_by(before, after)), 1);
+    EXPECT_NEAR(volume_between(before, after), enclosed_volume(after) - enclosed_volume(before),
+                1e-12);
+    EXPECT_GT(std::abs(volume_between(before, after)), 1);
 }
 
 TEST(SweptVolume, OfAnOpenSurfaceLosesNoDigitsFarFromTheOrigin) {
@@ -95,7 +88,7 @@ TEST(SweptVolume, OfAnOpenSurfaceLosesNoDigitsFarFromTheOrigin) {
     const TriangleMesh before = shapes::transformed(here, far);
     const TriangleMesh after =
         shapes::transformed(before, Eigen::Affine3d(Eigen::Translation3d(0, 0, 0.25)));
-    EXPECT_NEAR(swept_by(before, after), 0.25, 1e-9);
+    EXPECT_NEAR(volume_between(before, after), 0.25, 1e-9);
 }
 
 TEST(IsThin, ComparesTheAreaWithTheSquareOfTheLongestEdge) {

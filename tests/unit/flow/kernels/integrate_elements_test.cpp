@@ -10,17 +10,13 @@
 #include <tuple>
 #include <vector>
 
-#include "filter_tracked_mcf/core/flow/cells/bspline.h"
 #include "filter_tracked_mcf/core/flow/kernels/kernels.h"
 #include "filter_tracked_mcf/core/flow/system/matrix_blocks.h"
-#include "tests/support/bspline_gradients.h"
+#include "tests/unit/flow/equation_4.h"
 #include "tests/unit/flow/kernels/random_surface.h"
 
 namespace tracked_mcf {
 namespace {
-
-using Matrix8 = Eigen::Matrix<double, 8, 8>;
-using Vector8 = Eigen::Matrix<double, 8, 1>;
 
 constexpr double kStiffnessWeight = 0.75;
 
@@ -55,43 +51,18 @@ Results integrate(const Surface& surface, InstructionSet instructions,
     return results;
 }
 
-/// Equation 4 in double with the paper's two tangents.
-struct Reference {
-    Matrix8 mass = Matrix8::Zero();
-    Matrix8 stiffness = Matrix8::Zero();
-    Matrix83 right_side = Matrix83::Zero();
-    double area = 0;
-    int collapsed = 0;
-};
-
-void add_sample(const Eigen::Vector3d& normal, const Eigen::Vector3d& local, double weight,
-                const Matrix83& x, Reference& reference) {
-    Eigen::Matrix<double, 3, 2> tangents;
-    tangents.col(0) = normal.unitOrthogonal();
-    tangents.col(1) = normal.cross(tangents.col(0));
-    const Vector8 values = bspline_values(local);
-    const Eigen::Matrix<double, 8, 2> slopes = bspline_gradients(local) * tangents;
-    const Eigen::Matrix<double, 3, 2> dx = x.transpose() * slopes;
-    const Eigen::Matrix2d g = dx.transpose() * dx;
-    const double area = dx.col(0).cross(dx.col(1)).norm();
-    if (area <= 1e-4) {
-        ++reference.collapsed;
-        return;
-    }
-    const Matrix8 stiffness = weight * area * slopes * g.inverse() * slopes.transpose();
-    reference.mass += area * weight * values * values.transpose();
-    reference.stiffness += stiffness;
-    reference.right_side -= kStiffnessWeight * stiffness * x;
-    reference.area += area * weight;
-}
-
-Reference reference_for(const Surface& surface, std::size_t element) {
+Equation4 equation_4_of(const Surface& surface, std::size_t element) {
     const Matrix83 x = embedding_of(surface, element);
-    Reference reference;
+    Equation4 equation;
     for_each_sample(surface, element,
                     [&](const Eigen::Vector3d& normal, const Eigen::Vector3d& local,
-                        double weight) { add_sample(normal, local, weight, x, reference); });
-    return reference;
+                        double weight) { equation.add_sample(normal, local, weight, x); });
+    return equation;
+}
+
+Matrix83 right_side_for(const Surface& surface, std::size_t element) {
+    return -kStiffnessWeight * equation_4_of(surface, element).stiffness *
+           embedding_of(surface, element);
 }
 
 Matrix83 right_side_of(const Results& results, std::size_t element) {
@@ -99,18 +70,18 @@ Matrix83 right_side_of(const Results& results, std::size_t element) {
         .cast<double>();
 }
 
-void expect_reference(const Surface& surface, const Results& results) {
+void expect_equation_4(const Surface& surface, const Results& results) {
     std::int64_t collapsed = 0;
     for (std::size_t element = 0; element < results.right_sides.size(); ++element) {
         SCOPED_TRACE("element " + std::to_string(element));
-        const Reference expected = reference_for(surface, element);
+        const Equation4 expected = equation_4_of(surface, element);
         const Matrix8 matrix = expected.mass + kStiffnessWeight * expected.stiffness;
         const ElementMatrix whole = results.matrices.of(static_cast<std::int64_t>(element));
         const Matrix8 actual =
             Eigen::Map<const Eigen::Matrix<float, 8, 8>>(whole.entry[0]).cast<double>();
         const Matrix83 right_side = right_side_of(results, element);
         EXPECT_LE((actual - matrix).norm(), 2e-6 * matrix.norm());
-        EXPECT_LE((right_side - expected.right_side).norm(), 2e-6 * matrix.norm());
+        EXPECT_LE((right_side - right_side_for(surface, element)).norm(), 2e-6 * matrix.norm());
         // With edges, the area is the difference of two sums.
         EXPECT_NEAR(results.areas[element], expected.area, 1e-6 * expected.mass.sum());
         collapsed += expected.collapsed;
@@ -121,7 +92,7 @@ void expect_reference(const Surface& surface, const Results& results) {
 class IntegrateElements : public testing::TestWithParam<InstructionSet> {
 protected:
     void check(const Surface& surface) {
-        expect_reference(surface, integrate(surface, GetParam()));
+        expect_equation_4(surface, integrate(surface, GetParam()));
     }
 };
 
@@ -168,7 +139,7 @@ TEST_P(IntegrateElements, KeepTheRightHandSideAccurateWhereTheSurfaceIsCompresse
     }
     const Results results = integrate(surface, GetParam());
     for (std::size_t element = 0; element < results.right_sides.size(); ++element) {
-        const Matrix83 expected = reference_for(surface, element).right_side;
+        const Matrix83 expected = right_side_for(surface, element);
         EXPECT_LE((right_side_of(results, element) - expected).norm(), 2e-6 * expected.norm());
     }
 }
@@ -181,7 +152,7 @@ TEST_P(IntegrateElements, WriteTheStiffnessesAlone) {
         const ElementMatrix whole = with.stiffnesses.of(static_cast<std::int64_t>(element));
         const Matrix8 stiffness =
             Eigen::Map<const Eigen::Matrix<float, 8, 8>>(whole.entry[0]).cast<double>();
-        const Matrix8 expected = kStiffnessWeight * reference_for(surface, element).stiffness;
+        const Matrix8 expected = kStiffnessWeight * equation_4_of(surface, element).stiffness;
         EXPECT_LE((stiffness - expected).norm(), 2e-6 * expected.norm());
         for (int entry = 0; entry < 64; ++entry) {
             const auto index = static_cast<std::int64_t>(element);

@@ -16,8 +16,6 @@
 
 namespace tracked_mcf {
 
-using Matrix83 = Eigen::Matrix<double, 8, 3>;
-
 /// Elements with samples anywhere. No two elements share unknowns.
 struct Surface {
     std::vector<Fragment> fragments;

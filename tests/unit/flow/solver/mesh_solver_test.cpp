@@ -6,7 +6,6 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <memory>
 #include <random>
@@ -31,10 +30,8 @@ struct SolverOfMesh {
           solver(surface.stars, surface.fixed, surface.components),
           step(step_size) {
         if (depth > 0) {
-            Eigen::AlignedBox3d box;
-            for (const Eigen::Vector3d& position : surface.positions) box.extend(position);
             solver.use(std::make_unique<VertexOctree>(surface.stars, surface.positions,
-                                                      with_depth(cube_around(box), depth)));
+                                                      grid_around(surface.positions, depth)));
         }
         solver.take(elements, step);
     }
@@ -68,11 +65,6 @@ struct SolverOfMesh {
 
 double energy_norm(const Eigen::MatrixXd& a, const Eigen::MatrixXd& x) {
     return std::sqrt(x.cwiseProduct(a * x).sum());
-}
-
-bool same_bits_of(const Vertices& a, const Vertices& b) {
-    return a.size() == b.size() &&
-           std::memcmp(a.data(), b.data(), a.size() * sizeof(Eigen::Vector3d)) == 0;
 }
 
 TEST(MeshSolver, SolvesToTheTolerance) {
@@ -167,10 +159,8 @@ TEST(MeshSolver, GoesOnWithoutAnOctreeThatDoesNotHelp) {
     SolverOfMesh with(shapes::bumpy_sphere(30), 3, 1e4), without(shapes::bumpy_sphere(30), 0, 1e4);
     Vertices shuffled = with.surface.positions;
     std::shuffle(shuffled.begin(), shuffled.end(), std::mt19937(1));
-    Eigen::AlignedBox3d box;
-    for (const Eigen::Vector3d& position : shuffled) box.extend(position);
-    with.solver.use(std::make_unique<VertexOctree>(with.surface.stars, shuffled,
-                                                   with_depth(cube_around(box), 3)));
+    with.solver.use(
+        std::make_unique<VertexOctree>(with.surface.stars, shuffled, grid_around(shuffled, 3)));
     with.solver.take(with.elements, with.step);
     Vertices x, expected;
     const MeshConvergence result = with.solver.solve(with.flow(), 1e-4, x);
@@ -229,7 +219,7 @@ TEST(MeshSolver, ScalesWithRightSidesOfAnySize) {
                 const MeshConvergence scaled =
                     of.solver.solve(std::ldexp(1.0F, exponent) * b, tolerance, x);
                 for (Eigen::Vector3d& d : x) d = std::ldexp(1.0, -exponent) * d;
-                EXPECT_TRUE(same_bits_of(x, expected)) << exponent;
+                EXPECT_TRUE(same_bits(x, expected)) << exponent;
                 EXPECT_EQ(scaled.iterations, usual.iterations);
                 EXPECT_EQ(scaled.error_estimate, usual.error_estimate);
                 EXPECT_EQ(std::ldexp(scaled.residual_after, -exponent), usual.residual_after);
@@ -257,7 +247,7 @@ TEST(MeshSolver, HasTheSameBitsForAnyNumberOfThreads) {
         Vertices x;
         of.solver.solve(random_at_vertices(of.surface, 1), 1e-7, x);
         if (threads == 1) expected = x;
-        EXPECT_TRUE(same_bits_of(x, expected)) << threads;
+        EXPECT_TRUE(same_bits(x, expected)) << threads;
     }
 }
 

@@ -21,18 +21,13 @@ struct OctreeOfMesh {
         : surface(flow_surface(mesh, boundary)),
           elements(elements_of(surface)),
           system(surface.stars, surface.fixed),
-          grid(with_depth(cube_around(box()), depth)),
+          grid(grid_around(surface.positions, depth)),
           octree(surface.stars, surface.positions, grid) {
         system.take(elements, step);
     }
     OctreeOfMesh(const OctreeOfMesh&) = delete;
     OctreeOfMesh& operator=(const OctreeOfMesh&) = delete;
 
-    Eigen::AlignedBox3d box() const {
-        Eigen::AlignedBox3d box;
-        for (const Eigen::Vector3d& position : surface.positions) box.extend(position);
-        return box;
-    }
     /// Returns the coefficients function(corner) of all unknowns.
     template <class Function>
     Field coefficients(const Function& function) const {
