@@ -75,7 +75,7 @@ TEST_P(Wavelengths, KeepTheirShareOfTheHeight) {
 }
 
 INSTANTIATE_TEST_SUITE_P(OrdersAndSizes, Wavelengths,
-                         testing::Combine(testing::Values(1, 2),
+                         testing::Combine(testing::Values(1, 2, 3),
                                           testing::Values(2.5, 4.0, 8.0, 16.0, 32.0)));
 
 }  // namespace

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <random>
 #include <stdexcept>
@@ -12,7 +11,6 @@
 
 #include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/mesh/measures.h"
-#include "filter_tracked_mcf/core/parallel/progress_meter.h"
 #include "tests/support/not_finite.h"
 #include "tests/support/shapes.h"
 #include "tests/support/surface_distance.h"
@@ -137,17 +135,6 @@ TEST(Evolve, ReportsOfASoupWhatItReportsOfTheMesh) {
     }
 }
 
-TEST(Evolve, ReportsFiniteNumbersWhateverUnusedVerticesAre) {
-    TriangleMesh mesh = shapes::bumpy_sphere(10);
-    mesh.positions.emplace_back(kNaN, 0, kInfinity);
-    FlowParameters p;
-    p.quality = Quality::Displacement;
-    const FlowReport report = evolve(mesh, p);
-    EXPECT_GT(report.rms_displacement, 0);
-    EXPECT_TRUE(std::isfinite(report.largest_displacement));
-    EXPECT_EQ(report.quality.back(), 0);
-}
-
 TEST(Evolve, ReportsTheVolumeOfTheSelectedPart) {
     TriangleMesh mesh = shapes::bumpy_sphere(20);
     const TriangleMesh before = mesh;
@@ -158,26 +145,6 @@ TEST(Evolve, ReportsTheVolumeOfTheSelectedPart) {
     EXPECT_NEAR(report.volume_change, change, 1e-12);
     EXPECT_LT(report.volume_change, -0.01);
     EXPECT_TRUE(std::isnan(report.volume_before));
-}
-
-TEST(Evolve, ProgressRisesFromZeroToOne) {
-    TriangleMesh mesh = shapes::bumpy_sphere(5);
-    std::vector<double> fractions;
-    evolve(mesh, parameters(3, 1e-3, 4), [&](double fraction, std::string_view phase) {
-        EXPECT_FALSE(phase.empty());
-        fractions.push_back(fraction);
-        return true;
-    });
-    EXPECT_EQ(fractions.front(), 0);
-    EXPECT_EQ(fractions.back(), 1);
-    EXPECT_TRUE(std::is_sorted(fractions.begin(), fractions.end()));
-    EXPECT_GE(fractions.size(), 6U);
-}
-
-/// Calls the callback only when a phase begins, never because time has passed.
-void evolve_by_phases(TriangleMesh& mesh, const Progress& progress) {
-    const ProgressMeter meter(progress, std::chrono::hours(1));
-    evolve(mesh, parameters(3, 1e-3, 4));
 }
 
 TEST(Evolve, ShowsTheSurfaceAfterEachStep) {
@@ -208,22 +175,6 @@ TEST(Evolve, AFailureOfTheStepObserverLeavesTheMeshAsItWas) {
     };
     EXPECT_THROW(evolve(mesh, {}, parameters(4, 1e-3, 3), {}, fail), std::range_error);
     EXPECT_TRUE(same_bits(mesh, initial));
-}
-
-TEST(Evolve, CancellingLeavesTheMeshAsItWas) {
-    const TriangleMesh mesh = shapes::bumpy_sphere(5);
-    int calls = 0;
-    TriangleMesh whole = mesh;
-    evolve_by_phases(whole, [&](double, std::string_view) { return ++calls > 0; });
-    EXPECT_GE(calls, 6);
-    for (int last = 1; last <= calls; ++last) {
-        TriangleMesh stopped = mesh;
-        int left = last;
-        EXPECT_THROW(
-            evolve_by_phases(stopped, [&](double, std::string_view) { return --left > 0; }),
-            Cancelled);
-        EXPECT_TRUE(same_bits(stopped, mesh));
-    }
 }
 
 template <class Exception>

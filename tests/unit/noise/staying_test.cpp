@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-#include "filter_tracked_mcf/core/mesh/mesh_topology.h"
+#include "filter_tracked_mcf/core/mesh/domain.h"
 #include "filter_tracked_mcf/core/noise/clusters.h"
 #include "filter_tracked_mcf/core/noise/rim.h"
 #include "filter_tracked_mcf/core/noise/unevenness.h"
@@ -22,15 +22,7 @@ namespace {
 
 /// Returns which vertices are on the rim.
 std::vector<std::uint8_t> rim_of(const TriangleMesh& mesh) {
-    const MeshTopology topology = topology_of(mesh);
-    std::vector<std::uint8_t> rim(mesh.positions.size(), 0);
-    for (std::size_t t = 0; t < topology.triangles.size(); ++t) {
-        for (int side = 0; side < 3; ++side) {
-            if (!has_bit(topology.boundary[t], side)) continue;
-            rim[mesh.triangles[t][side]] = rim[mesh.triangles[t][(side + 1) % 3]] = 1;
-        }
-    }
-    return rim;
+    return Domain(mesh, BoundaryCondition::Locked).constrained_vertices();
 }
 
 /// Distances that vertices have moved, in mean edges of the clean mesh.
@@ -208,22 +200,6 @@ TEST(RemoveNoise, SmoothsTheOutlineOfARimIfAskedTo) {
     EXPECT_LT(squares_after, 0.3 * squares_before);
     EXPECT_LT(std::abs(mean / count), 0.05 * edge) << "the opening keeps its size";
     EXPECT_LT(sideways(cap.mesh, cap.mesh, after).inside, 0.1);
-}
-
-TEST(RemoveNoise, KeepsTheCornersOfASmoothRim) {
-    const TriangleMesh before = uneven_sheet();
-    NoiseParameters parameters;
-    parameters.boundary = NoiseBoundary::Smooth;
-    const TriangleMesh after = denoised(before, parameters);
-    const double edge = mean_edge_length(before);
-    for (const Eigen::Vector3d& corner :
-         {Eigen::Vector3d(0, 0, 0), {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}) {
-        const auto place = std::find(before.positions.begin(), before.positions.end(), corner);
-        ASSERT_NE(place, before.positions.end());
-        const auto i = static_cast<std::size_t>(place - before.positions.begin());
-        EXPECT_LT((after.positions[i] - corner).norm(), 0.1 * edge);
-    }
-    EXPECT_NEAR(surface_area(after), 1, 1e-3);
 }
 
 TEST(SmoothRim, KeepsToItsBox) {

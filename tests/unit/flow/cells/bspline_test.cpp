@@ -5,8 +5,6 @@
 
 #include <random>
 
-#include "tests/support/bspline_gradients.h"
-
 namespace tracked_mcf {
 namespace {
 
@@ -42,21 +40,6 @@ TEST_F(Bspline, IsOneAtItsOwnCornerAndZeroAtTheOthers) {
     for (int corner = 0; corner < 8; ++corner) {
         const CornerValues expected = CornerValues::Unit(corner);
         EXPECT_EQ(bspline_values(corner_position(corner)), expected);
-    }
-}
-
-TEST_F(Bspline, GradientsAreDifferences) {
-    // Trilinear along an axis: a central difference is exact but for rounding.
-    constexpr double h = 0x1p-10;
-    for (int i = 0; i < 20; ++i) {
-        const Eigen::Vector3d p = point();
-        const CornerGradients gradients = bspline_gradients(p);
-        for (int axis = 0; axis < 3; ++axis) {
-            const Eigen::Vector3d step = h * Eigen::Vector3d::Unit(axis);
-            const CornerValues difference =
-                (bspline_values(p + step) - bspline_values(p - step)) / (2 * h);
-            EXPECT_LT((gradients.col(axis) - difference).norm(), 1e-12);
-        }
     }
 }
 

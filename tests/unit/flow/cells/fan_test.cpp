@@ -56,18 +56,5 @@ TEST(Fan, NodesIntegrateQuadraticsExactlyWhateverTheApex) {
     }
 }
 
-using Moments = Eigen::Matrix4d;
-
-/// Returns the sum of the nodes' weights times the products of 1, x, y and z.
-template <class Nodes>
-Moments moments_of(const Nodes& nodes) {
-    Moments moments = Moments::Zero();
-    for (const WeightedPoint& node : nodes) {
-        const Eigen::Vector4d x = node.point.homogeneous();
-        moments += node.weight * x * x.transpose();
-    }
-    return moments;
-}
-
 }  // namespace
 }  // namespace tracked_mcf

@@ -5,10 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
-#include <tuple>
 
-#include "filter_tracked_mcf/core/flow/cells/grid.h"
 #include "filter_tracked_mcf/core/mesh/measures.h"
 #include "tests/support/shapes.h"
 #include "tests/unit/flows.h"
@@ -53,97 +50,6 @@ TEST(DetailSize, ManySmallStepsApproachTheHeatEquation) {
     const double time = std::log(2.0) / (kTwoPi * kTwoPi);
     EXPECT_NEAR(1e6 * step_size_for(1, 1000000, 1), time, 1e-6 * time);
 }
-
-// Waves on a plate, in units of the detail size. The plate is oblique to the grid.
-
-constexpr int kLength = 8;  ///< along x, in which the waves run
-constexpr int kWidth = 5;   ///< along y, in which the waves do not change
-constexpr int kVerticesPerUnit = 20;
-
-/// Slopes of 2π/100 change the flow by their square, 0.4 %.
-constexpr double kAmplitudeInWaves = 0.01;
-
-Eigen::Affine3d placement() {
-    return Eigen::Affine3d(Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 0.5).normalized()));
-}
-
-double wave(double wave_length, const Eigen::Vector3d& position) {
-    return std::sin(kTwoPi / wave_length * position[0]);
-}
-
-/// A plate [0, kLength] x [0, kWidth] with waves. Its ends in x are nodes of every wave.
-TriangleMesh wavy_plate(double wave_length) {
-    const int n = kLength * kVerticesPerUnit;
-    const int m = kWidth * kVerticesPerUnit;
-    TriangleMesh mesh;
-    for (int i = 0; i <= n; ++i) {
-        for (int j = 0; j <= m; ++j) {
-            Eigen::Vector3d position(i, j, 0);
-            position /= kVerticesPerUnit;
-            position[2] = kAmplitudeInWaves * wave_length * wave(wave_length, position);
-            mesh.positions.push_back(position);
-        }
-    }
-    for (int i = 0; i < n; ++i) {
-        for (int j = 0; j < m; ++j) {
-            const int a = i * (m + 1) + j, b = a + m + 1;
-            mesh.triangles.push_back({a, b, b + 1});
-            mesh.triangles.push_back({a, b + 1, a + 1});
-        }
-    }
-    return shapes::transformed(mesh, placement());
-}
-
-/// Returns the part of the amplitude that the flow keeps in the plate's middle, by projection. The
-/// middle consists of whole waves. The locked sides are 2.25 units away, and their effect decays
-/// with the length √δ, which is at most 0.32 units: to exp(-7) or 1e-3.
-double measured(double wave_length, const FlowParameters& p) {
-    const TriangleMesh before = wavy_plate(wave_length);
-    const TriangleMesh after = evolved(before, p);
-    const Eigen::Affine3d back = placement().inverse();
-    double product = 0, square = 0;
-    for (std::size_t i = 0; i < before.positions.size(); ++i) {
-        const Eigen::Vector3d start = back * before.positions[i];
-        if (start[0] < 2 || start[0] >= 6 || std::abs(start[1] - 2.5) > 0.25) continue;
-        product += (back * after.positions[i])[2] * wave(wave_length, start);
-        square += start[2] * wave(wave_length, start);
-    }
-    return product / square;
-}
-
-class WavyPlate : public testing::TestWithParam<std::tuple<int, int>> {
-protected:
-    FlowParameters parameters() const {
-        FlowParameters p;
-        p.detail_size = 1;
-        std::tie(p.iterations, p.order) = GetParam();
-        p.depth = 7;
-        return p;
-    }
-    double expected(double wave_length) const {
-        const auto [iterations, order] = GetParam();
-        return kept(wave_length, step_size_for(1, iterations, order), iterations, order);
-    }
-};
-
-TEST_P(WavyPlate, WavesOfTheDetailSizeKeepHalfTheirAmplitude) {
-    EXPECT_NEAR(measured(1, parameters()), 0.5, 0.05 * 0.5);
-}
-
-TEST_P(WavyPlate, LongerWavesKeepMoreAndShorterOnesLess) {
-    // Slopes and the solver's tolerance matter.
-    EXPECT_NEAR(measured(2, parameters()), expected(2), 0.01);
-    EXPECT_NEAR(measured(0.5, parameters()), expected(0.5), 0.03);
-}
-
-std::string name_of_case(const testing::TestParamInfo<std::tuple<int, int>>& info) {
-    return std::to_string(std::get<0>(info.param)) + "StepsOfOrder" +
-           std::to_string(std::get<1>(info.param));
-}
-
-INSTANTIATE_TEST_SUITE_P(StepsAndOrders, WavyPlate,
-                         testing::Combine(testing::Values(1, 3), testing::Values(1, 2, 3)),
-                         name_of_case);
 
 TEST(DetailSize, IsByDefaultThatOfTheMeanEdge) {
     const TriangleMesh mesh = shapes::bumpy_sphere(10);

@@ -43,26 +43,6 @@ TEST(Selection, UnselectedVerticesKeepTheirBitsAndTheOthersMove) {
     }
 }
 
-TEST(Selection, FlowsAsTheSelectedFacesAlone) {
-    const TriangleMesh mesh = shapes::bumpy_sphere(20);
-    const Selection top = above(mesh, 0.3);
-    FlowParameters p = parameters(6, 1e-3, 3);
-    const TriangleMesh part = part_of(mesh, top);
-    TriangleMesh first = mesh, second = part;
-    evolve(first, top, p);
-    evolve(second, p);
-    EXPECT_TRUE(same_bits(first, second));
-    EXPECT_FALSE(same_bits(first, mesh));
-}
-
-TEST(Selection, SelectingAllFacesIsTheFlowOfTheWholeMesh) {
-    const TriangleMesh cap = bumpy_cap(15);
-    TriangleMesh selected = cap;
-    evolve(selected, Selection(cap.triangles.size(), 1), parameters(0, 1e-3, 3));
-    EXPECT_TRUE(same_bits(selected, evolved(cap, parameters(0, 1e-3, 3))));
-    EXPECT_GT(distance(selected, cap), 1e-3);
-}
-
 TEST(Selection, OfASmallPartFlowsAsThatPartAlone) {
     // The same depth, detail size and positions: the grid encloses the selected faces only.
     const TriangleMesh mesh = shapes::bumpy_sphere(40);

@@ -113,17 +113,5 @@ TEST(Symmetry, CommutesWithQuarterTurnsInTheLimitOfManyCycles) {
     }
 }
 
-TEST(Symmetry, CommutesWithQuarterTurnsUpToTheTolerance) {
-    for (int axis = 0; axis < 3; ++axis) {
-        const auto difference = [&](double tolerance) {
-            FlowParameters p = parameters(4, 1e-3, 1);
-            p.tolerance = tolerance;
-            return effect_of_a_quarter_turn(axis, p);
-        };
-        EXPECT_LT(difference(1e-4), 1e-4);
-        EXPECT_LT(difference(1e-8), 1e-6);  // rounding of single precision
-    }
-}
-
 }  // namespace
 }  // namespace tracked_mcf

@@ -18,19 +18,5 @@ TEST(Prolongation, KeepsConstants) {
     }
 }
 
-TEST(Prolongation, FreeCoarseFunctionsContainNoConstrainedFineOnes) {
-    const System system(shapes::square(20), 4, 0.5F, true);
-    for (std::size_t level = 1; level <= 4; ++level) {
-        const SparseMatrix p =
-            prolongation(system.elements.levels[level], system.elements.levels[level - 1]);
-        for (std::int32_t fine = 0; fine < p.rows(); ++fine) {
-            if (system.constrained[level][fine] == 0) continue;
-            for (SparseMatrix::InnerIterator entry(p, fine); entry; ++entry) {
-                EXPECT_EQ(system.constrained[level - 1][entry.col()], 1);
-            }
-        }
-    }
-}
-
 }  // namespace
 }  // namespace tracked_mcf
