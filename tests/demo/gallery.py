@@ -16,6 +16,9 @@ import sys
 import numpy
 
 TOP = pathlib.Path(__file__).resolve().parents[2]
+sys.path.append(str(TOP / "tests" / "hosts"))
+import float_ply  # noqa: E402
+
 PICTURES = TOP / "filter_tracked_mcf" / "pictures"
 COLOURS = numpy.array([[40, 80, 200], [235, 232, 225], [200, 50, 40]])  # negative, 0, positive
 SELECTED = [215, 60, 50]
@@ -24,11 +27,7 @@ RED, BLUE = ([PLASTER, *darker] for darker in ([[230, 120, 40], [120, 10, 30]], 
 
 
 def read_off(path):
-    words = path.read_text(encoding="ascii").split()
-    count, faces = int(words[1]), int(words[2])
-    vertices = numpy.array(words[4:4 + 3 * count], float).reshape(-1, 3)
-    rows = numpy.array(words[4 + 3 * count:4 + 3 * count + 4 * faces], int).reshape(-1, 4)
-    return vertices, rows[:, 1:]
+    return [numpy.array(rows) for rows in float_ply.read_off(path)]
 
 
 def diagonal_of(vertices):
@@ -44,13 +43,9 @@ def normals_of(vertices, faces):
 
 
 def read_ply(path):
-    """Returns the properties of the vertices of a binary file by name."""
-    header, _, data = path.read_bytes().partition(b"end_header\n")
-    lines = header.decode().split("element vertex ")[1].split("element face")[0].splitlines()
-    types = {"double": "<f8", "float": "<f4", "uchar": "u1"}
-    rows = [line.split() for line in lines[1:] if line.startswith("property")]
-    rows = numpy.frombuffer(data, [(name, types[kind]) for _, kind, name in rows], int(lines[0]))
-    return {name: rows[name] for name in rows.dtype.names}
+    """Returns the properties of the vertices by name."""
+    vertices = float_ply.read_ply(path)["vertex"]
+    return {name: numpy.array(vertices.column(name)) for name in vertices.properties}
 
 
 def write_ply(path, vertices, faces, **properties):

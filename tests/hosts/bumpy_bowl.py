@@ -8,6 +8,8 @@ In SELECTED.ply, the faces in the middle are selected; '' writes none. SIDE is i
 import random
 import sys
 
+import float_ply
+
 # MeshLab shows meshes of fewer than 50,000 faces with flat shading until a filter has run. Pictures before
 # and after would then differ by their shading.
 SIDE = int(sys.argv[3]) if len(sys.argv) > 3 else 180
@@ -27,22 +29,13 @@ def faces():
             yield first, opposite, first + SIDE
 
 
-def write_selected(path):
-    header = (f"ply\nformat ascii 1.0\nelement vertex {SIDE**2}\nproperty float x\nproperty float y\n"
-              f"property float z\nelement face {2 * (SIDE - 1)**2}\nproperty list uchar int vertex_indices\n"
-              "property int flags\nend_header")
-    with open(path, "w") as file:
-        print(header, file=file)
-        for vertex in vertices():
-            print(*vertex, file=file)
-        for face in faces():
-            inside = all(SIDE // 3 < place < 2 * SIDE // 3 for place in divmod(face[0], SIDE))
-            print(3, *face, 32 if inside else 0, file=file)
+def is_in_the_middle(face):
+    return all(SIDE // 3 < place < 2 * SIDE // 3 for place in divmod(face[0], SIDE))
 
 
 def main(output, selected=None, _side=None):
     if selected:
-        write_selected(selected)
+        float_ply.write_ply(selected, vertices(), list(faces()), selected=list(map(is_in_the_middle, faces())))
     with open(output, "w") as file:
         print(f"OFF\n{SIDE**2} {2 * (SIDE - 1)**2} 0", file=file)
         for vertex in vertices():

@@ -117,32 +117,15 @@ def said_by(script):
 
 
 def read_off(path):
-    words = pathlib.Path(path).read_text(encoding="ascii").split()
-    count, faces = int(words[1]), int(words[2])
-    vertices = numpy.array(words[4:4 + 3 * count], float).reshape(count, 3)
-    rows = numpy.array(words[4 + 3 * count:4 + 3 * count + 4 * faces], int).reshape(faces, 4)
-    return vertices, rows[:, 1:]
+    return [numpy.array(rows) for rows in float_ply.read_off(path)]
 
 
 def read_vertices(path):
     """Returns the bytes of the positions in a PLY file of the program, and the qualities or None."""
-    header, _, data = path.read_bytes().partition(b"end_header\n")
-    lines = header.decode().splitlines()
-    first = next(i for i, line in enumerate(lines) if line.startswith("element vertex"))
-    columns = []
-    for line in lines[first + 1:]:
-        if not line.startswith("property"):
-            break
-        columns.append(line.split())
-    types = {"double": "<f8", "float": "<f4"}
-    kind = numpy.dtype([(name, types[type_name]) for _, type_name, name in columns])
-    count = int(lines[first].split()[2])
-    if "format ascii 1.0" in lines:
-        rows = numpy.array([tuple(line.split()) for line in data.splitlines()[:count]], kind)
-    else:
-        rows = numpy.frombuffer(data, kind, count)
-    positions = numpy.stack([rows[axis] for axis in "xyz"], axis=1)
-    return positions.tobytes(), rows["quality"] if "quality" in kind.names else None
+    elements = float_ply.read_ply(path)
+    vertices = elements["vertex"]
+    quality = numpy.array(vertices.column("quality")) if "quality" in vertices.properties else None
+    return numpy.array(float_ply.positions(elements)).tobytes(), quality
 
 
 def keywords(settings):
