@@ -39,7 +39,7 @@ std::string written_with_x_doubled(const std::string& content, const std::string
 
 /// Writes `text`, and does not commit it.
 void write_text(OutputFile& output, const std::string& text);
-/// Writes `text` and commits it.
+/// Writes a text to a file, and commits it.
 void commit(const std::filesystem::path& path, const std::string& text);
 /// Returns the words of a text.
 std::vector<std::string> words_of(const std::string& text);

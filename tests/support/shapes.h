@@ -59,7 +59,7 @@ TriangleMesh split_in_four(const TriangleMesh& mesh);
 TriangleMesh separate_triangles(int count);
 
 /// The faces between solid and empty cells of side 1, among the cells whose lower corners have
-/// coordinates from `begin` to `end` - 1. The others are empty. Vertices are welded.
+/// coordinates from `begin` to `end` - 1. All other cells are empty. Vertices are welded.
 TriangleMesh voxels(int begin, int end,
                     const std::function<bool(const Eigen::Vector3i&)>& is_solid);
 

@@ -16,15 +16,14 @@ def keyword(parameter):
 
 
 def meaning(parameter):
-    """Returns the parameter's help, after what kind of value it takes."""
-    kind = ""
-    if parameter["type"] == "float | str":
-        kind = "In units of the mesh, or as '1%' of its bounding box's diagonal. "
-    elif parameter.get("of_faces") is True:
-        kind = "An array of shape (m,) of bools, or indices: only these faces move. "
-    elif parameter.get("of_faces") is False:
-        kind = "An array of shape (n,). "
-    return kind + parameter["help"]
+    """Returns what values the parameter takes, where its type does not say it, and its help."""
+    values = ""
+    if "of_faces" in parameter:
+        values = ("An array of shape (m,) of bools, or indices: only these faces move. " if parameter["of_faces"]
+                  else "An array of shape (n,). ")
+    elif parameter["type"] == "float | str":
+        values = "In units of the mesh, or as '1%' of its bounding box's diagonal. "
+    return values + parameter["help"]
 
 
 def paragraph(parameter):

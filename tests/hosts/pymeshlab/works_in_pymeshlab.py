@@ -4,8 +4,8 @@
 works_in_pymeshlab.py WAY PROGRAM PAGE WORK_DIR BOWL MESH...
 
 WAY is the plugin's file, or tracked_mcf.pymeshlab, the module of the Python package. PAGE is the page with the
-Python script for that. BOWL is a PLY file with noise and coordinates of floats. The runs take MESH. Ends with 77, which tells CTest that the test was
-skipped, where there is no PyMeshLab.
+Python script for that. BOWL is a PLY file with noise and coordinates of floats. The runs take MESH. Ends with 77, which tells
+CTest that the test was skipped, where there is no PyMeshLab.
 """
 
 import importlib
@@ -220,10 +220,21 @@ def run_apart(function, *arguments):
     return process.exitcode
 
 
+def check_help():
+    """The help of each method has its parameters: those that the runs use."""
+    for command, name in METHODS.items():
+        found = set(re.findall(r"^    (\w+): ", getattr(pymeshlab.MeshSet, name).__doc__, re.MULTILINE))
+        used = {parameter for run in runs.RUNS[command]
+                for parameter in runs.by_index(command, runs.settings_of(command, run, 1.0))}
+        if found != used - runs.OF_THE_PROGRAM:
+            sys.exit(f"the help of {name} has {sorted(found)} instead of {sorted(used - runs.OF_THE_PROGRAM)}")
+
+
 def check_package(mesh):
-    """The package has warnings, and an interrupt ends a flow. A plugin has neither in PyMeshLab."""
+    """The package has its own help and warnings, and an interrupt ends a flow. A plugin has none of these in PyMeshLab."""
     import tracked_mcf
 
+    check_help()
     quiet = apply(load(mesh), detail_size=pymeshlab.PercentageValue(5), iterations=20)["warnings"]
     warned = []
     tracked_mcf._warnings.showwarning = lambda message, *_, **__: warned.append(message)

@@ -19,6 +19,8 @@ struct Equation4 {
     double area = 0;
     int collapsed = 0;  ///< samples
 
+    /// Adds a sample, with this weight of a quadrature, at a place in the unit cell whose corners
+    /// the rows of `embedding` are.
     void add_sample(const Eigen::Vector3d& normal, const Eigen::Vector3d& local, double weight,
                     const Matrix83& embedding) {
         Eigen::Matrix<double, 3, 2> tangents;

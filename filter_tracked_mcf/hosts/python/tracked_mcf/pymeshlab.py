@@ -81,7 +81,8 @@ def _help(described, parameters):
     lines = [re.sub("<[^>]*>", "", described["help"].replace("<br>", "\n")), "", "Parameters:"]
     for parameter in parameters:
         lines += [f"    {parameter['name']}: {_type(parameter)}", f"        {parameter['label']}: {parameter['help']}"]
-    return "\n".join([*lines, "", "Returns a dictionary of numbers, such as largest_displacement, and the list warnings.\n"])
+    lines += ["", "Returns a dictionary of numbers, such as largest_displacement, and the list warnings.", ""]
+    return "\n".join(lines)
 
 
 def _method(function):
