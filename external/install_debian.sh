@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Installs the Debian packages for a task: install_debian.sh TASK...
 #
-#   core         building the core: a compiler, CMake, Eigen, Highway
+#   core         building the core: a compiler, CMake, Eigen
 #   program      building the command-line program, too
 #   plugin       building the MeshLab plugin, too, and MeshLab itself
 #   package      packing it for Debian or for Python, too
@@ -20,7 +20,7 @@ set -euo pipefail
 
 packages_of() {
     case $1 in
-        core) echo g++ make cmake libeigen3-dev libhwy-dev ;;
+        core) echo g++ make cmake libeigen3-dev ;;
         program) echo "$(packages_of core)" libcli11-dev libfast-float-dev nlohmann-json3-dev xz-utils ;;
         plugin) echo "$(packages_of program)" meshlab "$(libraries_recommended_by meshlab)" \
             qtbase5-dev libqt5opengl5-dev libglew-dev libglu1-mesa-dev ;;

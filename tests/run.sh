@@ -24,6 +24,7 @@ cmake --build build -j "$(nproc)"
 external/python_package.sh build/python build
 # README's script and the tests need them. PyVista takes VTK with it, 110 MB.
 build/python/bin/python -m pip install -q trimesh meshio pyvista
-ctest --test-dir build --output-on-failure -j "$(nproc)" "${arguments[@]}"
+# One more than processors: tests of windows wait for a part of their time.
+ctest --test-dir build --output-on-failure -j $(($(nproc) + 1)) "${arguments[@]}"
 # ctest does not tell why a test was skipped.
 grep -h '^skipped: ' build/Testing/Temporary/LastTest.log || true

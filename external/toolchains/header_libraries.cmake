@@ -5,7 +5,7 @@
 
 set(folder "${CMAKE_BINARY_DIR}/header-libraries")
 file(MAKE_DIRECTORY "${folder}/include" "${folder}/share/cmake")
-foreach(path include/CLI include/eigen3 include/fast_float include/hwy include/nlohmann share/eigen3
+foreach(path include/CLI include/eigen3 include/fast_float include/nlohmann share/eigen3
              share/cmake/CLI11 share/cmake/nlohmann_json)
   if(EXISTS "/usr/${path}" AND NOT EXISTS "${folder}/${path}")
     file(CREATE_LINK "/usr/${path}" "${folder}/${path}" SYMBOLIC)

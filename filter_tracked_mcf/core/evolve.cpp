@@ -5,7 +5,6 @@
 #include <string>
 #include <utility>
 
-#include "filter_tracked_mcf/core/flow/kernels/kernels.h"
 #include "filter_tracked_mcf/core/flow/plan/setup_phases.h"
 #include "filter_tracked_mcf/core/flow/stepping/mesh_flow.h"
 #include "filter_tracked_mcf/core/flow/stepping/paper_flow.h"
@@ -78,7 +77,6 @@ FlowReport evolve(TriangleMesh& mesh, const Inputs& inputs, const FlowParameters
                   const Progress& progress, const StepObserver& on_step) {
     validate(parameters);
     if (parameters.method == Method::Paper) check_no_inputs(inputs);
-    choose_instruction_set();  // refuses a bad choice before the work begins
     FilterRun run(parameters.threads, progress);
     const std::int64_t memory_before = resident_memory_bytes();
     const Stopwatch setup;
@@ -92,17 +90,21 @@ FlowReport evolve(TriangleMesh& mesh, const Inputs& inputs, const FlowParameters
                 "Moving the vertices");
     std::vector<Eigen::Vector3d> after = moved_by(*flow, mesh);
     FlowReport report = flow->report();
-    report_change(mesh, after, flow->part(), parameters.quality, report);
+    report_change(mesh, after, flow->surface(), parameters.quality, report);
     if (report.stop == Stop::None && report.area_after <= kVanishedArea * report.area_before) {
         // The flow itself would notice only in the next step.
         flow->end_before_last_step(Stop::Vanished);
         after = moved_by(*flow, mesh);
         report = flow->report();
-        report_change(mesh, after, flow->part(), parameters.quality, report);
+        report_change(mesh, after, flow->surface(), parameters.quality, report);
+    }
+    if (report.stop != Stop::None) {
+        const auto steps = static_cast<int>(report.steps.size());
+        report.detail_size =
+            steps > 0 ? detail_size_for(report.step_size, steps, parameters.order) : 0;
     }
     report.setup_seconds = setup_seconds;
-    if (parameters.quality == Quality::MeanCurvature)
-        report.quality = flow->mean_curvatures({after, mesh.triangles});
+    if (parameters.quality == Quality::MeanCurvature) report.quality = flow->mean_curvatures(after);
     report.estimated_memory_bytes += memory_before;
     run.finish(mesh, std::move(after), report);
     return report;

@@ -24,7 +24,7 @@ using StepObserver = std::function<void(int step, const std::vector<Eigen::Vecto
 /// finite elements. Hosts call this and default_detail_size().
 ///
 /// Positions are written at the very end, after all steps have succeeded and the last call of
-/// `progress` has returned true. Vertices that do not move keep their bits: constrained ones, and
+/// `progress` has returned true. Vertices that do not move keep their bits: held ones, and
 /// those that no selected triangle uses. If the flow ends before its last step,
 /// FlowReport::stop says why.
 ///
@@ -33,8 +33,9 @@ using StepObserver = std::function<void(int step, const std::vector<Eigen::Vecto
 FlowReport evolve(TriangleMesh& mesh, const Inputs& inputs, const FlowParameters& parameters,
                   const Progress& progress = {}, const StepObserver& on_step = {});
 
-/// Returns the detail size that a flow of these triangles takes by default, see
-/// FlowParameters::detail_size. Throws InvalidMesh.
+/// Returns the detail size that a flow of these triangles takes by default, up to rounding, see
+/// FlowParameters::detail_size. It is that of another mean edge where only some triangles have
+/// copies, which count here, or strength 0. Throws InvalidMesh.
 double default_detail_size(const TriangleMesh& mesh, const Selection& selection = {});
 
 /// Smooths all of the mesh.

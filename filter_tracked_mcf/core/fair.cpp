@@ -8,7 +8,7 @@
 #include "filter_tracked_mcf/core/fair/fairing.h"
 #include "filter_tracked_mcf/core/fair/patches.h"
 #include "filter_tracked_mcf/core/mesh/filter_run.h"
-#include "filter_tracked_mcf/core/mesh/measures.h"
+#include "filter_tracked_mcf/core/mesh/surface.h"
 #include "filter_tracked_mcf/core/platform/process_memory.h"
 
 namespace tracked_mcf {
@@ -21,25 +21,33 @@ constexpr double kBytesPerVertexOfPatches = 60, kBytesPerTriangleOfPatches = 90,
 
 /// Returns the positions of the patch's vertices, from the first one, so that coordinates are
 /// small.
-Fairing::Points points_of(const Patch& patch, const TriangleMesh& mesh, double scale) {
+Fairing::Points points_of(const Patch& patch, const Surface& surface, const TriangleMesh& mesh,
+                          double scale) {
+    const Eigen::Vector3d& first = surface.in_mesh_units(mesh, patch.vertices[0]);
     Fairing::Points points(static_cast<Eigen::Index>(patch.vertices.size()), 3);
-    for (Eigen::Index i = 0; i < points.rows(); ++i) {
-        points.row(i) =
-            (mesh.positions[patch.vertices[i]] - mesh.positions[patch.vertices[0]]) / scale;
-    }
+    for (Eigen::Index i = 0; i < points.rows(); ++i)
+        points.row(i) = (surface.in_mesh_units(mesh, patch.vertices[i]) - first) / scale;
     return points;
 }
 
-/// Returns the selected triangles. Throws InvalidMesh if these are all.
-std::vector<Triangle> selected_triangles(const TriangleMesh& mesh, const Selection& selection) {
-    std::vector<Triangle> triangles;
-    for (std::size_t i = 0; i < selection.size(); ++i) {
-        if (selection[i] != 0) triangles.push_back(mesh.triangles[i]);
-    }
-    if (!selection.empty() && triangles.size() < mesh.triangles.size()) return triangles;
+/// Returns the number of selected triangles. Throws InvalidMesh if these are all.
+std::int64_t count_selected(const TriangleMesh& mesh, const Selection& selection) {
+    const auto not_selected = std::count(selection.begin(), selection.end(), 0);
+    if (not_selected > 0) return static_cast<std::int64_t>(mesh.triangles.size()) - not_selected;
     throw InvalidMesh(
         "All faces are selected, so there is nothing around them to continue. Select the faces "
         "that fill the hole.");
+}
+
+/// Returns which vertices of the whole surface are inner ones of the selection, see fair().
+std::vector<std::uint8_t> inner_vertices(const Surface& whole, const Surface& selected) {
+    std::vector<std::uint8_t> are_inner(whole.mesh_vertices.size(), 0);
+    for (std::size_t i = 0; i < selected.mesh_vertices.size(); ++i) {
+        const std::int32_t vertex = whole.vertices[selected.mesh_vertices[i]];
+        const bool on_rim = whole.stars.has_rim() && whole.stars.on_rim[vertex] != 0;
+        if (selected.held[i] == 0 && !on_rim) are_inner[vertex] = 1;
+    }
+    return are_inner;
 }
 
 void check_memory(const TriangleMesh& mesh, std::int64_t selected, Continuity continuity) {
@@ -50,21 +58,24 @@ void check_memory(const TriangleMesh& mesh, std::int64_t selected, Continuity co
         "Fairing", "Select less, or simplify the mesh.");
 }
 
-/// Moves the vertices of patches, one patch after the other, and reports how.
+/// Fairs patches, one after the other, and reports how.
 class PatchMover {
 public:
-    PatchMover(const TriangleMesh& mesh, Continuity continuity, FairReport& report)
+    PatchMover(const TriangleMesh& mesh, const Surface& surface, Continuity continuity,
+               FairReport& report)
         : mesh_(mesh),
-          scale_(longest_side(mesh)),
+          surface_(surface),
+          scale_(surface.box.sizes().maxCoeff()),
           continuity_(static_cast<int>(continuity)),
           report_(report) {}
 
-    void move(const Patch& patch, std::vector<Eigen::Vector3d>& positions) {
-        const Fairing::Points before = points_of(patch, mesh_, scale_);
+    /// Sets how far the patch's vertices move, in mesh units.
+    void move(const Patch& patch, Positions& movements) {
+        const Fairing::Points before = points_of(patch, surface_, mesh_, scale_);
         Fairing fairing(patch, before);
         if (fairing.solve(continuity_) < continuity_) ++report_.flatter_patches;
         for (std::int32_t i = 0; i < patch.moving; ++i) {
-            positions[patch.vertices[i]] +=
+            movements[patch.vertices[i]] =
                 scale_ * (fairing.positions().row(i) - before.row(i)).transpose();
         }
         const auto [inside, around] = fairing.bending();
@@ -79,21 +90,12 @@ public:
 
 private:
     const TriangleMesh& mesh_;
-    double scale_;
+    const Surface& surface_;
+    double scale_;  ///< longest side of the box, mesh units
     int continuity_;
     FairReport& report_;
     Bending inside_, around_;
 };
-
-/// Moves the copies of vertices with them.
-void move_copies(const std::vector<std::int32_t>& welded,
-                 const std::vector<Eigen::Vector3d>& before, std::vector<Eigen::Vector3d>& after) {
-    for (std::size_t i = 0; i < after.size(); ++i) {
-        const Eigen::Vector3d moved = after[welded[i]] - before[welded[i]];
-        // Adding 0 to -0 would change its bits.
-        if (welded[i] != static_cast<std::int32_t>(i) && !moved.isZero(0)) after[i] += moved;
-    }
-}
 
 }  // namespace
 
@@ -104,36 +106,31 @@ FairReport fair(TriangleMesh& mesh, const Selection& selection, const FairParame
     enter_phase(0, "Finding the patches");
     validate(mesh, Inputs{selection, {}});
     FairReport report;
-    {
-        const std::vector<Triangle> selected = selected_triangles(mesh, selection);
-        report.triangles = static_cast<std::int64_t>(selected.size());
-        report.degenerate_triangles = count_degenerate({mesh.positions, selected});
-    }
-    check_memory(mesh, report.triangles, parameters.continuity);
-    PatchMover mover(mesh, parameters.continuity, report);
-    MeshTopology topology = topology_of(mesh);
-    const std::vector<Patch> patches = patches_of(topology, selection);
-    const std::vector<std::int32_t> welded = std::move(topology.welded);
-    report.cracks = topology.cracks;
-    MovingPart part{selection, std::vector<std::uint8_t>(mesh.positions.size(), 0),
-                    topology.is_oriented_consistently(), false};
-    topology = {};
+    check_memory(mesh, count_selected(mesh, selection), parameters.continuity);
+    Surface whole = surface_of(mesh);
+    const Surface selected = surface_of_selection(whole, mesh, selection);
+    report_counts(selected.counts, report);
+    const std::vector<Patch> patches = patches_of(whole.stars, inner_vertices(whole, selected));
+    whole.stars = {};  // the patches have what they need of these
     report.patches = static_cast<std::int64_t>(patches.size());
-    for (const Patch& patch : patches) {
-        report.vertices += patch.moving;
-        for (std::int32_t i = 0; i < patch.moving; ++i) part.vertices[patch.vertices[i]] = 1;
-    }
+    for (const Patch& patch : patches) report.vertices += patch.moving;
 
-    std::vector<Eigen::Vector3d> after = mesh.positions;
+    PatchMover mover(mesh, whole, parameters.continuity, report);
+    Positions movements(whole.positions.size(), Eigen::Vector3d::Zero());
     std::int64_t done = 0;
     for (const Patch& patch : patches) {
         enter_phase(0.1 + 0.85 * static_cast<double>(done) / static_cast<double>(report.vertices),
                     "Fairing");
-        mover.move(patch, after);
+        mover.move(patch, movements);
         done += patch.moving;
     }
-    move_copies(welded, mesh.positions, after);
-    report_change(mesh, after, part, parameters.quality, report);
+    std::vector<Eigen::Vector3d> after = mesh.positions;
+    for (std::size_t i = 0; i < after.size(); ++i) {
+        const std::int32_t vertex = whole.vertices[i];
+        // Adding 0 to -0 would change its bits.
+        if (vertex >= 0 && !movements[vertex].isZero(0)) after[i] += movements[vertex];
+    }
+    report_change(mesh, after, selected, parameters.quality, report);
     run.finish(mesh, std::move(after), report);
     return report;
 }

@@ -24,6 +24,8 @@ struct FilterReport {
     std::int64_t vertices = 0;
     std::int64_t triangles = 0;
     std::int64_t degenerate_triangles = 0;  ///< of these, without an area: they have no influence
+    std::int64_t copied_triangles = 0;      ///< of these, with the vertices of another: count once
+    std::int64_t double_sided_parts = 0;    ///< with copies both ways of most of their area
     CrackReport cracks;
 
     double rms_displacement = 0;             ///< of the vertices, mesh units
@@ -33,7 +35,7 @@ struct FilterReport {
     double volume_before = kNoNumber;
     /// Volume between the initial and the final surface, mesh units³. It is positive where the
     /// surface has moved along its normals. Of a closed surface, it is the change of the enclosed
-    /// volume. kNoNumber unless the triangles are oriented consistently.
+    /// volume. kNoNumber if the triangles cannot be oriented alike.
     double volume_change = kNoNumber;
 
     /// One number per vertex of the mesh, see Quality; 0 at vertices of other triangles. Empty

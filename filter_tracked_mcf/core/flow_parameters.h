@@ -21,11 +21,11 @@ enum class FlowKind {
     Conformalized
 };
 
-/// What each step preserves of every connected component of the surface.
+/// What each step preserves of every part (connected component) of the surface.
 enum class Preserve {
     None,
-    Area,   ///< scales the component about its centroid
-    Volume  ///< pushes the component along its normals; a conformalized flow scales it
+    Area,   ///< scales the part about its centroid
+    Volume  ///< pushes the part along its normals; a conformalized flow scales it
 };
 
 /// The quadrature rule on each split triangle (section 4.2, Figure 8).
@@ -74,8 +74,9 @@ struct StepParameters {
     FlowKind flow = FlowKind::MeanCurvature;
     BoundaryCondition boundary = BoundaryCondition::Locked;
 
-    /// Converged: the solver stops when its estimate of the error (mesh_solver.h) is at
-    /// most this fraction of the solution, both in the energy norm. Greater than 0, less than 1.
+    /// Converged: each solve of a step ends when its estimate of the error (mesh_solver.h) is at
+    /// most this fraction of its solution, both in the energy norm. Greater than 0, less than 1. A
+    /// step of order 2 or more may be much smaller than its first solution.
     double tolerance = 1e-3;
 };
 
@@ -98,9 +99,9 @@ struct FlowParameters : StepParameters {
     /// Number of semi-implicit steps, 1 to kMaximumIterations.
     int iterations = 3;
 
-    /// Volume needs consistently oriented triangles. The volume between the initial surface and the
-    /// present one stays zero, so the surface may be open or constrained. Area, and Volume in a
-    /// conformalized flow, allow no constrained vertices; the latter needs a closed surface.
+    /// Volume needs triangles that can be oriented alike. The volume between the initial surface
+    /// and the present one stays zero, so the surface may be open, and vertices held. Area, and
+    /// Volume in a conformalized flow, allow no held vertices; the latter needs a closed surface.
     Preserve preserve = Preserve::None;
 
     /// For FlowReport::quality.

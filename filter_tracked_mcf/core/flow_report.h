@@ -34,7 +34,7 @@ enum class Stop {
     NotPreserved,  ///< no pressure restores the volume after a step this large; it was undone
     StepFailed,    ///< the next step failed, and was undone
     Grew,          ///< the next step would have made the surface larger, and was undone
-    NothingMoves,  ///< all vertices or all unknowns are constrained
+    NothingMoves,  ///< all vertices are held, or all unknowns constrained
 };
 
 /// Sizes, durations and results of a whole flow.
@@ -43,7 +43,7 @@ struct FlowReport : SmoothingReport {
     std::int64_t zero_strength_triangles =
         0;                       ///< that do not, because their vertices' strength is 0
     bool has_strengths = false;  ///< whether vertices have strengths
-    /// Handles of all components of a closed surface under a conformalized flow, else 0.
+    /// Handles of all parts of a closed surface under a conformalized flow, else 0.
     std::int64_t genus = 0;
     double mean_edge = 0;        ///< mean edge length of the triangles that flow, mesh units
     double longest_side = 0;     ///< of their bounding box, mesh units

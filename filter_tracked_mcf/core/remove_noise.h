@@ -13,7 +13,7 @@ namespace tracked_mcf {
 
 /// What happens to the boundary of an open mesh while noise is removed.
 enum class NoiseBoundary {
-    Locked,  ///< its vertices keep their bits, and their noise
+    Locked,  ///< its vertices are held, and keep their noise
     Free,    ///< its vertices move along their normals, so it keeps its outline
     Smooth   ///< its curves are smoothed afterwards, but for their corners
 };
@@ -28,10 +28,9 @@ struct NoiseParameters {
     /// how much to smooth.
     double noise = 0;
 
-    /// Greater than 0: how wide what counts as noise is, mesh units: the distance of voxels or
-    /// slices, half the length of ripples, half the width of lumps. A little too much is better
-    /// than too little. An edge or less: single vertices. 0 is single vertices, too, unless the
-    /// mesh consists of stairs, as of voxels.
+    /// Greater than 0: how wide what counts as noise is, mesh units: the width of lumps at half
+    /// their height, the distance of voxels or slices, half the length of ripples. An edge or less:
+    /// single vertices. 0 takes what the mesh itself shows.
     double noise_size = 0;
 
     /// Greater than 0: waves of this length, mesh units, lose half their amplitude where the
@@ -44,6 +43,10 @@ struct NoiseParameters {
     /// Whether vertices move along the normals alone, as rasters and textures need it. Otherwise
     /// they may also slide by twice the noise, which unfolds triangles that noise has folded.
     bool along_normals = false;
+
+    /// Whether also what is as likely detail as noise is removed: lumps and waves a few edges wide,
+    /// at the width and height that are found.
+    bool lumps = false;
 
     NoiseBoundary boundary = NoiseBoundary::Free;
 
@@ -62,10 +65,22 @@ void validate(const NoiseParameters& parameters);
 /// it.
 enum class NoiseStop {
     None,            ///< it was
-    NothingMoves,    ///< all vertices are constrained
+    NothingMoves,    ///< all vertices are held
     TooFewVertices,  ///< fewer than 100 may move: too few to measure noise
     TooManyCreases,  ///< creases cross more than half of the area: noise cannot be told from them
-    NoNoise          ///< smoothing takes little of what might be noise, so it is detail
+    NoNoise,         ///< smoothing takes little of what might be noise, so it is detail
+    ModelledPart,    ///< many edges are exactly flat, of very different lengths: there is no noise
+    TooMuchLost      ///< smoothing takes more than noise, so it was taken back
+};
+
+/// What was removed as noise.
+enum class NoiseKind {
+    None,      ///< nothing
+    White,     ///< single vertices have as much of it everywhere
+    Varying,   ///< they have more of it in some places than in others
+    Outliers,  ///< some of them have much more than those around them
+    Shared,    ///< neighbouring vertices have much the same
+    Stairs     ///< as of voxels, slices or whole numbers
 };
 
 /// What remove_noise() has measured and done.
@@ -74,10 +89,17 @@ enum class NoiseStop {
 /// chosen others. See NoiseParameters::detail_size.
 struct NoiseReport : SmoothingReport {
     NoiseStop stop = NoiseStop::None;
+    NoiseKind kind = NoiseKind::None;
     /// Standard deviation along the normals, mesh units, as measured, whatever the parameters say;
     /// 0 if too few vertices can move.
     double noise = 0;
-    double noise_size = 0;      ///< how wide what counts as noise is, see NoiseParameters
+    double noise_size = 0;  ///< how wide what counts as noise is, see NoiseParameters
+    /// Of the edges between vertices that are not flat all around, the share that turns by less
+    /// than 0.02°. Noise leaves hardly any.
+    double flat_edges = 0;
+    /// Deviation of heights in the quietest tenth of places over the median: near 1 if there is as
+    /// much noise everywhere, little where there is detail.
+    double evenness = kNoNumber;
     std::int64_t outliers = 0;  ///< vertices with so much more noise that they hardly counted
     double crease_share = 0;    ///< share of the area in triangles that a crease crosses
     /// If creases are too many, the angle by which half of the area turns across a triangle,
@@ -88,14 +110,22 @@ struct NoiseReport : SmoothingReport {
     int solver_iterations = 0;  ///< of conjugate gradients, in all steps
 
     /// The height of stairs, as of voxels, slices or whole numbers, mesh units; 0: there are none.
-    /// Where there is no noise from vertex to vertex, also the width and the standard deviation of
-    /// lumps or waves that may be noise nevertheless.
-    double stairs = 0, lump_width = 0, lump_height = 0;
+    double stairs = 0;
+    /// The sides of voxels or slices, mesh units: those most nearly along x, y and z; 0: there are
+    /// none. They are smoothed if the kind is Stairs; otherwise they may be the shape, and stay.
+    double cell_x = 0, cell_y = 0, cell_z = 0;
+    /// How many of them the smoothed labels have inside; kNoNumber if that is not defined.
+    double voxels = kNoNumber;
 
     std::int64_t bounded_vertices = 0;  ///< stopped by NoiseParameters::largest_movement
-    /// Connected parts that have lost more than 3 % of their area or changed their volume by as
-    /// much, not counting the area that noise adds; and the largest such shares of a part.
+    /// Connected parts that lose more than 3 % of their area or change their volume by as much,
+    /// besides their noise, or of whose area more than 0.5 % turns over; and the largest such
+    /// shares of a part.
     std::int64_t shrunken_parts = 0;
+    /// Those that went back to where they were, because the parameters do not say what the noise
+    /// is.
+    std::int64_t kept_parts = 0;
+    std::int64_t turned_triangles = 0;  ///< folded by the smoothing
     double lost_area = 0, lost_volume = 0;
 };
 

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "filter_tracked_mcf/core/errors.h"
+#include "filter_tracked_mcf/core/plain_text.h"
 
 namespace tracked_mcf {
 
@@ -38,7 +39,7 @@ void check_strengths(const TriangleMesh& mesh, const std::vector<double>& streng
             const double strength = strengths[vertex];
             if (strength >= 0 && strength <= 1) continue;  // a NaN is not
             throw InvalidMesh("The strength of vertex " + std::to_string(vertex) + " is " +
-                              std::to_string(strength) + "; give numbers from 0 to 1.");
+                              plain(strength, 10) + "; give numbers from 0 to 1.");
         }
     }
 }

@@ -12,7 +12,7 @@ namespace tracked_mcf {
 /// Vertex indices of a triangle.
 using Triangle = std::array<std::int32_t, 3>;
 
-/// A triangle mesh in the user's units. Several components, non-manifold edges, inconsistent
+/// A triangle mesh in the user's units. Several parts, non-manifold edges, inconsistent
 /// orientation, soups of unconnected triangles, unreferenced vertices and some degenerate triangles
 /// are all allowed.
 struct TriangleMesh {
@@ -34,8 +34,8 @@ struct Inputs {
 
     Selection selection;
     /// Per vertex: a number from 0 to 1 that multiplies the detail size; empty if all are 1. At 0,
-    /// a vertex stays. Coincident vertices, and those across a crack, take the
-    /// strength of the first.
+    /// a vertex is held. Coincident vertices, and those across a crack, take the strength of the
+    /// one that comes first in the mesh.
     std::vector<double> strength;
 };
 

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
+#include "filter_tracked_mcf/core/plain_text.h"
 #include "filter_tracked_mcf/presentation/surface_warnings.h"
 
 namespace tracked_mcf {
@@ -51,7 +51,7 @@ std::string early_stop(const FlowReport& report, int iterations) {
                    " would have changed the surface so much that its volume cannot be restored. "
                    "Take more steps, or a smaller detail size or step size.";
         case Stop::NothingMoves:
-            return "Nothing has moved: all of the surface is constrained. Free the boundary, or "
+            return "Nothing has moved: all of the surface is held. Free the boundary, or "
                    "select more; with the method Paper, take a greater depth.";
     }
     return {};
@@ -60,8 +60,7 @@ std::string early_stop(const FlowReport& report, int iterations) {
 /// Empty unless the step size was limited.
 std::string limited_step_size(const FlowReport& report) {
     if (report.step_size >= report.asked_step_size || report.stop != Stop::None) return {};
-    std::ostringstream text;
-    text.precision(3);
+    PlainText text(3);
     text << "The step size is limited to " << report.step_size << " squared units of the mesh, "
          << "instead of " << report.asked_step_size << ": waves longer than " << report.detail_size
          << " keep more than half of their amplitude. More steps go further.";
@@ -72,9 +71,8 @@ std::string limited_step_size(const FlowReport& report) {
 std::string fine_detail(const FlowParameters& parameters, const FlowReport& report) {
     const double edges = report.detail_size / report.mean_edge;
     const bool is_fine = parameters.step_size == 0 && edges < 0.99 * kFinestDetailInEdges;
-    if (!is_fine || report.stop == Stop::NothingMoves) return {};
-    std::ostringstream text;
-    text.precision(3);
+    if (!is_fine || report.stop != Stop::None) return {};
+    PlainText text(3);
     text << "The detail size is " << edges << " mean edges; below " << kFinestDetailInEdges
          << " little changes. The default is " << kDefaultDetailInEdges << " edges, "
          << kDefaultDetailInEdges * report.mean_edge << ".";
@@ -89,42 +87,29 @@ std::string handles(const FlowReport& report) {
            ", so it cannot become a sphere. Close its tunnels first.";
 }
 
-/// A step that removes more of the area than this has changed more than noise.
+/// A flow that removes more of the area than this has changed more than noise.
 constexpr double kLargeLoss = 0.1;
 
-/// A closed surface that keeps less of its area than this has lost its shape.
-constexpr double kLost = 0.1;
-
-/// Empty unless waves as long as a closed surface were removed, and almost all of it with them.
-std::string lost_shape(const FlowReport& report) {
-    if (report.detail_size <= report.longest_side || report.boundary_edges > 0 ||
-        report.steps.empty() || report.area_after >= kLost * report.area_before)
+/// Empty unless a flow that preserves nothing has removed much of the area.
+std::string lost_area(const FlowParameters& parameters, const FlowReport& report) {
+    const double lost = 1 - report.area_after / report.area_before;
+    if (parameters.preserve != Preserve::None || report.steps.empty() ||
+        report.stop == Stop::Vanished || !(lost > kLargeLoss))
         return {};
-    std::ostringstream text;
-    text.precision(3);
-    text << "The detail size " << report.detail_size << " is longer than the mesh, and "
-         << 100 * (1 - report.area_after / report.area_before)
-         << " % of the area is gone. Take a smaller one, such as 2 % of the diagonal.";
-    return text.str();
-}
-
-/// Empty unless a step removed much of the area, though the shape was to be kept: waves as long as
-/// the mesh are all of it.
-std::string sudden_loss(const FlowReport& report) {
-    if (report.stop == Stop::Vanished || report.detail_size > report.longest_side) return {};
-    for (std::size_t i = 0; i < report.steps.size(); ++i) {
-        const double before = report.steps[i].area;
-        const double after =
-            i + 1 < report.steps.size() ? report.steps[i + 1].area : report.area_after;
-        if (after >= (1 - kLargeLoss) * before) continue;
-        std::ostringstream text;
-        text.precision(2);
-        text << "Step " << i + 1 << " removed " << 100 * (before - after) / before
-             << " % of the area. If that is more than noise, take a smaller detail size, or a "
-                "greater order to keep the shape.";
-        return text.str();
+    const bool exceeds_mesh = report.detail_size > report.longest_side;
+    const bool chose_detail = parameters.detail_size > 0 || parameters.step_size > 0;
+    // A minimal surface may be small.
+    if (exceeds_mesh && chose_detail && report.boundary_edges > 0) return {};
+    PlainText text(3);
+    text << "The flow has removed " << 100 * lost << " % of the area";
+    if (exceeds_mesh) {
+        text << ": the detail size " << report.detail_size
+             << " is longer than the mesh. Take a smaller one, such as 2 % of the diagonal.";
+    } else {
+        text << ". If that is more than noise, take a smaller detail size, or a greater order to "
+                "keep the shape.";
     }
-    return {};
+    return text.str();
 }
 
 /// Empty if all steps reached the tolerance.
@@ -134,8 +119,7 @@ std::string shortfall(const FlowReport& report, double tolerance) {
         steps.begin(), steps.end(), [](const StepReport& step) { return !step.reached_tolerance; });
     if (count == 0) return {};
     const auto worst = std::max_element(steps.begin(), steps.end(), is_better);
-    std::ostringstream text;
-    text.precision(2);
+    PlainText text(2);
     text << "The solver stopped short of the tolerance " << tolerance << " in " << count << " of "
          << steps.size() << " steps: " << (count > 1 ? "the worst is " : "") << "step "
          << worst - steps.begin() + 1 << ", at " << worst->error_estimate << " after "
@@ -153,9 +137,9 @@ bool converged(const FlowReport& report) {
 
 std::vector<std::string> warnings_of(const FlowParameters& parameters, const FlowReport& report) {
     std::vector<std::string> warnings = surface_warnings(report);
-    for (const std::string& warning : {early_stop(report, parameters.iterations),
-                                       limited_step_size(report), fine_detail(parameters, report),
-                                       handles(report), lost_shape(report), sudden_loss(report)}) {
+    for (const std::string& warning :
+         {early_stop(report, parameters.iterations), limited_step_size(report),
+          fine_detail(parameters, report), handles(report), lost_area(parameters, report)}) {
         if (!warning.empty()) warnings.push_back(warning);
     }
     const std::string short_steps = shortfall(report, parameters.tolerance);

@@ -52,8 +52,30 @@ std::string name_of(NoiseStop stop) {
             return "too few vertices";
         case NoiseStop::TooManyCreases:
             return "too many creases";
+        case NoiseStop::ModelledPart:
+            return "modelled part";
+        case NoiseStop::TooMuchLost:
+            return "too much lost";
         case NoiseStop::NoNoise:
             return "no noise";
+    }
+    return "none";
+}
+
+std::string name_of(NoiseKind kind) {
+    switch (kind) {
+        case NoiseKind::None:
+            break;
+        case NoiseKind::White:
+            return "white";
+        case NoiseKind::Varying:
+            return "varying";
+        case NoiseKind::Outliers:
+            return "outliers";
+        case NoiseKind::Shared:
+            return "shared";
+        case NoiseKind::Stairs:
+            return "stairs";
     }
     return "none";
 }
@@ -131,6 +153,10 @@ void add_surface(Table<Report>& table) {
         .add("triangles", &FilterReport::triangles, Unit::None, "faces that may move")
         .add("degenerate_triangles", &FilterReport::degenerate_triangles, Unit::None,
              "of these, faces without an area: they have no influence")
+        .add("copied_triangles", &FilterReport::copied_triangles, Unit::None,
+             "of these, faces with the same vertices as another one: all of them count once")
+        .add("double_sided_parts", &FilterReport::double_sided_parts, Unit::None,
+             "connected parts of the surface whose faces have copies that look the other way")
         .add(
             "joined_vertices", [](const Report& report) { return report.cracks.joined_vertices; },
             Unit::None, "vertices that count as one with another across a crack")
@@ -169,7 +195,7 @@ void add_change(Table<Report>& table) {
             Unit::CubedLength, "the same after")
         .add_optional("volume_change", &FilterReport::volume_change, Unit::CubedLength,
                       "volume between the surface before and after, positive along the normals; "
-                      "null unless the faces are oriented consistently")
+                      "null if the faces cannot be oriented alike")
         .add("seconds", &FilterReport::seconds, Unit::Seconds, "wall time without files")
         .add("peak_memory_bytes", &FilterReport::peak_memory_bytes, Unit::Bytes,
              "peak memory of the whole process so far");
@@ -213,7 +239,8 @@ std::vector<ReportRow<FlowReport>> flow_rows() {
             Unit::None, "whether the flow ended early")
         .add("converged", converged, Unit::None, "whether all steps reached the tolerance")
         .add("error_estimate", error_estimate, Unit::Share,
-             "of the last step: relative error in the energy norm, or with the method *Paper* the "
+             "of the last step: largest relative error of a solve in the energy norm, or with the "
+             "method *Paper* the "
              "residual's 2-norm relative to its first value; 0 without a step")
         .add("setup_seconds", &FlowReport::setup_seconds, Unit::Seconds, "before the first step")
         .add("steps", &FlowReport::steps, Unit::None, "one entry for each step, see below")
@@ -229,20 +256,31 @@ std::vector<ReportRow<NoiseReport>> noise_rows() {
     add_boundary(table);
     table.add("detail_size", &NoiseReport::detail_size, Unit::Length, kDetailSize)
         .add("stop", &NoiseReport::stop, Unit::None, kStop)
+        .add("kind", &NoiseReport::kind, Unit::None,
+             "what was removed: `none`, `white`, `varying`, `outliers`, `shared` or `stairs`")
         .add("noise", &NoiseReport::noise, Unit::Length,
              "standard deviation of the noise along the normals, as measured; 0 if too few "
              "vertices can move")
         .add("noise_size", &NoiseReport::noise_size, Unit::Length,
-             "how wide what counts as noise is: an edge, what was given, or that of stairs")
+             "how wide what counts as noise is: an edge, what was given, or what the mesh shows")
         .add("outliers", &NoiseReport::outliers, Unit::None,
              "vertices with so much more noise than others that they hardly counted")
         .add("stairs", &NoiseReport::stairs, Unit::Length,
              "height of stairs, as of voxels or slices; 0 if there are none")
-        .add("lump_width", &NoiseReport::lump_width, Unit::Length,
-             "where there is no noise from vertex to vertex: width of lumps or waves that may be "
-             "noise; else 0")
-        .add("lump_height", &NoiseReport::lump_height, Unit::Length,
-             "standard deviation of these lumps or waves")
+        .add("cell_x", &NoiseReport::cell_x, Unit::Length,
+             "side of voxels or slices along x, or most nearly so; 0 if there are none")
+        .add("cell_y", &NoiseReport::cell_y, Unit::Length, "the same along y")
+        .add("cell_z", &NoiseReport::cell_z, Unit::Length, "the same along z")
+        .add_optional("voxels", &NoiseReport::voxels, Unit::None,
+                      "those inside the labels that were smoothed; null if there are none, or if a "
+                      "label is open")
+        .add("flat_edges", &NoiseReport::flat_edges, Unit::Share,
+             "share of edges that are exactly flat, beside those in flat places; noise leaves "
+             "hardly "
+             "any")
+        .add_optional("evenness", &NoiseReport::evenness, Unit::Share,
+                      "height of bumps in the quietest tenth of places, over the median: near 0.9 "
+                      "with noise, less with detail; null if it was not measured")
         .add("crease_share", &NoiseReport::crease_share, Unit::Share,
              "share of the area in triangles that a crease crosses")
         .add_optional("median_turn", &NoiseReport::median_turn, Unit::Degrees,
@@ -254,13 +292,18 @@ std::vector<ReportRow<NoiseReport>> noise_rows() {
         .add("solver_iterations", &NoiseReport::solver_iterations, Unit::None, kSolverIterations)
         .add("bounded_vertices", &NoiseReport::bounded_vertices, Unit::None,
              "vertices that stopped at the largest movement")
-        .add("shrunken_parts", &NoiseReport::shrunken_parts, Unit::None,
-             "connected parts that have lost more than 3 % of their area or volume, besides their "
-             "noise")
+        .add(
+            "shrunken_parts", &NoiseReport::shrunken_parts, Unit::None,
+            "connected parts that lose more than 3 % of their area or volume, besides their noise, "
+            "or of whose area more than 0.5 % turns over")
+        .add("kept_parts", &NoiseReport::kept_parts, Unit::None,
+             "those that were left as they were, because nobody said what the noise is")
+        .add("turned_triangles", &NoiseReport::turned_triangles, Unit::None,
+             "faces that smoothing turned over, in kept parts, too")
         .add("lost_area", &NoiseReport::lost_area, Unit::Share,
-             "the largest share of its area that a part has lost")
+             "the largest share of its area that a part loses, kept parts included")
         .add("lost_volume", &NoiseReport::lost_volume, Unit::Share,
-             "the largest share by which the volume of a part has changed");
+             "the largest share by which the volume of a part changes, kept parts included");
     add_change(table);
     return table.rows();
 }
@@ -297,8 +340,9 @@ std::vector<ReportRow<StepReport>> step_rows() {
              "2-norm of the residual before the solve, in edges or cells")
         .add("residual_after", &StepReport::residual_after, Unit::Share, "the same after it")
         .add("solver_iterations", &StepReport::solver_iterations, Unit::None, kSolverIterations)
-        .add_optional("error_estimate", &StepReport::error_estimate, Unit::Share,
-                      "relative error in the energy norm; null with the method *Paper*")
+        .add_optional(
+            "error_estimate", &StepReport::error_estimate, Unit::Share,
+            "largest relative error of a solve in the energy norm; null with the method *Paper*")
         .add("reached_tolerance", &StepReport::reached_tolerance, Unit::None,
              "whether that is at most the tolerance, or the method has none")
         .add("area", &StepReport::area, Unit::SquaredLength, "before the step")

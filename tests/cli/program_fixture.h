@@ -9,6 +9,7 @@
 #include "filter_tracked_mcf/core/mesh/measures.h"
 #include "filter_tracked_mcf/hosts/cli/mesh_file.h"
 #include "tests/cli/temporary_folder.h"
+#include "tests/support/measures.h"
 
 namespace tracked_mcf {
 

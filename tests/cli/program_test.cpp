@@ -38,8 +38,11 @@ TEST_F(Program, SmoothsAndSummarises) {
 }
 
 TEST_F(Program, VerboseTellsTheNumbersOfTheSolver) {
-    EXPECT_THAT(run("a.off b.ply --depth 4 --step-size 5e-4 --verbose").output,
+    EXPECT_THAT(run("a.off b.ply --depth 4 --method paper --step-size 5e-4 --verbose").output,
                 AllOf(HasSubstr("\nGrid of depth 4: "), HasSubstr("\nStep size 0.0005, ")));
+    EXPECT_THAT(run("a.off b.ply --depth 4 --step-size 5e-4 --verbose").output,
+                AllOf(Not(HasSubstr("Grid")), HasSubstr("\nStep size 0.0005, ")))
+        << "four vertices need no octree";
 }
 
 TEST_F(Program, TakesTheFlowWithAndWithoutItsCommand) {

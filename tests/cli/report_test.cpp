@@ -40,6 +40,8 @@ TEST(Report, HoldsEveryMemberUnderItsName) {
     report.vertices = 1;
     report.triangles = 2;
     report.degenerate_triangles = 3;
+    report.copied_triangles = 18;
+    report.double_sided_parts = 19;
     report.boundary_edges = 4;
     report.cracks = {16, 17, 0.5};
     report.held_vertices = 15;
@@ -76,6 +78,7 @@ TEST(Report, HoldsEveryMemberUnderItsName) {
                        "preserve": "area", "quality": "displacement",
                        "method": "converged", "tolerance": 0.5, "threads": 1},
         "vertices": 1, "triangles": 2, "degenerate_triangles": 3, "boundary_edges": 4,
+        "copied_triangles": 18, "double_sided_parts": 19,
         "joined_vertices": 16, "open_pairs": 17,
         "held_vertices": 15, "detail_size": 0.4375, "step_size": 0.0625,
         "area_before": 20.5, "area_after": 19.5,
@@ -195,31 +198,6 @@ TEST(Warnings, NameTheWorstStepThatStoppedShort) {
                   "The solver stopped short of the tolerance 0.001 in 2 of 4 steps: the worst is "
                   "step 2, at 0.5 after 100 iterations. Look at the result; a smaller detail size "
                   "may help."});
-}
-
-TEST(Warnings, NameTheFirstStepThatRemovedMuchOfTheArea) {
-    FlowReport report;
-    report.steps.resize(3);
-    report.steps[0].area = 100;
-    report.steps[1].area = 91;
-    report.steps[2].area = 83;
-    report.area_after = 75;
-    EXPECT_TRUE(warnings_of(FlowParameters(), report).empty());
-    report.area_after = 62.25;
-    EXPECT_EQ(
-        warnings_of(FlowParameters(), report),
-        std::vector<std::string>{
-            "Step 3 removed 25 % of the area. If that is more than noise, take a smaller detail "
-            "size, or a greater order to keep the shape."});
-    report.steps[2].area = 45.5;
-    EXPECT_EQ(warnings_of(FlowParameters(), report).at(0).substr(0, 28),
-              "Step 2 removed 50 % of the a");
-
-    report.longest_side = 64;
-    report.detail_size = 60;
-    EXPECT_EQ(warnings_of(FlowParameters(), report).size(), 1U);
-    report.detail_size = 70;
-    EXPECT_TRUE(warnings_of(FlowParameters(), report).empty()) << "the detail is all of the shape";
 }
 
 TEST(Report, HoldsEveryWarningThatIsPrinted) {

@@ -122,7 +122,7 @@ TEST(Strength, RefusesOtherNumbersAndFiles) {
                      "The vertices of a.ply have no number 'of_faces'; they have: x, y, z, both, "
                      "of_vertices, flags."},
           std::tuple{"a.ply b.ply --strength flags", 1,
-                     "The strength of vertex 3 is 33.000000; give numbers from 0 to 1."},
+                     "The strength of vertex 3 is 33; give numbers from 0 to 1."},
           std::tuple{"a.off b.ply --strength x", 2, "--strength needs a PLY file"}}) {
         const ProgramRun run = run_program(folder, arguments);
         EXPECT_EQ(run.exit_code, exit_code) << arguments;

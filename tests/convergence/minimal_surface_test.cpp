@@ -11,6 +11,7 @@
 
 #include "filter_tracked_mcf/core/evolve.h"
 #include "filter_tracked_mcf/core/mesh/measures.h"
+#include "tests/support/measures.h"
 #include "tests/support/minimal_surfaces.h"
 #include "tests/support/shapes.h"
 #include "tests/support/surface_distance.h"

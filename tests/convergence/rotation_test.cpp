@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "filter_tracked_mcf/core/evolve.h"
-#include "filter_tracked_mcf/core/flow/cells/grid.h"
+#include "filter_tracked_mcf/core/mesh/grid.h"
 #include "tests/support/shapes.h"
 #include "tests/support/surface_distance.h"
 

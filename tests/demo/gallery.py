@@ -372,7 +372,9 @@ def main():
         print("tracked_mcf", *command, flush=True)
         run = subprocess.run([arguments.tool.resolve(), *command, "--quiet"], cwd=work, check=True,
                              stderr=subprocess.PIPE, text=True)
-        assert not run.stderr, run.stderr
+        # Large detail is much of the area.
+        warnings = [line for line in run.stderr.splitlines() if "The flow has removed" not in line]
+        assert not warnings, warnings
     smooth_charts_alone(arguments.tool.resolve(), arguments.meshes, work)
     check_results(arguments.meshes, work, page)
     if arguments.pictures:

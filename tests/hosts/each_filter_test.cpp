@@ -181,7 +181,7 @@ TEST_P(EachFilter, TakesTheStrengthFromTheQuality) {
     }
     layer.cm.vert[5].Q() = 2;
     ASSERT_FALSE(apply());
-    EXPECT_TRUE(contains(outcome.message, "The strength of vertex 5 is 2.")) << outcome.message;
+    EXPECT_TRUE(contains(outcome.message, "The strength of vertex 5 is 2;")) << outcome.message;
     EXPECT_EQ(position_bits(layer), after);
 }
 

@@ -26,9 +26,9 @@ def run(command):
 class Comparison:
     """Of a host with the program, for the runs of one filter."""
 
-    def __init__(self, program, host, takes_options, scalar, tolerances):
+    def __init__(self, program, host, takes_options, scalar, tolerances, solves):
         self.program, self.host, self.takes_options = program, host, takes_options
-        self.scalar, self.tolerances = scalar, tolerances
+        self.scalar, self.tolerances, self.solves = scalar, tolerances, solves
 
     def compare(self, command, work, settings):
         """Returns the bytes of the program's result, which the host's must match, or b"" if both refuse."""
@@ -60,6 +60,8 @@ class Comparison:
             settings = runs.settings_of(command, parameters, edge)
             if not self.takes_options and runs.OF_THE_PROGRAM & set(settings):
                 continue
+            if command == "smooth" and self.solves:
+                settings.setdefault("tolerance", self.solves)
             print(command, parameters or "default", end=": ", flush=True)
             results[parameters] = self.compare(command, work, settings)
             if (results[parameters] == results[""]) != runs.same_as_default(parameters):
@@ -75,6 +77,7 @@ def main():
                         "place of the largest number as a float")
     parser.add_argument("--share", type=float, default=0, help="the largest permitted difference, relative to the "
                         "largest movement")
+    parser.add_argument("--tolerance", help="of the flow's solves, with --options, in runs that give none")
     parser.add_argument("program", type=pathlib.Path)
     parser.add_argument("mesh", type=pathlib.Path)
     parser.add_argument("work", type=pathlib.Path, help="a folder, which is made anew")
@@ -83,7 +86,8 @@ def main():
     given = parser.parse_args()
     shutil.rmtree(given.work, ignore_errors=True)
     given.work.mkdir(parents=True)
-    comparison = Comparison(given.program, given.host, given.options, given.scalar, (given.ulps, given.share))
+    comparison = Comparison(given.program, given.host, given.options, given.scalar, (given.ulps, given.share),
+                            given.tolerance)
     for command in runs.FILTERS:
         comparison.compare_all(command, float_ply.read_mesh(given.mesh), given.work)
 

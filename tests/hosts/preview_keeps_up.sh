@@ -63,8 +63,8 @@ if [ -n "$plugin" ]; then
     install -D -t "$HOME/.local/share/VCG/MeshLab_64bit_fp/MeshLabExtraPlugins/$release" "$plugin"
 fi
 case $filter in # so many vertices a side that a run takes seconds
-    "Mean Curvature Flow") side=900 ;;
-    *) side=600 ;;
+    "Mean Curvature Flow") side=600 ;;
+    *) side=430 ;;
 esac
 "$here/bumpy_bowl.py" "$out/large.off" '' "$side"
 set_buttons "$release"

@@ -4,17 +4,22 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "filter_tracked_mcf/presentation/flow_warnings.h"
 #include "filter_tracked_mcf/presentation/noise_warnings.h"
 #include "filter_tracked_mcf/presentation/report_table.h"
 #include "filter_tracked_mcf/presentation/summary.h"
+#include "filter_tracked_mcf/presentation/surface_warnings.h"
 
 namespace tracked_mcf {
 
 namespace {
 
+using ::testing::ElementsAre;
 using ::testing::EndsWith;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 TEST(Summary, HasAFactInEachLine) {
     FlowParameters parameters;
@@ -43,13 +48,15 @@ TEST(Summary, HasAFactInEachLine) {
     report.unselected_triangles = 4;
     report.held_vertices = 12;
     report.degenerate_triangles = 1;
+    report.copied_triangles = 2;
     EXPECT_EQ(summary(parameters, report),
               "Smoothed 100 vertices by 10 steps of conformalized mean-curvature flow in 1.2 s.\n" +
                   moved +
                   "+12.5 %.\n"
                   "Only the 196 selected of 200 faces could move.\n"
                   "12 vertices kept their positions.\n"
-                  "1 face with zero area had no influence.");
+                  "1 face with zero area had no influence.\n"
+                  "2 faces are copies of others, and did not count again.");
 }
 
 TEST(Summary, TellsTheVolumeOfASurfaceThatEnclosesNone) {
@@ -59,7 +66,7 @@ TEST(Summary, TellsTheVolumeOfASurfaceThatEnclosesNone) {
     report.volume_change = -0.25;
     EXPECT_THAT(summary({}, report), EndsWith("Volume swept along the normals: -0.25."));
     report.volume_change = kNoNumber;
-    EXPECT_THAT(summary({}, report), HasSubstr("Volume: unknown, because the faces are not"));
+    EXPECT_THAT(summary({}, report), HasSubstr("Volume: unknown, because the faces cannot be"));
     report.volume_change = -0.25;
     report.volume_before = -2;  // normals that point inwards
     EXPECT_THAT(summary({}, report), EndsWith("Volume: +12.5 %."));
@@ -80,7 +87,12 @@ TEST(Summary, OfNoiseHasAFactInEachLine) {
     report.vertices = 100;
     report.seconds = 0.123;
     NoiseParameters parameters;
+    report.stop = NoiseStop::NoNoise;
     EXPECT_EQ(summary(parameters, report), "Found no noise to remove from 100 vertices in 0.12 s.");
+    report.stop = NoiseStop::TooManyCreases;
+    EXPECT_EQ(summary(parameters, report), "Removed no noise from 100 vertices in 0.12 s.");
+    report.stop = NoiseStop::None;
+    report.kind = NoiseKind::White;
     report.smoothing_steps = 2;
     report.largest_displacement = 0.1;
     report.rms_displacement = 0.02;
@@ -106,7 +118,16 @@ TEST(Summary, OfNoiseHasAFactInEachLine) {
     report.boundary_edges = 5;
     parameters.boundary = NoiseBoundary::Smooth;
     EXPECT_THAT(summary(parameters, report), HasSubstr("The rim was smoothed, too."));
-    report.smoothing_steps = 0;
+    report.kind = NoiseKind::Shared;
+    EXPECT_THAT(summary(parameters, report), HasSubstr("0.0123, shared by neighbouring"));
+    report.kind = NoiseKind::Varying;
+    EXPECT_THAT(summary(parameters, report), HasSubstr("0.0123, and more in some places"));
+    report.kind = NoiseKind::Stairs;
+    EXPECT_THAT(summary(parameters, report), HasSubstr("0.0123, in stairs."));
+    report.cell_x = report.cell_y = 1;
+    report.cell_z = 4;
+    EXPECT_THAT(summary(parameters, report), HasSubstr("sides 1, 1 and 4 were smoothed."));
+    report.kind = NoiseKind::None;
     EXPECT_THAT(summary(parameters, report), HasSubstr("Smoothed the rim of 100 vertices"));
 }
 
@@ -126,20 +147,25 @@ TEST(NoiseWarnings, SayWhyNothingWasRemovedAndWhatToDo) {
     EXPECT_THAT(warning(report), HasSubstr("creases cross 100 % of the area"));
     EXPECT_THAT(warning(report), HasSubstr("Give a crease angle of more than 7°"));
     report.stop = NoiseStop::NoNoise;
-    EXPECT_THAT(warning(report), HasSubstr("give the size of the noise: half the width of lumps"));
-    report.lump_width = 2;
-    report.lump_height = 0.25;
-    EXPECT_THAT(warning(report), HasSubstr("about 2 wide and 0.25 high"));
-    EXPECT_THAT(warning(report), HasSubstr("give its width as the size of the noise"));
+    EXPECT_THAT(warning(report), HasSubstr("switch on Lumps, too"));
     report.stairs = 3;
     EXPECT_THAT(warning(report), HasSubstr("but stairs 3 high"));
     report.largest_displacement = 1;
     EXPECT_THAT(warning(report), HasSubstr("No noise was removed: ")) << "the rim has moved";
+    report.stop = NoiseStop::ModelledPart;
+    report.flat_edges = 0.38;
+    EXPECT_THAT(warning(report), HasSubstr("38 % of the edges are exactly flat"));
     report = {};
+    report.kind = NoiseKind::Stairs;
     report.stairs = 3;
     report.noise_size = 4.5;
-    EXPECT_THAT(warning(report), HasSubstr("stairs 3 high, as of voxels"));
+    EXPECT_THAT(warning(report), HasSubstr("stairs 3 high, as of heights in whole numbers"));
     EXPECT_THAT(warning(report), HasSubstr("They were smoothed as noise that is 4.5 wide."));
+    report.cell_x = 2;
+    EXPECT_THAT(warning(report), HasSubstr("Stairs 3 high, as of voxels or slices, were smoothed"));
+    report.kind = NoiseKind::None;
+    report.stop = NoiseStop::NoNoise;
+    EXPECT_THAT(warning(report), HasSubstr("stay: they may be the shape"));
     report = {};
     NoiseParameters given;
     given.noise_size = report.noise_size = 4;
@@ -147,13 +173,35 @@ TEST(NoiseWarnings, SayWhyNothingWasRemovedAndWhatToDo) {
     report.rms_displacement = 0.2;
     EXPECT_THAT(warnings_of(given, report),
                 testing::ElementsAre(HasSubstr("Hardly any noise of the size 4 was removed.")));
+    report.noise_size = std::nextafter(4, 5);
+    EXPECT_FALSE(warnings_of(given, report).empty()) << "edges times sizes in edges round";
     report.rms_displacement = 0.6;
     EXPECT_TRUE(warnings_of(given, report).empty());
     report = {};
     report.shrunken_parts = 2;
     report.lost_area = 0.12;
+    report.lost_volume = 0.4;
+    report.turned_triangles = 7;
     EXPECT_THAT(warning(report),
-                HasSubstr("2 parts of the surface have lost up to 12 % of the area"));
+                HasSubstr("2 parts of the surface have lost more than noise: up to 12 % of their "
+                          "area, up to 40 % of change in their volume, 7 faces turned over."));
+    report.kept_parts = 2;
+    EXPECT_THAT(warning(report), HasSubstr("2 parts of the surface stay as they were"));
+    report = {};
+    report.kind = NoiseKind::Shared;
+    report.noise_size = 2;
+    report.noise = 0.25;
+    EXPECT_THAT(warning(report), HasSubstr("much the same noise, about 2 wide and 0.25 high"));
+    NoiseParameters wished;
+    wished.lumps = true;
+    EXPECT_THAT(warnings_of(wished, report),
+                testing::ElementsAre(HasSubstr("Lumps and waves about 2 wide")));
+    report = {};
+    report.stop = NoiseStop::NoNoise;
+    wished = {};
+    wished.noise = 1e-12;
+    EXPECT_THAT(warnings_of(wished, report),
+                testing::ElementsAre(HasSubstr("farther than noise of 1e-12")));
     report = {};
     report.cracks.open_pairs = 33;
     report.cracks.open_width = 2e-4;
@@ -188,15 +236,28 @@ TEST(EarlyStop, NamesTheStepTheReasonAndTheRemedy) {
               "does: some faces are needles, too narrow for their length. Remesh them, or take a "
               "smaller detail size or step size.");
     report.stop = Stop::NothingMoves;
-    EXPECT_EQ(
-        early_stop(),
-        "Nothing has moved: all of the surface is constrained. Free the boundary, or select more; "
-        "with the method Paper, take a greater depth.");
+    EXPECT_EQ(early_stop(),
+              "Nothing has moved: all of the surface is held. Free the boundary, or select more; "
+              "with the method Paper, take a greater depth.");
     report.stop = Stop::Pinched;
     report.steps.resize(3);
     EXPECT_EQ(early_stop(),
               "The flow stopped after step 3 of 10: so much has pinched that preserving would "
               "inflate what is left.");
+}
+
+TEST(Warnings, TellThatPartsAreDoubleSided) {
+    FilterReport report;
+    EXPECT_TRUE(surface_warnings(report).empty());
+    report.double_sided_parts = 1;
+    EXPECT_THAT(
+        surface_warnings(report),
+        testing::ElementsAre("A part of the surface is double-sided: most faces there have a copy "
+                             "that looks the other way. A face and its copies count as one, and "
+                             "move together."));
+    report.double_sided_parts = 3;
+    EXPECT_THAT(surface_warnings(report),
+                testing::ElementsAre(HasSubstr("3 parts of the surface are double-sided")));
 }
 
 TEST(Warnings, TellThatAClosedMeshIsInsideOut) {
@@ -217,12 +278,13 @@ TEST(Warnings, TellThatAClosedMeshIsInsideOut) {
     for (const double volume : {1.0, kNoNumber, -1e-9}) EXPECT_TRUE(warnings(volume).empty());
 }
 
-TEST(Warnings, TellOfALimitedStepAFineDetailAndASuddenLoss) {
+TEST(Warnings, TellOfALimitedStepAFineDetailAndHandles) {
     FlowReport report;
     report.detail_size = report.cell_size = report.step_size = report.asked_step_size = 1;
     report.steps.resize(2);
     report.steps[0].area = 10;
     report.steps[1].area = report.area_after = 9.1;
+    report.area_before = 10;
     report.longest_side = 1024;
     const auto warnings = [&] { return warnings_of({}, report); };
     EXPECT_TRUE(warnings().empty());
@@ -244,21 +306,39 @@ TEST(Warnings, TellOfALimitedStepAFineDetailAndASuddenLoss) {
     EXPECT_EQ(warnings()[0],
               "The surface has 2 handles, so it cannot become a sphere. Close its tunnels first.");
     report.genus = 0;
-    report.longest_side = 0.5;
-    report.area_before = 10;
-    report.area_after = 0.5;
-    ASSERT_EQ(warnings().size(), 1U);
-    EXPECT_EQ(warnings()[0],
-              "The detail size 1 is longer than the mesh, and 95 % of the area is gone. Take a "
-              "smaller one, such as 2 % of the diagonal.");
-    report.boundary_edges = 3;  // a minimal surface may be small
-    EXPECT_TRUE(warnings().empty());
+}
+
+TEST(Warnings, TellOfALargeLossOfArea) {
+    FlowReport report;
+    report.detail_size = report.step_size = report.asked_step_size = 1;
+    report.mean_edge = 0.5;
     report.longest_side = 1024;
+    report.area_before = 10;
+    report.steps.resize(3);  // each removes less than 10 %
     report.area_after = 8;
-    ASSERT_EQ(warnings().size(), 1U);
-    EXPECT_EQ(warnings()[0],
-              "Step 2 removed 12 % of the area. If that is more than noise, take a smaller detail "
-              "size, or a greater order to keep the shape.");
+    FlowParameters p;
+    const auto warnings = [&] { return warnings_of(p, report); };
+    EXPECT_THAT(warnings(),
+                ElementsAre("The flow has removed 20 % of the area. If that is more than noise, "
+                            "take a smaller detail size, or a greater order to keep the shape."));
+    report.longest_side = 0.5;
+    const std::string longer =
+        "The flow has removed 20 % of the area: the detail size 1 is longer than the mesh. Take a "
+        "smaller one, such as 2 % of the diagonal.";
+    EXPECT_THAT(warnings(), ElementsAre(longer));
+    report.boundary_edges = 3;
+    EXPECT_THAT(warnings(), ElementsAre(longer));
+    p.detail_size = 1;  // asks for a minimal surface
+    EXPECT_THAT(warnings(), IsEmpty());
+    report.boundary_edges = 0;
+    p.preserve = Preserve::Volume;
+    EXPECT_THAT(warnings(), IsEmpty());
+    p.preserve = Preserve::None;
+    report.area_after = 9.1;
+    EXPECT_THAT(warnings(), IsEmpty());
+    report.area_after = 0.01;
+    report.stop = Stop::Vanished;
+    EXPECT_EQ(warnings().size(), 1U) << "that it has";
 }
 
 }  // namespace

@@ -525,7 +525,7 @@ class Errors(unittest.TestCase):
         self.assertIs(caught[0].category, tracked_mcf.MeshWarning)
         self.assertTrue(issubclass(tracked_mcf.MeshWarning, UserWarning))
         self.assertEqual(caught[0].filename, __file__)
-        with self.assertWarnsRegex(tracked_mcf.MeshWarning, "all of the surface is constrained") as raised:
+        with self.assertWarnsRegex(tracked_mcf.MeshWarning, "all of the surface is held") as raised:
             remove_noise(faces=FACES[:1], boundary="locked")
         self.assertEqual(raised.filename, __file__)
         with warnings.catch_warnings(), self.assertRaises(tracked_mcf.MeshWarning):

@@ -20,8 +20,8 @@ ROOMS = [".", "parameters", "platform", "parallel", "mesh", "fair", "noise", "fl
          "flow/elements", "flow/system", "flow/solver", "flow/stepping", "entry point"]
 JOBS = ["fair", "noise", "flow"]
 
-# What the core may include of others: the standard library, Eigen, Highway, intrinsics, POSIX, Windows.
-KNOWN_TO_CORE = re.compile(r"^([a-z_]+|Eigen/[A-Z]\w+|hwy/\w+\.h|(intrin|sched|unistd|windows|psapi)\.h|sys/\w+\.h)$")
+# What the core may include of others: the standard library, Eigen, intrinsics, POSIX, Windows.
+KNOWN_TO_CORE = re.compile(r"^([a-z_]+|Eigen/[A-Z]\w+|(intrin|sched|unistd|windows|psapi)\.h|sys/\w+\.h)$")
 
 # The plugin includes the one of its MeshLab release, by the include path that CMake chooses.
 MESHLAB_API = "meshlab_api.h"
@@ -66,7 +66,7 @@ def broken_rule(includer, included, is_quoted):
         if is_quoted and included != MESHLAB_API:
             return "paths of our files begin at the top of the checkout"
         known = not in_core or KNOWN_TO_CORE.match(included)
-        return None if known else "the core knows the standard library, Eigen and Highway alone"
+        return None if known else "the core knows the standard library and Eigen alone"
     if in_core:
         return (rule_broken_in_core(includer, included) if to_core
                 else "the core includes nothing of the project but the core")

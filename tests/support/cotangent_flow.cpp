@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/support/cotangent_flow.h"
 #include "filter_tracked_mcf/core/mesh/weld.h"
+#include "tests/support/measures.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
-#include "filter_tracked_mcf/core/flow/cells/grid.h"
-#include "filter_tracked_mcf/core/mesh/mesh_topology.h"
+#include "filter_tracked_mcf/core/mesh/grid.h"
+#include "filter_tracked_mcf/core/mesh/surface.h"
 
 namespace tracked_mcf {
 
@@ -71,15 +72,11 @@ Element element_of(const TriangleMesh& mesh, const Triangle& t, double step_size
 
 /// Returns, per welded vertex, whether it lies on the boundary.
 std::vector<std::uint8_t> boundary_vertices(const TriangleMesh& mesh) {
-    const MeshTopology topology = topology_of(mesh);
+    const Surface surface = surface_of(mesh);
     std::vector<std::uint8_t> on_boundary(mesh.positions.size());
-    const std::vector<std::uint8_t>& edges = topology.boundary;
-    for (std::size_t t = 0; t < edges.size(); ++t) {
-        for (int i = 0; i < 3; ++i) {
-            if (!has_bit(edges[t], i)) continue;
-            on_boundary[topology.triangles[t][i]] = 1;
-            on_boundary[topology.triangles[t][(i + 1) % 3]] = 1;
-        }
+    for (std::size_t i = 0; i < on_boundary.size() && surface.stars.has_rim(); ++i) {
+        const std::int32_t vertex = surface.vertices[i];
+        if (vertex >= 0) on_boundary[i] = surface.stars.on_rim[vertex];
     }
     return on_boundary;
 }
@@ -93,7 +90,7 @@ double triangle_quality(const TriangleMesh& mesh, const Triangle& triangle) {
 
 CotangentFlow::CotangentFlow(const TriangleMesh& mesh, double step_size, BoundaryCondition boundary)
     : mesh_(mesh),
-      welded_(weld_coincident_vertices(mesh)),
+      welded_(weld_coincident_vertices(mesh, referenced_vertices(mesh))),
       constrained_(mesh.positions.size()),
       degenerated_(mesh.triangles.size()) {
     const double side = longest_side(mesh);

@@ -2,22 +2,27 @@
 #pragma once
 
 #include "filter_tracked_mcf/core/flow/cells/fragments.h"
-#include "filter_tracked_mcf/core/flow/cells/grid.h"
 #include "filter_tracked_mcf/core/flow/elements/tracked_elements.h"
+#include "filter_tracked_mcf/core/mesh/grid.h"
+#include "filter_tracked_mcf/core/mesh/measures.h"
+#include "tests/support/measures.h"
 
 namespace tracked_mcf {
 
-/// Clips the domain's surface to the grid and builds its elements. Throws what clip_to_grid and
-/// build_tracked_elements throw.
-inline TrackedElements build_tracked_elements(const Domain& domain, const Grid& grid,
-                                              Cubature cubature) {
-    return build_tracked_elements(domain, clip_to_grid(domain.surface(), grid), cubature);
+/// Returns the grid around a mesh.
+inline Grid enclosing_grid(const TriangleMesh& mesh, int depth) {
+    return enclosing_grid(bounding_box(mesh), depth);
 }
 
-/// Builds the elements of a whole mesh with its boundary constrained.
-inline TrackedElements build_tracked_elements(const TriangleMesh& mesh, const Grid& grid,
-                                              Cubature cubature) {
-    return build_tracked_elements(Domain(mesh, BoundaryCondition::Locked), grid, cubature);
+/// Clips a mesh to the grid and builds its elements. Throws what clip_to_grid and
+/// build_tracked_elements throw.
+inline TrackedElements build_tracked_elements(
+    const TriangleMesh& mesh, const Grid& grid, Cubature cubature,
+    BoundaryCondition boundary = BoundaryCondition::Locked) {
+    const Surface surface = surface_of(mesh, {}, boundary);
+    const Positions positions = surface.in_mesh_units(mesh);
+    return build_tracked_elements(surface, clip_to_grid({positions, surface.stars.triangles}, grid),
+                                  cubature);
 }
 
 /// Returns the coefficients of the identity, Σ (i, j, k) B_ijk(p) = p (section 5.3): the

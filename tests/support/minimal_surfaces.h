@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "filter_tracked_mcf/core/flow/cells/grid.h"
+#include "filter_tracked_mcf/core/mesh/grid.h"
 #include "filter_tracked_mcf/core/triangle_mesh.h"
 
 namespace tracked_mcf {

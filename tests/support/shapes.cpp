@@ -328,6 +328,69 @@ TriangleMesh voxels(int begin, int end,
     return std::move(welder).mesh();
 }
 
+namespace {
+
+using Points = std::array<Eigen::Vector3i, 4>;
+
+/// Returns the corners of a side of the cube at a point, in their order seen from outside.
+Points corners_of_side(const Eigen::Vector3i& at, int axis, bool is_upper) {
+    Eigen::Vector3i u = Eigen::Vector3i::Unit((axis + 1) % 3),
+                    v = Eigen::Vector3i::Unit((axis + 2) % 3);
+    if (!is_upper) std::swap(u, v);
+    const Eigen::Vector3i first = at + (is_upper ? 1 : 0) * Eigen::Vector3i::Unit(axis);
+    return {first, first + u, first + u + v, first + v};
+}
+
+using Point = std::array<double, 3>;
+
+}  // namespace
+
+TriangleMesh marching_cubes(int begin, int end,
+                            const std::function<double(const Eigen::Vector3i&)>& field) {
+    const auto value_at = [&](const Eigen::Vector3i& at) {
+        return at.minCoeff() >= begin && at.maxCoeff() < end ? field(at) : 0;
+    };
+    const auto is_filled = [&](const Eigen::Vector3i& at) { return value_at(at) > 0.5; };
+    const auto crossing = [&](const Eigen::Vector3i& filled, const Eigen::Vector3i& empty) {
+        const double high = value_at(filled), low = value_at(empty);
+        const Vector3d point =
+            filled.cast<double>() + (high - 0.5) / (high - low) * (empty - filled).cast<double>();
+        return Point{point[0], point[1], point[2]};
+    };
+    const int side = end - begin + 1;
+    Welder welder;
+    for (int i = 0; i < side * side * side; ++i) {
+        const Eigen::Vector3i at =
+            Eigen::Vector3i(i % side, i / side % side, i / side / side).array() + begin - 1;
+        // On each side of the cube, segments cut off the corners that are empty.
+        std::map<Point, Point> next;
+        for (int face = 0; face < 6; ++face) {
+            const Points corners = corners_of_side(at, face / 2, face % 2 == 0);
+            for (std::size_t k = 0; k < 4; ++k) {
+                std::size_t j = k;
+                if (!is_filled(corners[k]) || is_filled(corners[(k + 1) % 4])) continue;
+                do {
+                    j = (j + 1) % 4;
+                } while (!is_filled(corners[(j + 1) % 4]));
+                next[crossing(corners[(j + 1) % 4], corners[j])] =
+                    crossing(corners[k], corners[(k + 1) % 4]);
+            }
+        }
+        while (!next.empty()) {
+            std::vector<Vector3d> loop;
+            for (auto entry = next.begin(); entry != next.end();) {
+                loop.emplace_back(entry->first.data());
+                const Point point = entry->second;
+                next.erase(entry);
+                entry = next.find(point);
+            }
+            for (std::size_t k = 2; k < loop.size(); ++k)
+                welder.triangle(loop[0], loop[k - 1], loop[k]);
+        }
+    }
+    return std::move(welder).mesh();
+}
+
 double volume(const TriangleMesh& mesh) {
     double six = 0;
     for (const Triangle& t : mesh.triangles) {

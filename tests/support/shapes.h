@@ -63,6 +63,12 @@ TriangleMesh separate_triangles(int count);
 TriangleMesh voxels(int begin, int end,
                     const std::function<bool(const Eigen::Vector3i&)>& is_solid);
 
+/// The surface that marching cubes finds where a field passes 1/2, given its values at the middles
+/// of cells, with coordinates from `begin` to `end` - 1. All other values are 0. Vertices are
+/// welded.
+TriangleMesh marching_cubes(int begin, int end,
+                            const std::function<double(const Eigen::Vector3i&)>& field);
+
 /// Returns the volume inside a closed mesh: the sum of the signed volumes of the tetrahedra between
 /// its triangles and the origin.
 double volume(const TriangleMesh& mesh);

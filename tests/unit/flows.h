@@ -7,6 +7,7 @@
 
 #include "filter_tracked_mcf/core/evolve.h"
 #include "filter_tracked_mcf/core/mesh/measures.h"
+#include "tests/support/measures.h"
 #include "tests/support/same_bits.h"
 #include "tests/support/shapes.h"
 #include "tests/support/surface_distance.h"

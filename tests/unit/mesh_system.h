@@ -6,16 +6,12 @@
 #include <vector>
 
 #include "filter_tracked_mcf/core/flow/solver/field.h"
-#include "filter_tracked_mcf/core/flow/stepping/flow_surface.h"
+#include "filter_tracked_mcf/core/flow/solver/mesh_system.h"
+#include "filter_tracked_mcf/core/mesh/grid.h"
+#include "filter_tracked_mcf/core/mesh/surface.h"
 #include "filter_tracked_mcf/core/mesh/triangle_elements.h"
 
 namespace tracked_mcf {
-
-/// Returns the surface of a whole mesh.
-inline FlowSurface flow_surface(const TriangleMesh& mesh,
-                                BoundaryCondition boundary = BoundaryCondition::Free) {
-    return flow_surface_of(Domain(mesh, boundary), {});
-}
 
 /// Returns the grid of an octree of these vertices.
 inline Grid grid_around(const std::vector<Eigen::Vector3d>& positions, int depth) {
@@ -24,8 +20,8 @@ inline Grid grid_around(const std::vector<Eigen::Vector3d>& positions, int depth
     return with_depth(cube_around(box), depth);
 }
 
-inline TriangleElements elements_of(const FlowSurface& surface) {
-    return elements_in_own_metric(surface.stars, surface.positions, surface.densities);
+inline TriangleElements elements_of(const Surface& surface) {
+    return elements_in_own_metric(surface.stars, surface.positions, {});
 }
 
 /// Returns half the lumped and half the consistent mass.
@@ -59,13 +55,30 @@ inline Eigen::MatrixXd dense_stiffness(const Stars& stars, const TriangleElement
     return stiffness;
 }
 
-/// Returns random numbers from -1 to 1; 0 at vertices that stay.
-inline Field random_at_vertices(const FlowSurface& surface, unsigned seed) {
+/// Sets p = z + keep * p and q = A p, given q = A p before. Returns p · q.
+inline double advance(const MeshSystem& system, const Field& z, float keep, Field& p, Field& q) {
+    double product = 0;
+    for (std::int32_t i = 0; i < system.blocks().count(); ++i)
+        product += system.advance(system.blocks()[i], z, keep, p, q);
+    return product;
+}
+
+/// Returns b - A x.
+inline Field residual_of(const MeshSystem& system, const Field& b,
+                         const std::vector<Eigen::Vector3d>& x) {
+    Field residual(4, b.cols());
+    for (std::int32_t i = 0; i < system.blocks().count(); ++i)
+        system.residual(system.blocks()[i], b, x, residual);
+    return residual;
+}
+
+/// Returns random numbers from -1 to 1; 0 at held vertices.
+inline Field random_at_vertices(const Surface& surface, unsigned seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<float> uniform(-1, 1);
     Field field = Field::Zero(4, surface.stars.count());
     for (std::int32_t vertex = 0; vertex < surface.stars.count(); ++vertex) {
-        if (surface.fixed[vertex] != 0) continue;
+        if (surface.held[vertex] != 0) continue;
         for (int axis = 0; axis < 3; ++axis) field(axis, vertex) = uniform(random);
     }
     return field;
@@ -84,10 +97,10 @@ inline Eigen::MatrixXd rows_of(const std::vector<Eigen::Vector3d>& positions) {
     return rows;
 }
 
-/// Sets the rows of vertices that stay to zero.
-inline Eigen::MatrixXd without_fixed_rows(const FlowSurface& surface, Eigen::MatrixXd matrix) {
+/// Sets the rows of held vertices to zero.
+inline Eigen::MatrixXd without_held_rows(const Surface& surface, Eigen::MatrixXd matrix) {
     for (std::int32_t vertex = 0; vertex < surface.stars.count(); ++vertex) {
-        if (surface.fixed[vertex] != 0) matrix.row(vertex).setZero();
+        if (surface.held[vertex] != 0) matrix.row(vertex).setZero();
     }
     return matrix;
 }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "filter_tracked_mcf/core/mesh/measures.h"
+#include "tests/support/measures.h"
 #include "tests/support/shapes.h"
 #include "tests/support/surface_distance.h"
 #include "tests/unit/cancelling.h"
@@ -18,17 +19,6 @@
 
 namespace tracked_mcf {
 namespace {
-
-/// Returns the RMS distance of the vertices to the clean surface, along its normals.
-double error(const TriangleMesh& mesh, const TriangleMesh& clean) {
-    std::vector<Eigen::Vector3d> differences(mesh.positions.size());
-    for (std::size_t i = 0; i < differences.size(); ++i) {
-        differences[i] = mesh.positions[i] - clean.positions[i];
-    }
-    double squares = 0;
-    for (const double height : along_normals(differences, clean)) squares += height * height;
-    return std::sqrt(squares / static_cast<double>(differences.size()));
-}
 
 bool is_finite(const TriangleMesh& mesh) {
     return std::all_of(mesh.positions.begin(), mesh.positions.end(),
@@ -41,12 +31,6 @@ double five_errors(const TriangleMesh& mesh) {
     return 5 / std::sqrt(2 * static_cast<double>(mesh.positions.size()));
 }
 
-/// Expects that at least half of the noise is gone.
-void expect_halved(const TriangleMesh& after, const TriangleMesh& before,
-                   const TriangleMesh& clean) {
-    EXPECT_LT(error(after, clean), 0.5 * error(before, clean));
-}
-
 TEST(RemoveNoise, MeasuresTheNoiseAndRemovesMostOfIt) {
     for (const TriangleMesh& clean :
          {shapes::geodesic_sphere(20), cube(), shapes::torus(80, 30, 1, 0.4)}) {
@@ -57,100 +41,6 @@ TEST(RemoveNoise, MeasuresTheNoiseAndRemovesMostOfIt) {
             expect_halved(denoised(before), before, clean);
         }
     }
-}
-
-TEST(RemoveNoise, HardlyBelievesOutliers) {
-    for (const TriangleMesh& clean : {shapes::geodesic_sphere(20), cube()}) {
-        const TriangleMesh far = with_noise(clean, 0.4);
-        TriangleMesh before = clean;
-        for (std::size_t i = 0; i < before.positions.size(); i += 5) {
-            before.positions[i] = far.positions[i];
-        }
-        // Outliers leave at most half of what as much noise everywhere leaves.
-        const double left = error(denoised(far), clean) / error(far, clean);
-        EXPECT_LT(error(denoised(before), clean), 0.5 * left * error(before, clean));
-        // Most of the fifth that was moved has moved far enough to be told.
-        const NoiseReport report = report_of(before);
-        const double share =
-            static_cast<double>(report.outliers) / static_cast<double>(report.vertices);
-        EXPECT_LE(share, 0.2);
-        EXPECT_GT(share, 0.1);
-        EXPECT_EQ(report_of(far).outliers, 0);
-    }
-}
-
-TEST(RemoveNoise, HardlyBelievesOutliersBesideALockedRim) {
-    const TriangleMesh clean = shapes::square(40), far = with_noise(clean, 0.4);
-    TriangleMesh before = clean;
-    std::int64_t moved = 0;
-    for (std::size_t i = 0; i < before.positions.size(); i += 6, ++moved) {
-        before.positions[i] = far.positions[i];
-    }
-    NoiseParameters parameters;
-    parameters.boundary = NoiseBoundary::Locked;
-    EXPECT_GT(report_of(before, parameters).outliers, moved / 2);
-    expect_halved(denoised(before, parameters), before, clean);
-}
-
-/// Returns the mesh with the vertices of `clean` where x does not have this sign.
-TriangleMesh half_of(TriangleMesh mesh, const TriangleMesh& clean, double sign) {
-    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-        if (sign * clean.positions[i].x() <= 0) mesh.positions[i] = clean.positions[i];
-    }
-    return mesh;
-}
-
-TEST(RemoveNoise, SmoothsMoreWhereTheNoiseIsLarger) {
-    const TriangleMesh clean = shapes::bumpy_sphere(30);
-    TriangleMesh before = half_of(with_noise(clean, 0.4), clean, 1);
-    const TriangleMesh quiet = half_of(with_noise(clean, 0.05), clean, -1);
-    for (std::size_t i = 0; i < before.positions.size(); ++i) {
-        if (clean.positions[i].x() <= 0) before.positions[i] = quiet.positions[i];
-    }
-    NoiseParameters everywhere;
-    everywhere.noise = report_of(before).noise;
-    const TriangleMesh after = denoised(before), alike = denoised(before, everywhere);
-    EXPECT_LT(error(half_of(after, clean, -1), clean), error(half_of(alike, clean, -1), clean));
-    expect_halved(half_of(after, clean, 1), half_of(before, clean, 1), clean);
-}
-
-class NoiseInACorner : public ::testing::TestWithParam<Eigen::Vector2d> {};
-
-TEST_P(NoiseInACorner, IsSmoothedMoreThoughTheSampleDoesNotShowIt) {
-    TriangleMesh clean = shapes::square(120);  // the sample has a third of its vertices
-    for (Eigen::Vector3d& p : clean.positions) p.z() = 0.03 * std::sin(9 * p.x()) * p.y();
-    const TriangleMesh loud = with_noise(clean, 0.4);
-    TriangleMesh before = with_noise(clean, 0.08);
-    std::vector<std::size_t> corner;
-    for (std::size_t i = 0; i < clean.positions.size(); ++i) {
-        const Eigen::Vector2d difference = clean.positions[i].head<2>() - GetParam();
-        if (difference.cwiseAbs().maxCoeff() < 0.4) corner.push_back(i);
-    }
-    for (const std::size_t i : corner) before.positions[i] = loud.positions[i];
-    TriangleMesh after = denoised(before);
-    expect_halved(after, before, clean);
-    for (const std::size_t i : corner) {
-        after.positions[i] = before.positions[i] = clean.positions[i];
-    }
-    expect_halved(after, before, clean);
-}
-
-INSTANTIATE_TEST_SUITE_P(RemoveNoise, NoiseInACorner,
-                         ::testing::Values(Eigen::Vector2d(0, 0), Eigen::Vector2d(0, 1),
-                                           Eigen::Vector2d(1, 0), Eigen::Vector2d(1, 1)));
-
-TEST(RemoveNoise, SmoothsAlsoWhereTheNoiseIsAHundredTimesAsLarge) {
-    TriangleMesh clean = shapes::square(70);
-    const double edge = mean_edge_length(clean);
-    for (Eigen::Vector3d& p : clean.positions) p.z() = 0.1 * std::sin(6 * p.x()) * p.y();
-    const TriangleMesh noisy = with_noise(clean, 1);
-    TriangleMesh before = clean;
-    for (std::size_t i = 0; i < before.positions.size(); ++i) {
-        const double deviation = 0.01 * std::exp(4.6 * clean.positions[i].x());
-        before.positions[i] += deviation * (noisy.positions[i] - clean.positions[i]);
-    }
-    expect_halved(denoised(before), before, clean);
-    EXPECT_LT(error(before, clean), edge);
 }
 
 TEST(RemoveNoise, KeepsTheCreasesOfACube) {
@@ -300,15 +190,19 @@ TEST(RemoveNoise, ReportsTheDetailSizeThatItIsGiven) {
 TEST(RemoveNoise, TakesTheNoiseItIsTold) {
     const TriangleMesh clean = shapes::geodesic_sphere(20), before = with_noise(clean, 0.2);
     const double edge = mean_edge_length(clean);
+    NoiseParameters parameters;
     double last = 0;
-    for (const double noise : {0.02, 0.1, 0.2}) {
-        NoiseParameters parameters;
+    for (const double noise : {0.05, 0.1, 0.2}) {
         parameters.noise = noise * edge;
         const NoiseReport report = report_of(before, parameters);
         EXPECT_NEAR(report.noise / (0.2 * edge), 1, five_errors(clean)) << "the noise that it has";
         EXPECT_GT(report.rms_displacement, last);
         last = report.rms_displacement;
     }
+    parameters.noise = 1e-12 * edge;
+    const NoiseReport report = report_of(before, parameters);
+    EXPECT_EQ(report.stop, NoiseStop::NoNoise) << "any smoothing moves vertices farther";
+    EXPECT_EQ(report.largest_displacement, 0);
 }
 
 TEST(RemoveNoise, ReportsTheNoiseWhateverIsAskedFor) {
@@ -361,8 +255,8 @@ TEST(RemoveNoise, ReportsWhatItHasDone) {
     EXPECT_EQ(report.held_vertices, 0);
     EXPECT_NEAR(report.volume_change, shapes::volume(mesh) - shapes::volume(before), 1e-12);
     EXPECT_NEAR(report.volume_before, shapes::volume(before), 1e-12);
-    EXPECT_EQ(report.area_before, surface_area(before));
-    EXPECT_EQ(report.area_after, surface_area(mesh));
+    EXPECT_NEAR(report.area_before, surface_area(before), 1e-12);
+    EXPECT_NEAR(report.area_after, surface_area(mesh), 1e-12);
     EXPECT_LT(report.area_after, report.area_before);
     ASSERT_EQ(report.quality.size(), mesh.positions.size());
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
@@ -373,7 +267,7 @@ TEST(RemoveNoise, ReportsWhatItHasDone) {
 
 TEST(RemoveNoise, LeavesTheMeshIfItIsCancelledAtAnyCall) {
     expect_unchanged_if_cancelled(
-        with_noise(cube(), 0.2),
+        with_noise(shapes::box(8, {1, 1, 1}), 0.2),
         [](TriangleMesh& mesh, const Progress& progress) { remove_noise(mesh, {}, {}, progress); });
 }
 
@@ -395,6 +289,15 @@ TEST(RemoveNoise, RefusesWhatItCannotDo) {
     TriangleMesh huge = shapes::square(10);
     for (Eigen::Vector3d& p : huge.positions) p *= 1e61;
     EXPECT_THROW(remove_noise(huge, {}, {}), InvalidMesh);
+    // Floats near 1e6 are multiples of 1/16.
+    TriangleMesh far =
+        shapes::transformed(before, Eigen::Affine3d(Eigen::Translation3d(1e6, 0, 0)));
+    far.single_precision = true;
+    NoiseParameters parameters;
+    parameters.largest_movement = 0.01;
+    EXPECT_THROW(remove_noise(far, {}, parameters), InvalidParameter);
+    parameters.largest_movement = 0.1;
+    EXPECT_NO_THROW(remove_noise(far, {}, parameters));
 }
 
 TEST(RemoveNoise, NothingFliesAway) {

@@ -26,11 +26,11 @@ struct LevelSystem {
 /// Returns those of a flow's first step on the octree that preconditions: the one of the mesh's
 /// vertices, in which close sheets have elements of their own. `step` is in squared cells.
 inline LevelSystem vertex_system(const TriangleMesh& mesh, int depth, double step) {
-    const FlowSurface surface = flow_surface(mesh);
+    const Surface surface = surface_of(mesh);
     const Grid grid = grid_around(surface.positions, depth);
     const VertexOctree octree(surface.stars, surface.positions, grid);
     const TriangleElements elements = elements_of(surface);
-    MeshSystem system(surface.stars, surface.fixed);
+    MeshSystem system(surface.stars, surface.held, surface.parts);
     system.take(elements, step * grid.cell_size * grid.cell_size);
     LevelSystem result{octree.levels(), {}};
     octree.assemble(system, elements, result.matrices);

@@ -139,7 +139,8 @@ double Invariance::difference(const Case& base, const Run& base_run, const Case&
 /// clipping, 2^-30 of a cell. The removal of noise rounds to single precision, and chooses among a
 /// few candidates: 32 runs find those that are as good. Coincident vertices stay coincident.
 double Invariance::effect_of_rounding(const Case& base, const Run& base_run) {
-    const std::vector<std::int32_t> first = weld_coincident_vertices(base.mesh);
+    const std::vector<std::int32_t> first =
+        weld_coincident_vertices(base.mesh, referenced_vertices(base.mesh));
     const double rounding = !base.makes_flow() ? std::ldexp(box_.diagonal().norm(), -24)
                                                : std::ldexp(base_run.report.cell_size, -30);
     double largest = 0;

@@ -10,7 +10,7 @@
 
 #include "filter_tracked_mcf/core/flow/stepping/preserving.h"
 #include "filter_tracked_mcf/core/mesh/measures.h"
-#include "filter_tracked_mcf/core/mesh/mesh_topology.h"
+#include "filter_tracked_mcf/core/mesh/surface.h"
 #include "filter_tracked_mcf/core/mesh/weld.h"
 #include "tests/support/same_bits.h"
 #include "tests/zoo/case_run.h"
@@ -27,12 +27,18 @@ std::vector<bool> held_vertices(const Case& of) {
     const TriangleMesh& mesh = of.mesh;
     std::vector<bool> held(mesh.positions.size(), false);
     if (!of.inputs.strength.empty()) {
-        // Vertices at one place, or on both sides of a crack, take the strength of one of them.
-        const std::vector<std::int32_t> welded = topology_of(mesh).welded;
-        for (std::size_t i = 0; i < held.size(); ++i) held[i] = of.inputs.strength[welded[i]] == 0;
+        // Vertices at one place, or on both sides of a crack, take the strength of the first one.
+        const Surface surface = surface_of(mesh);
+        std::vector<double> strengths(surface.positions.size());
+        for (std::size_t i = held.size(); i-- > 0;) {
+            if (surface.vertices[i] >= 0) strengths[surface.vertices[i]] = of.inputs.strength[i];
+        }
+        for (std::size_t i = 0; i < held.size(); ++i)
+            held[i] = surface.vertices[i] >= 0 && strengths[surface.vertices[i]] == 0;
     }
     if (!of.fair) return held;
-    const std::vector<std::int32_t> first = weld_coincident_vertices(mesh);
+    const std::vector<std::int32_t> first =
+        weld_coincident_vertices(mesh, referenced_vertices(mesh));
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
         if (of.inputs.selection[i] != 0) continue;
         for (const std::int32_t vertex : mesh.triangles[i]) held[first[vertex]] = true;
@@ -44,11 +50,12 @@ std::vector<bool> held_vertices(const Case& of) {
 /// Returns how far vertices are from the one that they are joined with, at most, mesh units. They
 /// move with it.
 double width_of_cracks(const TriangleMesh& mesh, const std::vector<bool>& vertices) {
-    const std::vector<std::int32_t> welded = topology_of(mesh).welded;
+    const Surface surface = surface_of(mesh);
     double width = 0;
     for (std::size_t i = 0; i < vertices.size(); ++i) {
-        if (!vertices[i]) continue;
-        width = std::max(width, (mesh.positions[i] - mesh.positions[welded[i]]).norm());
+        if (!vertices[i] || surface.vertices[i] < 0) continue;
+        const std::int32_t other = surface.mesh_vertices[surface.vertices[i]];
+        width = std::max(width, (mesh.positions[i] - mesh.positions[other]).norm());
     }
     return width;
 }

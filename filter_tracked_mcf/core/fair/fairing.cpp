@@ -7,6 +7,7 @@
 #include <tuple>
 #include <vector>
 
+#include "filter_tracked_mcf/core/mesh/triangle_elements.h"
 #include "filter_tracked_mcf/core/parallel/progress_meter.h"
 #include "filter_tracked_mcf/core/pi.h"
 
@@ -138,22 +139,21 @@ void Fairing::assemble(double thickening) {
     entries.reserve(12 * patch_.triangles.size());
     masses_.setZero(positions_.rows());
     for (const Triangle& t : patch_.triangles) {
-        Eigen::Vector3d squares;
+        SquaredSides<double> squares;
         for (int k = 0; k < 3; ++k) {
             squares[k] =
                 (positions_.row(t[(k + 1) % 3]) - positions_.row(t[(k + 2) % 3])).squaredNorm();
         }
-        squares.array() += thickening * squares.maxCoeff() + kSmallestSquare;
-        const double sum = squares.sum();
-        const double four_areas = std::sqrt(sum * sum - 2 * squares.squaredNorm());
+        squares += thickening * squares.maxCoeff() + kSmallestSquare;
+        const auto element = triangle_element(squares, four_areas_of(squares));
         for (int k = 0; k < 3; ++k) {
             const std::int32_t a = t[(k + 1) % 3], b = t[(k + 2) % 3];
-            const double weight = (sum - 2 * squares[k]) / (2 * four_areas);
+            const double weight = element.weights[k];
             entries.emplace_back(a, a, weight);
             entries.emplace_back(b, b, weight);
             entries.emplace_back(a, b, -weight);
             entries.emplace_back(b, a, -weight);
-            masses_[t[k]] += four_areas / 12;
+            masses_[t[k]] += element.mass;
         }
     }
     stiffness_.resize(positions_.rows(), positions_.rows());

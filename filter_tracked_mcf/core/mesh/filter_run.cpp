@@ -3,10 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 #include <utility>
 
-#include "filter_tracked_mcf/core/errors.h"
 #include "filter_tracked_mcf/core/mesh/measures.h"
 #include "filter_tracked_mcf/core/parallel/parallel.h"
 #include "filter_tracked_mcf/core/platform/process_memory.h"
@@ -15,62 +13,90 @@ namespace tracked_mcf {
 
 namespace {
 
-/// Returns the volume between the selected triangles of a mesh and where they have moved.
-double volume_between(const TriangleMesh& before, const std::vector<Eigen::Vector3d>& after,
-                      const Selection& selection) {
-    return parallel_sum(static_cast<std::int64_t>(before.triangles.size()), 0.0,
-                        [&](std::int64_t begin, std::int64_t end) {
-                            double sum = 0;
-                            for (std::int64_t i = begin; i < end; ++i) {
-                                if (!selection.empty() && selection[i] == 0) continue;
-                                const Triangle& triangle = before.triangles[i];
-                                sum += swept_volume(corners_of(before.positions, triangle),
-                                                    corners_of(after, triangle));
-                            }
-                            return sum;
-                        });
+/// Returns the sum of body(triangle) over the surface's triangles, as vertices of the mesh.
+template <class Body>
+double sum_over_triangles(const Surface& surface, const Body& body) {
+    return sum_over_rows(static_cast<std::int64_t>(surface.stars.triangles.size()),
+                         [&](std::int32_t i) { return body(surface.mesh_triangle(i)); });
 }
 
-void report_displacements(const TriangleMesh& before, const std::vector<Eigen::Vector3d>& after,
-                          const std::vector<std::uint8_t>& counted, FilterReport& report) {
-    double largest = 0, squares = 0, count = 0;
-    for (std::size_t i = 0; i < after.size(); ++i) {
-        if (counted[i] == 0) continue;
-        const double square = (after[i] - before.positions[i]).squaredNorm();
+double area_of(const Surface& surface, const Positions& positions) {
+    return sum_over_triangles(surface, [&](const Triangle& t) {
+        const auto [a, b, c] = corners_of(positions, t);
+        return twice_vector_area(a, b, c).norm() / 2;
+    });
+}
+
+void report_displacements(const TriangleMesh& before, const Positions& after,
+                          const Surface& surface, FilterReport& report) {
+    double largest = 0, squares = 0;
+    for (const std::int32_t vertex : surface.mesh_vertices) {
+        const double square = (after[vertex] - before.positions[vertex]).squaredNorm();
         squares += square;
         largest = std::max(largest, square);
-        ++count;
     }
     report.largest_displacement = std::sqrt(largest);
+    const auto count = static_cast<double>(report.vertices);
     report.rms_displacement = count > 0 ? std::sqrt(squares / count) : 0;
+}
+
+/// Returns how far each vertex of the mesh has moved along the normal of the surface after the
+/// movement: the mean of the normals of its triangles, weighted by area.
+std::vector<double> displacements_along_normals(const TriangleMesh& before, const Positions& after,
+                                                const Surface& surface) {
+    Positions normals(surface.mesh_vertices.size(), Eigen::Vector3d::Zero());
+    parallel_for_rows(surface.stars.count(), [&](std::int32_t vertex) {
+        for_each_corner(surface.stars, vertex, [&](std::uint32_t triangle, std::uint32_t) {
+            const auto [a, b, c] = corners_of(after, surface.mesh_triangle(triangle));
+            normals[vertex] += twice_vector_area(a, b, c);
+        });
+        if (!normals[vertex].isZero(0)) normals[vertex].stableNormalize();
+    });
+    std::vector<double> displacements(after.size(), 0);
+    parallel_for_rows(static_cast<std::int64_t>(after.size()), [&](std::int32_t i) {
+        const std::int32_t vertex = surface.vertices[i];
+        // A vertex that no triangle uses may be a NaN.
+        if (vertex >= 0) displacements[i] = normals[vertex].dot(after[i] - before.positions[i]);
+    });
+    return displacements;
 }
 
 }  // namespace
 
-MovingPart moving_part_of(const Domain& domain) {
-    return {domain.selection(), one_copy_of_each_vertex(domain.topology()),
-            domain.topology().is_oriented_consistently(), domain.encloses_volume()};
+void report_counts(const SurfaceCounts& counts, FilterReport& report) {
+    report.triangles = counts.triangles;
+    report.degenerate_triangles = counts.degenerate;
+    report.copied_triangles = counts.copies;
+    report.double_sided_parts = counts.double_sided_parts;
+    report.cracks = counts.cracks;
 }
 
-void report_domain(const Domain& domain, SmoothingReport& report) {
-    report.triangles = static_cast<std::int64_t>(domain.surface().triangles.size());
-    report.degenerate_triangles = count_degenerate(domain.surface());
-    if (report.degenerate_triangles == report.triangles)
-        throw InvalidMesh("All faces to be smoothed are degenerate: none has an area.");
-    std::tie(report.vertices, report.held_vertices) = domain.vertex_counts();
-    report.boundary_edges = domain.boundary_edge_count();
-    report.cracks = domain.topology().cracks;
+void report_surface(const Surface& surface, SmoothingReport& report) {
+    report_counts(surface.counts, report);
+    report.vertices = surface.stars.count();
+    report.held_vertices = std::count(surface.held.begin(), surface.held.end(), 1);
+    report.boundary_edges = surface.counts.boundary_edges;
 }
 
 void report_change(const TriangleMesh& before, const std::vector<Eigen::Vector3d>& after,
-                   const MovingPart& part, Quality quality, FilterReport& report) {
-    report_displacements(before, after, part.vertices, report);
-    report.area_before = surface_area(before, part.triangles);
-    report.area_after = surface_area({after, before.triangles}, part.triangles);
-    if (part.encloses_volume) report.volume_before = enclosed_volume(before);
-    if (part.is_oriented) report.volume_change = volume_between(before, after, part.triangles);
+                   const Surface& surface, Quality quality, FilterReport& report) {
+    report_displacements(before, after, surface, report);
+    report.area_before = area_of(surface, before.positions);
+    report.area_after = area_of(surface, after);
+    if (surface.is_whole_mesh() && surface.bounds_volume()) {
+        // Relative to the middle of the surface, so that one far from the origin loses no digits.
+        report.volume_before = sum_over_triangles(surface, [&](const Triangle& t) {
+            const auto [a, b, c] = corners_of(before.positions, t);
+            return (a - surface.box.center()).dot(twice_vector_area(a, b, c)) / 6;
+        });
+    }
+    if (surface.is_oriented_alike()) {
+        report.volume_change = sum_over_triangles(surface, [&](const Triangle& t) {
+            return swept_volume(corners_of(before.positions, t), corners_of(after, t));
+        });
+    }
     if (quality == Quality::Displacement)
-        report.quality = displacements_along_normals(before, after, part.triangles);
+        report.quality = displacements_along_normals(before, after, surface);
 }
 
 FilterRun::FilterRun(int threads, const Progress& progress) : team_(threads) {

@@ -8,66 +8,52 @@ namespace tracked_mcf {
 
 namespace {
 
-/// The least slack of a triangle, in local edge lengths: the sum of two of its sides less the third
-/// one.
+/// The least slack of a triangle, in shortest sides: the sum of the two shorter sides less the
+/// longest one. Angles of up to 160 to 166 degrees have more.
 constexpr double kLeastSlack = 0.03;
 
-/// The least local edge length, in units of the surface. Where it has collapsed to a point,
-/// cotangents stay finite.
-constexpr float kLeastEdge = 1e-6F;
+/// The least slack in longest sides. It bounds the cotangents where the shortest side vanishes.
+constexpr double kThinnestNeedle = 1e-3;
 
-/// Local squares of edge lengths are means over so many steps of diffusion: the vertices two sides
-/// away.
-constexpr int kStepsOfMean = 2;
-
-/// Returns, per vertex, the mean square of the sides around it.
-std::vector<float> local_squares(const Stars& stars,
-                                 const std::vector<Eigen::Vector3d>& positions) {
-    std::vector<float> squares(static_cast<std::size_t>(stars.count()));
-    std::vector<float> counts(squares.size());
-    parallel_for_rows(stars.count(), [&](std::int32_t vertex) {
-        const std::uint32_t begin = stars.neighbour_begin[vertex];
-        const std::uint32_t end = stars.neighbour_begin[vertex + 1];
-        double sum = 0;
-        for (std::uint32_t i = begin; i < end; ++i) {
-            sum += (positions[stars.neighbours[i]] - positions[vertex]).squaredNorm();
-        }
-        squares[vertex] = static_cast<float>(sum);
-        counts[vertex] = static_cast<float>(end - begin);
-    });
-    diffuse(stars, kStepsOfMean, squares);
-    diffuse(stars, kStepsOfMean, counts);
-    parallel_for_rows(stars.count(), [&](std::int32_t vertex) {
-        squares[vertex] = std::max(squares[vertex] / counts[vertex], kLeastEdge * kLeastEdge);
-    });
-    return squares;
-}
+/// The least slack in units of the surface. Where it has collapsed to a point, cotangents stay
+/// finite.
+constexpr double kLeastSide = 1e-6;
 
 }  // namespace
 
-TriangleElements elements_in_own_metric(const Stars& stars,
-                                        const std::vector<Eigen::Vector3d>& positions,
+Eigen::Vector3f rim_flux(const Stars& stars, std::uint32_t triangle, std::uint32_t corner,
+                         const TriangleElement<float>& element, const Positions& positions) {
+    const Triangle& t = stars.triangles[triangle];
+    Eigen::Vector3f flux = Eigen::Vector3f::Zero();
+    for (const std::uint32_t side : {corner, (corner + 2) % 3}) {
+        if (stars.rim_sides[3 * std::size_t{triangle} + side] == 0) continue;
+        const std::uint32_t other = side == corner ? (corner + 1) % 3 : side;
+        const Eigen::Vector3d& inside = positions[t[3 - corner - other]];
+        flux += element.weights[other] * (positions[t[corner]] - inside).cast<float>() +
+                element.weights[corner] * (positions[t[other]] - inside).cast<float>();
+    }
+    return flux;
+}
+
+TriangleElements elements_in_own_metric(const Stars& stars, const Positions& positions,
                                         const std::vector<float>& densities) {
-    const std::vector<float> squares = local_squares(stars, positions);
     TriangleElements elements(stars.triangles.size());
     parallel_for_rows(static_cast<std::int64_t>(elements.size()), [&](std::int32_t i) {
         const auto& [a, b, c] = stars.triangles[i];
         Eigen::Array3d sides((positions[b] - positions[c]).norm(),
                              (positions[c] - positions[a]).norm(),
                              (positions[a] - positions[b]).norm());
-        const double edge = std::sqrt((squares[a] + squares[b] + squares[c]) / 3);
-        const double slack = sides.sum() - 2 * sides.maxCoeff();
-        sides += std::max(0.0, kLeastSlack * edge - slack);
+        const double longest = sides.maxCoeff();
+        const double least =
+            std::max({kLeastSlack * sides.minCoeff(), kThinnestNeedle * longest, kLeastSide});
+        sides += std::max(0.0, least - (sides.sum() - 2 * longest));
         // Heron's formula from the differences, which keeps the digits of needles.
         const Eigen::Array3d rests = sides.sum() - 2 * sides;
         const double four_areas = std::sqrt(sides.sum() * rests.prod());
-        const Eigen::Array3d of_sides = sides.square();
-        for (int k = 0; k < 3; ++k) {
-            elements[i].weights[k] =
-                static_cast<float>((of_sides.sum() - 2 * of_sides[k]) / (2 * four_areas));
-        }
+        const auto element = triangle_element<double>(sides.square(), four_areas);
+        for (int k = 0; k < 3; ++k) elements[i].weights[k] = static_cast<float>(element.weights[k]);
         const double density = densities.empty() ? 1 : densities[i];
-        elements[i].mass = static_cast<float>(density * four_areas / 12);
+        elements[i].mass = static_cast<float>(density * element.mass);
     });
     return elements;
 }

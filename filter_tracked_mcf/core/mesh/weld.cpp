@@ -34,7 +34,7 @@ struct HashedVertex {
 
 /// Returns the referenced vertices sorted by hash, then by index. The hashes are short, to be
 /// sorted quickly, but long enough that few positions share one.
-RawVector<HashedVertex> vertices_by_hash(const SurfaceView& mesh,
+RawVector<HashedVertex> vertices_by_hash(const TriangleMesh& mesh,
                                          const std::vector<std::uint8_t>& referenced) {
     unsigned bits = 8;
     while (bits < 30 && (std::size_t{1} << (bits - 2)) < mesh.positions.size()) ++bits;
@@ -52,7 +52,7 @@ RawVector<HashedVertex> vertices_by_hash(const SurfaceView& mesh,
 
 /// Welds the vertices in [first, last), which have the same hash. `different` is workspace: the
 /// vertices so far that have different positions.
-void weld(const SurfaceView& mesh, const HashedVertex* first, const HashedVertex* last,
+void weld(const TriangleMesh& mesh, const HashedVertex* first, const HashedVertex* last,
           std::vector<std::int32_t>& different, std::vector<std::int32_t>& welded) {
     different.clear();
     for (; first != last; ++first) {
@@ -70,19 +70,15 @@ void weld(const SurfaceView& mesh, const HashedVertex* first, const HashedVertex
 
 }  // namespace
 
-std::vector<std::uint8_t> referenced_vertices(const SurfaceView& surface) {
-    Marks referenced(static_cast<std::int64_t>(surface.positions.size()));
-    parallel_for_items(surface.triangles, [&](const Triangle& triangle) {
+std::vector<std::uint8_t> referenced_vertices(const TriangleMesh& mesh) {
+    Marks referenced(static_cast<std::int64_t>(mesh.positions.size()));
+    parallel_for_items(mesh.triangles, [&](const Triangle& triangle) {
         for (const std::int32_t vertex : triangle) referenced.set(vertex);
     });
     return referenced.flags();
 }
 
-std::vector<std::int32_t> weld_coincident_vertices(const SurfaceView& mesh) {
-    return weld_coincident_vertices(mesh, referenced_vertices(mesh));
-}
-
-std::vector<std::int32_t> weld_coincident_vertices(const SurfaceView& mesh,
+std::vector<std::int32_t> weld_coincident_vertices(const TriangleMesh& mesh,
                                                    const std::vector<std::uint8_t>& referenced) {
     std::vector<std::int32_t> welded(mesh.positions.size());
     parallel_for_rows(static_cast<std::int64_t>(welded.size()),

@@ -11,14 +11,6 @@ namespace {
 
 constexpr std::int32_t kNoCluster = -1;
 
-/// Calls visit(neighbour) for each vertex that a side joins to a vertex.
-template <class Visit>
-void for_each_neighbour(const Stars& stars, std::int32_t vertex, const Visit& visit) {
-    for (auto i = stars.neighbour_begin[vertex]; i < stars.neighbour_begin[vertex + 1]; ++i) {
-        visit(stars.neighbours[i]);
-    }
-}
-
 /// Returns vertices, one after the other in an order that does not depend on their numbers, that
 /// are more than `radius` sides from all before.
 std::vector<std::int32_t> seeds_of(const NoisySurface& surface, int radius) {
@@ -109,7 +101,7 @@ Clusters clusters_of(const Sample& sample, int radius) {
     for (Triangle& t : triangles) {
         for (std::int32_t& corner : t) corner = numbers[corner];
     }
-    Clusters result{{{{{}, 0}, {}, {}}, {}, {}}, 1};
+    Clusters result;
     NoisySurface& surface = result.sample.surface;
     surface.positions.assign(static_cast<std::size_t>(count), Eigen::Vector3d::Zero());
     surface.fidelity.assign(surface.positions.size(), 0);
@@ -122,7 +114,7 @@ Clusters clusters_of(const Sample& sample, int radius) {
         surface.positions[cluster] += fine.positions[vertex];
         members[cluster] += 1;
         // A cluster moves if one of its vertices does, and counts if all do.
-        if (!fine.is_fixed(vertex)) surface.fidelity[cluster] = 1;
+        if (!fine.is_held(vertex)) surface.fidelity[cluster] = 1;
         if (sample.counts[vertex] == 0) result.sample.counts[cluster] = 0;
     }
     for (std::size_t i = 0; i < members.size(); ++i) surface.positions[i] /= members[i];

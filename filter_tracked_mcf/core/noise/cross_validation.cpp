@@ -51,11 +51,6 @@ constexpr double kLeastTaken = 0.55;
 /// with five times the noise in a corner, at most 0.69 on clean meshes.
 constexpr double kLargeNoise = 0.1, kLeastTakenIfDoubtful = 0.75;
 
-/// What is tried for noise of some width: step sizes, and a length of the metric.
-constexpr std::array<double, 4> kStepSizesOfWidth = {0.04, 0.15, 0.6, 2.4};
-constexpr double kNormalLengthOfWidth = 1.3;
-constexpr int kMostStepsOfWidth = 1;
-
 /// The perturbation ε: relative to the noise, and the least one that exceeds rounding by far.
 constexpr double kPerturbation = 0.05, kLeastPerturbation = 1e-4;
 constexpr double kTrialPerturbation = 5e-3;
@@ -134,6 +129,8 @@ public:
             for (const double length : kNormalLengths) try_detail_size(length);
         } else {
             descend();
+            // Doing nothing has no movement, and the divergence 1.
+            if (request_.noise > 0 && best_.score >= 2 * noise_ * noise_) return choice;
             const double least = request_.is_doubtful ? kLeastTakenIfDoubtful : kLeastTaken;
             if (may_be_none && std::sqrt(best_.effect.square) < least * noise_) {
                 if (noise_ > kLargeNoise) choice.kind = NoiseKind::Varying;
@@ -151,35 +148,19 @@ public:
         const bool is_known = request_.noise > 0 || request_.measured_noise > 0;
         choice.noise = is_known ? noise_ : noise_of(best_.effect);
         choice.kind = kind_of_noise(sample_.surface.stars, heights_of(best_.pair), sample_.counts);
-        if (may_be_none && choice.kind == NoiseKind::Even &&
+        if (may_be_none && choice.kind == NoiseKind::White &&
             best_.effect.divergence < kMostDivergence) {
             choice.others = others(choice.noise);
         }
         return choice;
     }
 
-    NoiseOfWidth of_width() {
-        for (const double step_size : kStepSizesOfWidth) {
-            try_steps(settings_for(request_.crease > 0 ? kNormalLengthOfWidth : 0, step_size),
-                      kMostStepsOfWidth);
-        }
-        if (best_.candidate.steps == 0) return {};
-        std::vector<float> taken(signs_.size()), of_signs(signs_.size());
-        parallel_for_rows(sample_.surface.stars.count(), [&](std::int32_t vertex) {
-            taken[vertex] = static_cast<float>(height(best_.pair, vertex));
-            of_signs[vertex] = signs_[vertex] - static_cast<float>(response(best_.pair, vertex));
-        });
-        const double moved = std::sqrt(best_.effect.square), found = noise_of(best_.effect);
-        const double least = correlation(of_signs);
-        return {moved, moved / std::max(noise_, found),
-                least > 0 ? correlation(taken) / least : std::numeric_limits<double>::infinity()};
-    }
-
 private:
     StepSettings settings_for(double normal_length, double step_size) const {
         const double square = width_ * width_;
         return {width_ * normal_length * unit_length_, square * step_size,
-                square * kNormalStepSize * std::max(1.0, noise_ / width_ / kSmallNoise)};
+                (request_.has_creases ? square : 1) * kNormalStepSize *
+                    std::max(1.0, noise_ / width_ / kSmallNoise)};
     }
 
     /// Averages the signs over the width, and scales them to a mean square of 1.
@@ -190,19 +171,6 @@ private:
             mean_of([&](std::int32_t vertex) { return square_of(signs_[vertex]); });
         const auto scale = static_cast<float>(square > 0 ? 1 / std::sqrt(square) : 0);
         for (float& sign : signs_) sign *= scale;
-    }
-
-    /// Returns the correlation of values with themselves, over twice the width.
-    double correlation(const std::vector<float>& values) const {
-        std::vector<float> diffused = values;
-        diffuse(sample_.surface.stars, static_cast<int>(std::lround(2 * width_ * width_)),
-                diffused);
-        const double square =
-            mean_of([&](std::int32_t vertex) { return square_of(values[vertex]); });
-        return square > 0 ? mean_of([&](std::int32_t vertex) {
-                                return double{values[vertex]} * double{diffused[vertex]};
-                            }) / square
-                          : 0;
     }
 
     /// Returns the mean over the vertices that count.
@@ -453,10 +421,6 @@ StepSettings trial_settings() {
 
 Choice best_candidate(const Sample& sample, const NoiseRequest& request) {
     return Trials(sample, request).best();
-}
-
-NoiseOfWidth noise_of_width(const Sample& sample, const NoiseRequest& request) {
-    return Trials(sample, request).of_width();
 }
 
 }  // namespace tracked_mcf

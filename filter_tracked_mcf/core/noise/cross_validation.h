@@ -16,6 +16,7 @@ struct NoiseRequest {
     double measured_noise = 0;  ///< what a sample has shown of it; 0: not yet measured
     double detail_size = 0;     ///< see NoiseParameters::detail_size; 0: what the noise needs
     double width = 1;           ///< of the noise, at least 1
+    bool has_creases = false;   ///< whether the noise has creases, as stairs have
     bool is_certain = false;    ///< whether noise is removed even if it may be detail
     bool is_doubtful = false;   ///< whether what may be detail passed for detail before
     bool is_quick = false;      ///< whether Choice::others are few and share the candidate's steps
@@ -26,7 +27,7 @@ struct Choice {
     Candidate candidate;  ///< without steps if there is hardly any noise
     double noise = 0;     ///< its standard deviation, in edges
     /// If it varies, a candidate suits only a sample with fidelities, and there may be none.
-    NoiseKind kind = NoiseKind::Even;
+    NoiseKind kind = NoiseKind::White;
     /// Candidates that suit some places better, the most useful ones first. None if the noise is
     /// not even, or if the request sets how much is removed.
     std::vector<Candidate> others;
@@ -45,24 +46,14 @@ struct Choice {
 /// detail.
 ///
 /// Noise of some width is like white noise on a mesh with edges of this length: all lengths of a
-/// candidate are in units of the width, and random signs are averaged over it.
+/// candidate are in units of the width, and random signs are averaged over it. Normals are not, so
+/// that creases show beside wide noise; but they are if the noise has creases.
 ///
 /// Where the sample's vertices have fidelities, heights count by their roots, so that the noise is
 /// the same everywhere.
 Choice best_candidate(const Sample& sample, const NoiseRequest& request);
 
-/// What a sample shows of noise of some width. Lengths are in edges.
-struct NoiseOfWidth {
-    double height = 0;  ///< standard deviation of what the best candidate takes
-    double taken = 0;   ///< share of the noise that this is
-    /// Correlation of what it takes over twice the width, relative to that of noise of this width.
-    double correlation = 0;
-};
-
 /// Returns a short step that keeps no creases.
 StepSettings trial_settings();
-
-/// Tries a few candidates on a sample whose noise may have the width that is wished.
-NoiseOfWidth noise_of_width(const Sample& sample, const NoiseRequest& request);
 
 }  // namespace tracked_mcf

@@ -157,7 +157,7 @@ bool varies(const Stars& stars, const std::vector<float>& heights,
 NoiseKind kind_of_noise(const Stars& stars, const std::vector<float>& heights,
                         const std::vector<std::uint8_t>& counts) {
     if (has_outliers(stars, heights, counts)) return NoiseKind::Outliers;
-    return varies(stars, heights, counts) ? NoiseKind::Varying : NoiseKind::Even;
+    return varies(stars, heights, counts) ? NoiseKind::Varying : NoiseKind::White;
 }
 
 std::vector<float> fidelities_to_noise(const Stars& stars, const std::vector<float>& heights) {

@@ -5,15 +5,9 @@
 #include <vector>
 
 #include "filter_tracked_mcf/core/mesh/stars.h"
+#include "filter_tracked_mcf/core/remove_noise.h"
 
 namespace tracked_mcf {
-
-/// How noise is distributed over a surface.
-enum class NoiseKind {
-    Even,     ///< the same everywhere
-    Varying,  ///< larger in some places than in others
-    Outliers  ///< single vertices have much more than those around them
-};
 
 /// Returns which noise a candidate has taken from a surface. `heights` are how far it has moved
 /// each vertex along its normal, in edges; only those of vertices that count decide.

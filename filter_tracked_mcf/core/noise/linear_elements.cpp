@@ -2,9 +2,10 @@
 #include "filter_tracked_mcf/core/noise/linear_elements.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numeric>
+
+#include "filter_tracked_mcf/core/mesh/triangle_elements.h"
 
 namespace tracked_mcf {
 
@@ -21,42 +22,17 @@ constexpr float kOwnShare = 0.3F;
 /// squares: above rounding, which very long sides have.
 constexpr float kThinnest = 1e-6F;
 
-/// The squares of a triangle's sides opposite to its corners, in some metric.
-using SquaredSides = Eigen::Array3f;
-
-/// Returns four times the area (Heron).
-float four_areas_of(const SquaredSides& squares) {
-    const float square = squares.sum() * squares.sum();
-    return std::sqrt(std::max(square - 2 * squares.square().sum(), kThinnest * square));
-}
-
 /// Returns the squared lengths of a triangle's sides at right angles to a normal.
-SquaredSides sides_along_surface(const Positions& positions, const Triangle& t,
-                                 const Eigen::Vector4f& normal) {
+SquaredSides<float> sides_along_surface(const Positions& positions, const Triangle& t,
+                                        const Eigen::Vector4f& normal) {
     const Eigen::Vector3f unit = normal.head<3>().normalized();
-    SquaredSides squares;
+    SquaredSides<float> squares;
     for (int k = 0; k < 3; ++k) {
         const Eigen::Vector3f side =
             (positions[t[(k + 1) % 3]] - positions[t[(k + 2) % 3]]).cast<float>();
         squares[k] = (side - side.dot(unit) * unit).squaredNorm();
     }
     return squares;
-}
-
-/// Returns the flux through the sides of a triangle on the rim, with the test function of its
-/// corner. `weights` are half the cotangents at its corners.
-Eigen::Vector3f flux_of(const Stars& stars, std::uint32_t triangle, std::uint32_t corner,
-                        const std::array<float, 4>& weights, const Positions& positions) {
-    const Triangle& t = stars.triangles[triangle];
-    Eigen::Vector3f flux = Eigen::Vector3f::Zero();
-    for (const std::uint32_t side : {corner, (corner + 2) % 3}) {
-        if (stars.rim_sides[3 * std::size_t{triangle} + side] == 0) continue;
-        const std::uint32_t other = side == corner ? (corner + 1) % 3 : side;
-        const Eigen::Vector3d& inside = positions[t[3 - corner - other]];
-        flux += weights[other] * (positions[t[corner]] - inside).cast<float>() +
-                weights[corner] * (positions[t[other]] - inside).cast<float>();
-    }
-    return flux;
 }
 
 }  // namespace
@@ -67,19 +43,19 @@ void LinearElements::assemble(const Vectors& normals, double normal_length,
                               const Positions* positions) {
     const Stars& stars = surface_.stars;
     const auto scale = static_cast<float>(normal_length * normal_length);
-    RawVector<std::array<float, 4>> triangles(stars.triangles.size());  // cot / 2 at corners, mass
-    parallel_for_rows(static_cast<std::int64_t>(triangles.size()), [&](std::int32_t i) {
+    TriangleElements elements(stars.triangles.size());
+    parallel_for_rows(static_cast<std::int64_t>(elements.size()), [&](std::int32_t i) {
         const Triangle& t = stars.triangles[i];
         const Eigen::Vector4f &a = normals[t[0]], &b = normals[t[1]], &c = normals[t[2]];
-        SquaredSides squares =
-            1 + scale * SquaredSides((b - c).squaredNorm(), (c - a).squaredNorm(),
-                                     (a - b).squaredNorm());
-        triangles[i][3] = four_areas_of(squares) / 12;
+        SquaredSides<float> squares =
+            1 + scale * SquaredSides<float>((b - c).squaredNorm(), (c - a).squaredNorm(),
+                                            (a - b).squaredNorm());
+        const float mass = four_areas_of(squares, kThinnest) / 12;
         if (positions != nullptr) {
             squares += kOwnShare * (sides_along_surface(*positions, t, a + b + c) - 1);
         }
-        const float sum = squares.sum(), eight_areas = 2 * four_areas_of(squares);
-        for (int k = 0; k < 3; ++k) triangles[i][k] = (sum - 2 * squares[k]) / eight_areas;
+        elements[i] = triangle_element(squares, four_areas_of(squares, kThinnest));
+        elements[i].mass = mass;
     });
     const bool has_flux = positions != nullptr && !stars.on_rim.empty();
     flux_.assign(has_flux ? static_cast<std::size_t>(stars.count()) : 0, Eigen::Vector4f::Zero());
@@ -93,18 +69,18 @@ void LinearElements::assemble(const Vectors& normals, double normal_length,
         float mass = 0;
         for (std::uint32_t i = stars.corner_begin[vertex]; i < stars.corner_begin[vertex + 1];
              ++i) {
-            const std::array<float, 4>& weights = triangles[stars.corners[i] / 3];
+            const TriangleElement<float>& element = elements[stars.corners[i] / 3];
             const std::uint32_t corner = stars.corners[i] % 3;
-            values_[stars.places[i][0]] += weights[(corner + 2) % 3];
-            values_[stars.places[i][1]] += weights[(corner + 1) % 3];
-            mass += weights[3];
+            values_[stars.places[i][0]] += element.weights[(corner + 2) % 3];
+            values_[stars.places[i][1]] += element.weights[(corner + 1) % 3];
+            mass += element.mass;
         }
         masses_[vertex] = mass;
         diagonal_[vertex] = std::accumulate(values_.begin() + begin, values_.begin() + end, 0.0F);
         if (!has_flux || stars.on_rim[vertex] == 0) return;
         for_each_corner(stars, vertex, [&](std::uint32_t triangle, std::uint32_t corner) {
             flux_[vertex].head<3>() +=
-                flux_of(stars, triangle, corner, triangles[triangle], *positions);
+                rim_flux(stars, triangle, corner, elements[triangle], *positions);
         });
     });
 }

@@ -2,12 +2,8 @@
 #include "filter_tracked_mcf/core/noise/noisy_surface.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <tuple>
-#include <utility>
-
-#include "filter_tracked_mcf/core/mesh/measures.h"
 
 namespace tracked_mcf {
 
@@ -15,83 +11,6 @@ namespace {
 
 /// The least strength that still moves a vertex, so that fidelities are finite.
 constexpr double kLeastStrength = 1e-3;
-
-/// A side of a triangle.
-struct Side {
-    std::int32_t triangle;
-    bool forwards;  ///< from the edge's smaller vertex to the larger one
-};
-
-/// Lists the sides of each edge.
-struct SidesOfEdges {
-    explicit SidesOfEdges(const MeshTopology& topology)
-        : begin(static_cast<std::size_t>(topology.edge_count) + 1, 0) {
-        const auto for_each_side = [&](const auto& visit) {
-            for (std::int32_t t = 0; t < static_cast<std::int32_t>(topology.edges.size()); ++t) {
-                for (int side = 0; side < 3; ++side) {
-                    const std::int32_t edge = topology.edges[t][side];
-                    if (edge == MeshTopology::kNoEdge) continue;
-                    const Triangle& corners = topology.triangles[t];
-                    visit(edge, Side{t, corners[side] < corners[(side + 1) % 3]});
-                }
-            }
-        };
-        for_each_side([&](std::int32_t edge, Side /*side*/) { ++begin[edge + 1]; });
-        std::partial_sum(begin.begin(), begin.end(), begin.begin());
-        sides.resize(begin.back());
-        std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
-        for_each_side([&](std::int32_t edge, Side side) { sides[next[edge]++] = side; });
-    }
-
-    std::vector<std::uint32_t> begin;  ///< per edge, and the end
-    RawVector<Side> sides;
-};
-
-/// Returns the triangles, those of each component oriented as most of its area is. A surface with
-/// one side gets a seam.
-RawVector<Triangle> oriented_triangles(const MeshTopology& topology,
-                                       const std::vector<Eigen::Vector3d>& positions) {
-    RawVector<Triangle> triangles = topology.triangles;
-    if (topology.is_oriented_consistently()) return triangles;
-    const SidesOfEdges edges(topology);
-    constexpr std::uint8_t unknown = 2;
-    std::vector<std::uint8_t> flipped(topology.triangles.size(), unknown);
-    std::vector<std::int32_t> component;
-    const auto add_neighbours = [&](std::int32_t triangle) {
-        for (int side = 0; side < 3; ++side) {
-            const std::int32_t edge = topology.edges[triangle][side];
-            if (edge == MeshTopology::kNoEdge) continue;
-            const Side* const sides = edges.sides.data() + edges.begin[edge];
-            // Where more than two triangles meet, none continues another.
-            if (edges.begin[edge + 1] - edges.begin[edge] != 2) continue;
-            const Side& other = sides[sides[0].triangle == triangle ? 1 : 0];
-            if (flipped[other.triangle] != unknown) continue;
-            const bool alike = sides[0].forwards != sides[1].forwards;
-            const std::uint8_t here = flipped[triangle];
-            flipped[other.triangle] = alike ? here : static_cast<std::uint8_t>(1 - here);
-            component.push_back(other.triangle);
-        }
-    };
-    for (std::size_t first = 0; first < flipped.size(); ++first) {
-        if (flipped[first] != unknown) continue;
-        flipped[first] = 0;
-        component.assign(1, static_cast<std::int32_t>(first));
-        std::array<double, 2> areas = {0, 0};  // as they are, flipped
-        std::size_t visited = 0;
-        while (visited < component.size()) {
-            const std::int32_t t = component[visited++];
-            add_neighbours(t);
-            const auto [a, b, c] = corners_of(positions, topology.triangles[t]);
-            areas[flipped[t]] += twice_vector_area(a, b, c).norm();
-            poll_progress();
-        }
-        const std::uint8_t least = areas[1] > areas[0] ? 0 : 1;
-        for (const std::int32_t t : component) {
-            if (flipped[t] == least) std::swap(triangles[t][1], triangles[t][2]);
-        }
-    }
-    return triangles;
-}
 
 /// Returns new numbers, from 0, for the vertices that have a mark, and -1 for the others.
 std::vector<std::int32_t> numbers_of(const std::vector<std::uint8_t>& marked) {
@@ -123,9 +42,8 @@ float fidelity_of(double strength) {
     return static_cast<float>(1 / (square * square));
 }
 
-/// Binary digits that a mean keeps, and its digits after the point in edges: the order of what is
-/// added changes only later ones.
-constexpr int kDigits = 40, kDigitsOfEdges = 30;
+/// Digits after the point, in edges, of a mean: the order of what is added changes only later ones.
+constexpr int kDigitsOfEdges = 30;
 
 /// Returns the nearest multiple of 2^exponent.
 double rounded(double number, int exponent) {
@@ -134,37 +52,13 @@ double rounded(double number, int exponent) {
 
 }  // namespace
 
-SurfaceOfMesh surface_of(const Domain& domain) {
-    const TriangleMesh& mesh = domain.mesh();
-    const RawVector<Triangle> triangles = oriented_triangles(domain.topology(), mesh.positions);
-    std::vector<std::uint8_t> used(mesh.positions.size(), 0);
-    for (const Triangle& t : triangles) {
-        if (!has_three_vertices(t)) continue;
-        for (const std::int32_t vertex : t) used[vertex] = 1;
+std::vector<float> fidelities_of(const Surface& surface) {
+    std::vector<float> fidelities(surface.held.size());
+    for (std::size_t i = 0; i < fidelities.size(); ++i) {
+        const double strength = surface.strengths.empty() ? 1 : surface.strengths[i];
+        fidelities[i] = surface.held[i] != 0 ? 0 : fidelity_of(std::max(strength, kLeastStrength));
     }
-    SurfaceOfMesh result{{{{}, 0}, {}, {}}, numbers_of(used), 0};
-    const double mean = mean_edge_length(domain.surface());
-    result.edge = rounded(mean, std::ilogb(mean) - kDigits);
-    NoisySurface& surface = result.surface;
-    Eigen::AlignedBox3d box;  // its middle keeps coordinates small where a mesh is far from 0
-    for (std::size_t i = 0; i < used.size(); ++i) {
-        if (used[i] != 0) box.extend(mesh.positions[i]);
-    }
-    const Eigen::Vector3d origin = box.center();
-    for (std::size_t i = 0; i < used.size(); ++i) {
-        if (used[i] == 0) continue;
-        const auto vertex = static_cast<std::int32_t>(i);
-        const bool fixed = domain.constrained_vertices()[i] != 0;
-        const double strength = std::max(domain.strength(vertex), kLeastStrength);
-        surface.fidelity.push_back(fixed ? 0 : fidelity_of(strength));
-        surface.positions.emplace_back((mesh.positions[i] - origin) / result.edge);
-    }
-    const auto count = static_cast<std::int32_t>(surface.positions.size());
-    surface.stars = Stars(renumbered(triangles, result.vertices), count);
-    for (std::size_t i = 0; i < used.size(); ++i) {
-        result.vertices[i] = result.vertices[domain.topology().welded[i]];
-    }
-    return result;
+    return fidelities;
 }
 
 Eigen::AlignedBox3d confinement(const Positions& positions) {
@@ -201,25 +95,63 @@ std::vector<Ranked> ranked(const Positions& positions) {
     return vertices;
 }
 
-/// Marks the vertices nearest to `seed`, counted in sides: as many whole rings as have
-/// `count` vertices.
-void mark_patch(const Stars& stars, std::int32_t seed, std::size_t count,
-                std::vector<std::uint8_t>& marked) {
-    std::vector<std::int32_t> patch(1, seed);
+/// Marks the vertices nearest to `seed`, counted in sides: as many whole rings as have `count`
+/// vertices, but for those that are marked. Returns how many it marks.
+std::size_t mark_region(const Stars& stars, std::int32_t seed, std::size_t count,
+                        std::vector<std::uint8_t>& marked) {
+    if (marked[seed] != 0) return 0;
+    std::vector<std::int32_t> region(1, seed);
     marked[seed] = 1;
     std::size_t ring = 0;
-    while (ring < patch.size() && patch.size() < count) {
-        for (const std::size_t end = patch.size(); ring < end; ++ring) {
-            const std::int32_t vertex = patch[ring];
+    while (ring < region.size() && region.size() < count) {
+        for (const std::size_t end = region.size(); ring < end; ++ring) {
+            const std::int32_t vertex = region[ring];
             for (std::uint32_t k = stars.neighbour_begin[vertex];
                  k < stars.neighbour_begin[vertex + 1]; ++k) {
                 const std::int32_t neighbour = stars.neighbours[k];
                 if (marked[neighbour] != 0) continue;
                 marked[neighbour] = 1;
-                patch.push_back(neighbour);
+                region.push_back(neighbour);
             }
         }
     }
+    return region.size();
+}
+
+using RankedIterator = std::vector<Ranked>::iterator;
+
+/// Puts there the vertices that sorting would put at `places`, which increase.
+void select(RankedIterator begin, RankedIterator end, const RankedIterator* first,
+            const RankedIterator* last) {
+    if (first == last) return;
+    const RankedIterator* const middle = first + (last - first) / 2;
+    std::nth_element(begin, *middle, end);
+    select(begin, *middle, first, middle);
+    select(*middle + 1, end, middle + 1, last);
+}
+
+/// Marks regions of a surface that have about so many vertices together. Their seeds are at odd
+/// multiples of a fraction of the ranks. If parts are too small for whole regions, there are twice
+/// as many seeds each further time.
+std::vector<std::uint8_t> marked_regions(const NoisySurface& surface, std::int32_t vertex_count,
+                                         std::int32_t region) {
+    std::vector<std::uint8_t> marked(surface.positions.size(), 0);
+    std::vector<Ranked> vertices = ranked(surface.positions);
+    const auto all = static_cast<std::int64_t>(vertices.size());
+    const auto most = static_cast<std::size_t>(vertex_count);
+    std::size_t count = 0;
+    for (std::int64_t regions = vertex_count / region; regions <= all && 2 * count < most;
+         regions *= 2) {
+        std::vector<RankedIterator> seeds(static_cast<std::size_t>(regions));
+        for (std::int64_t i = 0; i < regions; ++i)
+            seeds[i] = vertices.begin() + (2 * i + 1) * all / (2 * regions);
+        select(vertices.begin(), vertices.end(), seeds.data(), seeds.data() + seeds.size());
+        for (std::size_t i = 0; i < seeds.size() && count < most; ++i) {
+            count += mark_region(surface.stars, seeds[i]->vertex, static_cast<std::size_t>(region),
+                                 marked);
+        }
+    }
+    return marked;
 }
 
 /// Returns a random sign for each number (splitmix64).
@@ -249,22 +181,12 @@ std::vector<float> random_signs(const Positions& positions) {
 }
 
 Sample sample_of(const NoisySurface& surface, std::int32_t vertex_count,
-                 const std::vector<float>& fidelities, std::int32_t patch) {
+                 const std::vector<float>& fidelities, std::int32_t region) {
     const Stars& stars = surface.stars;
     const std::int32_t all = stars.count();
-    std::vector<std::uint8_t> marked(static_cast<std::size_t>(all), 1);
-    if (all > 2 * vertex_count) {
-        std::fill(marked.begin(), marked.end(), std::uint8_t{0});
-        std::vector<Ranked> vertices = ranked(surface.positions);
-        const std::int32_t patches = vertex_count / patch;
-        auto begin = vertices.begin();
-        for (std::int32_t i = 0; i < patches; ++i) {
-            const auto seed = vertices.begin() + (2 * i + 1) * std::int64_t{all} / (2 * patches);
-            std::nth_element(begin, seed, vertices.end());
-            begin = seed;
-            mark_patch(stars, seed->vertex, static_cast<std::size_t>(patch), marked);
-        }
-    }
+    const std::vector<std::uint8_t> marked =
+        all > 2 * vertex_count ? marked_regions(surface, vertex_count, region)
+                               : std::vector<std::uint8_t>(surface.positions.size(), 1);
     // Only whole triangles belong to the sample, and only their vertices.
     std::vector<std::uint8_t> used(marked.size(), 0);
     for (const Triangle& t : stars.triangles) {
@@ -272,13 +194,13 @@ Sample sample_of(const NoisySurface& surface, std::int32_t vertex_count,
         for (const std::int32_t vertex : t) used[vertex] = 1;
     }
     const std::vector<std::int32_t> numbers = numbers_of(used);
-    Sample sample{{{{}, 0}, {}, {}}, {}, {}};
+    Sample sample;
     std::vector<std::uint32_t> star_sizes;
     for (std::int32_t i = 0; i < all; ++i) {
         if (used[i] == 0) continue;
         sample.surface.positions.push_back(surface.positions[i]);
         const float fidelity = fidelities.empty() ? 1 : fidelities[i];
-        sample.surface.fidelity.push_back(surface.is_fixed(i) ? 0 : fidelity);
+        sample.surface.fidelity.push_back(surface.is_held(i) ? 0 : fidelity);
         star_sizes.push_back(stars.corner_begin[i + 1] - stars.corner_begin[i]);
     }
     const auto count = static_cast<std::int32_t>(star_sizes.size());
@@ -290,7 +212,7 @@ Sample sample_of(const NoisySurface& surface, std::int32_t vertex_count,
         const auto* const places = &sample.surface.stars.neighbour_begin[i];
         const bool is_inside =
             is_whole(i) && std::all_of(neighbours + places[0], neighbours + places[1], is_whole);
-        sample.counts.push_back(is_inside && !sample.surface.is_fixed(i) ? 1 : 0);
+        sample.counts.push_back(is_inside && !sample.surface.is_held(i) ? 1 : 0);
     }
     sample.signs = random_signs(sample.surface.positions);
     return sample;

@@ -30,7 +30,7 @@ constexpr double kShortest = 0.1;
 struct Curves {
     std::vector<std::int32_t> vertices;              ///< of the surface
     std::vector<std::array<Eigen::Index, 2>> sides;  ///< the numbers of their ends, as oriented
-    std::vector<std::uint8_t> stays;                 ///< per vertex
+    std::vector<std::uint8_t> is_held;               ///< per vertex
     std::vector<double> fidelity;                    ///< per vertex
 };
 
@@ -56,7 +56,7 @@ Curves curves_of(const NoisySurface& surface) {
     }
     for (std::size_t i = 0; i < begins.size(); ++i) {
         const bool is_regular = begins[i] == 1 && ends[i] == 1;
-        curves.stays.push_back(is_regular && curves.fidelity[i] > 0 ? 0 : 1);
+        curves.is_held.push_back(is_regular && curves.fidelity[i] > 0 ? 0 : 1);
     }
     return curves;
 }
@@ -131,13 +131,13 @@ CurvePoints displacements(const Curves& curves, const CurveElements& elements, d
     for (Eigen::Index i = 0; i < x.rows(); ++i) {
         const auto vertex = static_cast<std::size_t>(i);
         fidelities[i] = elements.masses[i] * curves.fidelity[vertex];
-        if (curves.stays[vertex] == 0) continue;
+        if (curves.is_held[vertex] == 0) continue;
         fidelities[i] = 1;
         force.row(i).setZero();
     }
     bending.prune([&](Eigen::Index row, Eigen::Index column, double /*value*/) {
-        return row == column || (curves.stays[static_cast<std::size_t>(row)] == 0 &&
-                                 curves.stays[static_cast<std::size_t>(column)] == 0);
+        return row == column || (curves.is_held[static_cast<std::size_t>(row)] == 0 &&
+                                 curves.is_held[static_cast<std::size_t>(column)] == 0);
     });
     return solution(fidelities, bending, force);
 }

@@ -60,7 +60,7 @@ Positions fitted_to(const Vectors& normals, const NoisySurface& surface,
     Positions fitted(positions.size());
     parallel_for_rows(stars.count(), [&](std::int32_t vertex) {
         fitted[vertex] = positions[vertex];
-        if (surface.is_fixed(vertex)) return;
+        if (surface.is_held(vertex)) return;
         Eigen::Vector3d sum = Eigen::Vector3d::Zero();
         for_each_corner(stars, vertex, [&](std::uint32_t triangle, std::uint32_t /*corner*/) {
             const auto [a, b, c] = corners_of(positions, stars.triangles[triangle]);

@@ -13,7 +13,9 @@ namespace tracked_mcf {
 class Marks {
 public:
     explicit Marks(std::int64_t count) : marks_(static_cast<std::size_t>(count)) {
-        parallel_for_rows(count, [&](std::int32_t i) { marks_[i].store(0, kOrder); });
+        parallel_for_chunks(count, [&](std::int64_t begin, std::int64_t end) {
+            for (std::int64_t i = begin; i < end; ++i) marks_[i].store(0, kOrder);
+        });
     }
 
     void set(std::int64_t i) {

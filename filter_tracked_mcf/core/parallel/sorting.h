@@ -48,17 +48,26 @@ void for_each_chunk(std::int64_t count, const Body& body) {
     });
 }
 
-/// Returns the bits in which the keys of the items differ.
+/// Returns the bits in which the keys of the items differ; none if the items are sorted.
 template <class Items, class Key>
 std::uint64_t varying_bits(const Items& items, const Key& key) {
     const auto count = static_cast<std::int64_t>(items.size());
     std::vector<std::uint64_t> varying(static_cast<std::size_t>(count / kItems + 1), 0);
+    std::vector<std::uint8_t> is_sorted(varying.size(), 1);
     for_each_chunk(count, [&](std::int64_t chunk, std::int64_t begin, std::int64_t end) {
-        std::uint64_t bits = 0;
+        std::uint64_t bits = 0, before = key(items[std::max<std::int64_t>(begin - 1, 0)]);
         const std::uint64_t first = key(items[0]);
-        for (std::int64_t i = begin; i < end; ++i) bits |= key(items[i]) ^ first;
+        bool rises = true;
+        for (std::int64_t i = begin; i < end; ++i) {
+            const std::uint64_t present = key(items[i]);
+            bits |= present ^ first;
+            rises = rises && before <= present;
+            before = present;
+        }
         varying[chunk] = bits;
+        is_sorted[chunk] = rises ? 1 : 0;
     });
+    if (std::find(is_sorted.begin(), is_sorted.end(), 0) == is_sorted.end()) return 0;
     return std::accumulate(varying.begin(), varying.end(), std::uint64_t{0},
                            [](std::uint64_t a, std::uint64_t b) { return a | b; });
 }

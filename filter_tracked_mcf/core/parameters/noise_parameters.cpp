@@ -22,10 +22,10 @@ const std::vector<ParameterOf<NoiseParameters>>& parameter_table() {
               "Standard deviation of the noise along the normals. 0 measures it."),
         named(access<&P::noise_size>(
                   Type::Length,
-                  {0, kFinite, ", in units of the mesh, where 0 is that of stairs or vertices"}),
+                  {0, kFinite, ", in units of the mesh, where 0 is what the mesh itself shows"}),
               "noise_size", "Size of the noise (0: auto)",
-              "The distance of voxels or slices; half the width of lumps. 0: that of stairs, or of "
-              "vertices."),
+              "Width of lumps, half a ripple. Stairs' height: smooths them; below half of it: "
+              "keeps. 0: by the mesh."),
         named(access<&P::detail_size>(
                   Type::Length,
                   {0, kFinite, ", in units of the mesh, where 0 takes what the noise needs"}),
@@ -38,6 +38,8 @@ const std::vector<ParameterOf<NoiseParameters>>& parameter_table() {
               "A bound that no vertex exceeds. 0 is no bound."),
         named(toggle<&P::along_normals>(), "along_normals", "Along normals only",
               "For rasters and textures: no vertex slides along the surface."),
+        named(toggle<&P::lumps>(), "lumps", "Lumps, too",
+              "Removes lumps and waves a few edges wide, too. They may be detail."),
         named(choice<&P::boundary>({{"Locked", "locked"}, {"Free", "free"}, {"Smooth", "smooth"}}),
               "boundary", "Boundary",
               "Locked keeps the rim, with its noise. Free moves it along its normals. Smooth evens "

@@ -71,7 +71,7 @@ if "$tool" "$work/in.ply" "$work/tool-volume.ply" "${options[@]}" --preserve vol
     meshlab in volume plugin-volume "$looks"
     check in plugin-volume tool-volume
 else
-    grep "not oriented consistently" "$work/errors.txt"
+    grep "cannot be oriented alike" "$work/errors.txt"
 fi
 
 echo "== Upward faces"

@@ -13,7 +13,8 @@ off() { # NAME VERTICES FACES LINES...
 }
 square=("0 0 0" "1 0 0" "0 1 0" "1 1 0")
 off good 4 2 "${square[@]}" "3 0 1 2" "3 1 3 2"
-off twisted 4 2 "${square[@]}" "3 0 1 2" "3 1 2 3"
+# A band with one side.
+off twisted 5 5 "1 0 0" "0 1 0" "-1 0 1" "0 -1 0" "0 0 3" "3 0 1 2" "3 1 2 3" "3 2 3 4" "3 3 4 0" "3 4 0 1"
 off empty 0 0
 off no_faces 4 0 "${square[@]}"
 off nan 4 2 "${square[@]:0:3}" "1 nan 0" "3 0 1 2" "3 1 3 2"
@@ -48,5 +49,5 @@ refuses "No face is selected; select" good selected=true
 refuses "No face is selected; select" good --select "x0 > 5"
 refuses "surface is open" good flow=1 boundary=1 preserve=2
 refuses "Preserving the area would move vertices that must stay" good preserve=1
-refuses "not oriented consistently" twisted preserve=2
+refuses "cannot be oriented alike" twisted preserve=2
 exit "$((failures > 0))"

@@ -235,7 +235,7 @@ def check_package(mesh):
     import tracked_mcf
 
     check_help()
-    quiet = apply(load(mesh), detail_size=pymeshlab.PercentageValue(5), iterations=20)["warnings"]
+    quiet = apply(load(mesh), detail_size=pymeshlab.PercentageValue(1.3), iterations=20)["warnings"]
     warned = []
     tracked_mcf._warnings.showwarning = lambda message, *_, **__: warned.append(message)
     [fine] = apply(load(mesh), detail_size=pymeshlab.PercentageValue(0.01))["warnings"]

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "filter_tracked_mcf/core/mesh/measures.h"
-#include "filter_tracked_mcf/core/mesh/mesh_topology.h"
 #include "filter_tracked_mcf/hosts/cli/mesh_file.h"
+#include "tests/support/measures.h"
 #include "tests/support/shapes.h"
 
 namespace tracked_mcf::benchmark {
@@ -38,31 +38,6 @@ TriangleMesh noisy_sphere(int frequency, double amplitude) {
     return mesh;
 }
 
-/// Splits each triangle into four at the midpoints of its edges.
-TriangleMesh split(const TriangleMesh& mesh) {
-    const MeshTopology topology = topology_of(mesh);
-    const auto first = static_cast<std::int32_t>(mesh.positions.size());
-    TriangleMesh fine{mesh.positions, {}};
-    fine.positions.resize(mesh.positions.size() + topology.edge_count, Vector3d::Zero());
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-        const Triangle& t = mesh.triangles[i];
-        const auto& edges = topology.edges[i];
-        // Triangles of zero area have no edges here.
-        if (std::count(edges.begin(), edges.end(), MeshTopology::kNoEdge) != 0) continue;
-        Triangle middle{};
-        for (int k = 0; k < 3; ++k) {
-            middle[k] = first + edges[k];
-            fine.positions[middle[k]] =
-                0.5 * (mesh.positions[t[k]] + mesh.positions[t[(k + 1) % 3]]);
-        }
-        for (int k = 0; k < 3; ++k) {
-            fine.triangles.push_back({t[k], middle[k], middle[(k + 2) % 3]});
-        }
-        fine.triangles.push_back(middle);
-    }
-    return fine;
-}
-
 TriangleMesh in_unit_cube(TriangleMesh mesh) {
     const double side = longest_side(mesh);
     for (Vector3d& position : mesh.positions) position /= side;
@@ -71,7 +46,7 @@ TriangleMesh in_unit_cube(TriangleMesh mesh) {
 
 TriangleMesh scan(const std::string& path, int splits) {
     TriangleMesh mesh = MeshFile(path).triangle_mesh();
-    for (int i = 0; i < splits; ++i) mesh = split(mesh);
+    for (int i = 0; i < splits; ++i) mesh = shapes::split_in_four(mesh);
     return in_unit_cube(std::move(mesh));
 }
 

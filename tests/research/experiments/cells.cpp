@@ -14,6 +14,7 @@
 #include "tests/research/experiments/experiments.h"
 #include "tests/research/experiments/options.h"
 #include "tests/support/elements.h"
+#include "tests/support/measures.h"
 
 namespace tracked_mcf::experiments {
 

@@ -24,9 +24,9 @@ import shapes
 from experiment import Experiment
 from flow import kept, kept_on_sphere
 from measures import across, along, root_mean_square, topology_of
-from other_noise import rotation
 from scan import Scan
 from surface import SEED, Surface
+from voxels import rotation
 
 try:
     import cotangents

@@ -73,11 +73,13 @@ class Experiment:
         """Returns a sentence with the command that makes the page. It names no folder of this machine."""
         script = pathlib.Path(sys.argv[0]).resolve().relative_to(TOP)
         words = []
-        for name in ("meshes", "pairs", "findings"):
+        for name in ("meshes", "pairs", "findings", "parts"):
             given = getattr(self.options, name, None)
             if given:
                 words.append(" ".join([f"--{name}", *["FOLDER"] * (len(given) if isinstance(given, list) else 1)]))
         words += [f'--also="{options}"' for options in getattr(self.options, "also", [])]
+        words += [f"--{name} {getattr(self.options, name)}" for name in ("seed", "seeds")
+                  if getattr(self.options, name, 1) > 1]
         if self.options.quick:
             words.append("--quick")
         python = ["build/pymeshlab/bin/python"] if "pymeshlab" in sys.modules else []

@@ -8,14 +8,14 @@
 #include <stdexcept>
 #include <vector>
 
-#include "filter_tracked_mcf/core/flow/cells/grid.h"
 #include "filter_tracked_mcf/core/flow/stepping/paper_flow.h"
 #include "filter_tracked_mcf/core/flow/system/constrained_cells.h"
-#include "filter_tracked_mcf/core/mesh/domain.h"
+#include "filter_tracked_mcf/core/mesh/grid.h"
 #include "filter_tracked_mcf/core/mesh/measures.h"
 #include "tests/research/experiments/configuration.h"
 #include "tests/support/cotangent_flow.h"
 #include "tests/support/elements.h"
+#include "tests/support/measures.h"
 #include "tests/support/process_time.h"
 #include "tests/support/shapes.h"
 
@@ -70,7 +70,7 @@ public:
     Rebuilt(const TriangleMesh& mesh, const FlowParameters& parameters)
         : mesh_(mesh),
           parameters_(parameters),
-          grid_(paper_plan_of(mesh, parameters).surface.grid) {}
+          grid_(paper_plan_of(mesh, parameters).clipped.grid) {}
 
     bool step() override {
         const double start = cpu_seconds();
@@ -119,9 +119,8 @@ class MonteCarlo : public Method {
 public:
     MonteCarlo(const TriangleMesh& mesh, const FlowParameters& parameters, int count)
         : cycles_(parameters.cycles),
-          elements_(build_tracked_elements(Domain(mesh, BoundaryCondition::Free),
-                                           enclosing_grid(mesh, parameters.depth),
-                                           parameters.cubature)),
+          elements_(build_tracked_elements(mesh, enclosing_grid(mesh, parameters.depth),
+                                           parameters.cubature, BoundaryCondition::Free)),
           multigrid_(elements_, constrained_unknowns(elements_)),
           displacement_(Coefficients::Zero(elements_.finest().unknown_count(), 3)) {
         draw_samples(count, elements_);

@@ -30,10 +30,12 @@ from measures import angles, distance, heights
 from scan import Scan
 from smoothers import best, taubin_families, two_step_families
 from surface import Surface
-from windowed_sinc import isosurface, sinc_families
+from voxels import box, faces_of_voxels, isosurface, nearest, rotation, sampled, torus
+from windowed_sinc import sinc_families
 
 DETAIL_SIZES = [4, 8, 12, 16]  # of the flow, in edges
 NEAR = 1.5  # metres
+FIRST = -32  # sample of a solid, in each coordinate
 PIXELS = 200  # of the depth camera, along each side
 
 
@@ -45,64 +47,15 @@ class Case:
         self.part = part  # which vertices are measured on their own
 
 
-def rotation(a, b):
-    turn = numpy.array([[numpy.cos(a), -numpy.sin(a), 0], [numpy.sin(a), numpy.cos(a), 0], [0, 0, 1]])
-    return turn @ [[1, 0, 0], [0, numpy.cos(b), -numpy.sin(b)], [0, numpy.sin(b), numpy.cos(b)]]
-
-
-def torus(turn):
-    """Returns the signed distance from a torus."""
-    def distance_of(points):
-        x, y, z = numpy.moveaxis(points @ turn, -1, 0)
-        return numpy.hypot(numpy.hypot(x, y) - 20, z) - 8
-    return distance_of
-
-
-def box(turn):
-    def distance_of(points):
-        outside = abs(points @ turn) - (15, 10, 7)
-        return numpy.linalg.norm(numpy.maximum(outside, 0), axis=-1) + numpy.minimum(outside.max(axis=-1), 0)
-    return distance_of
-
-
-def nearest(solid, points):
-    """Returns the nearest points of a solid's surface."""
-    step = 1e-4
-    gradient = numpy.stack([(solid(points + step * axis) - solid(points - step * axis)) / (2 * step)
-                            for axis in numpy.eye(3)], -1)
-    return points - solid(points)[:, None] * gradient
-
-
-def sampled(solid, spacing):
-    """Returns which samples are inside, and the first sample."""
-    axes = [numpy.arange(-32, 32, step) for step in spacing]
-    return solid(numpy.stack(numpy.meshgrid(*axes, indexing="ij"), -1)) < 0, numpy.array([axis[0] for axis in axes])
-
-
-def faces_of_voxels(inside):
-    """Returns the boundary of voxels with sides of 1, the first around the origin."""
-    quads = []
-    padded = numpy.pad(inside, 1).astype(numpy.int8)
-    for axis in range(3):
-        changes = numpy.diff(padded, axis=axis)
-        for sign in (1, -1):
-            corner = numpy.argwhere(changes == sign)
-            corner[:, axis] += 1
-            u, v = numpy.eye(3, dtype=int)[[(axis + 1) % 3, (axis + 2) % 3]]
-            quad = numpy.stack([corner, corner + u, corner + u + v, corner + v], 1)
-            quads.append(quad if sign < 0 else quad[:, ::-1])
-    vertices, index = numpy.unique(numpy.concatenate(quads).reshape(-1, 3), axis=0, return_inverse=True)
-    return vertices - 1.5, index.reshape(-1, 4)[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)
-
-
 def cases_of_voxels(random):
     for name, kind, spacing in (("torus", torus, (0.7, 0.7, 2.8)), ("box", box, (0.7, 0.7, 2.1)),
                                 ("torus", torus, (0.9, 0.9, 0.9)), ("box", box, (0.7, 0.7, 0.7)),
                                 ("torus, faces of", torus, None)):
         solid = kind(rotation(0.5 + random.normal(0, 0.1), 0.3 + random.normal(0, 0.1)))
-        inside, first = sampled(solid, spacing or (1, 1, 1))
-        vertices, faces = isosurface(inside, spacing) if spacing else faces_of_voxels(inside)
-        vertices = vertices + first
+        sides = numpy.diag(spacing or (1, 1, 1))
+        inside = sampled(solid, sides, FIRST, numpy.ceil(-2 * FIRST / numpy.diag(sides)).astype(int))
+        vertices, faces = isosurface(inside, sides) if spacing else faces_of_voxels(inside)
+        vertices = vertices + FIRST
         what = "voxels" if spacing is None or len(set(spacing)) == 1 else "slices"
         yield Case(f"{name} {what}" if spacing is None else f"{name}, {what}",
                    Surface(name, nearest(solid, vertices), faces), vertices)

@@ -62,13 +62,13 @@ LARGEST_COLOURED_ANGLE = 20  # degrees
 PLASTER, RED = numpy.array([0.93, 0.89, 0.83]), numpy.array([0.75, 0.05, 0.05])
 
 
-def noisy(scan, noise):
+def noisy(scan, noise, seed):
     """Returns the noisy vertices; `noise` is one of NOISES."""
     deviation, *kind = noise.split()
-    random = numpy.random.default_rng(SEED)
+    random = numpy.random.default_rng(seed)
     if kind == ["isotropic"]:
         return scan.vertices + random.normal(0, float(deviation) * scan.edge, scan.vertices.shape)
-    vertices = scan.noisy(float(deviation))
+    vertices = scan.noisy(float(deviation), seed)
     if kind == ["impulsive"]:
         spared = random.random(len(vertices)) >= 0.2
         vertices[spared] = scan.vertices[spared]
@@ -126,7 +126,7 @@ def rows_of(experiment, scan, noises):
     print(f"... {scan.name}", flush=True)
     rows = {}
     for noise in noises:
-        row = measure(experiment, scan, noise, noisy(scan, noise))
+        row = measure(experiment, scan, noise, noisy(scan, noise, experiment.options.seed))
         if noise == "0.2" and scan.name in DRAWN:
             draw(experiment, scan, row)
         rows[scan.name, noise] = without_vertices(row)
@@ -226,6 +226,7 @@ def main():
                             help="pairs NAME_noisy.ply and NAME_original.ply")
         parser.add_argument("--peers", type=pathlib.Path, metavar="FILE",
                             help="results of an earlier run, of which the other smoothers' are taken")
+        parser.add_argument("--seed", type=int, default=SEED, metavar="NUMBER", help="of the noise")
 
     experiment = Experiment("removing_noise", __doc__, add_options)
     options = experiment.options

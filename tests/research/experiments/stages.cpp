@@ -8,13 +8,14 @@
 #include <vector>
 
 #include "filter_tracked_mcf/core/mesh/measures.h"
-#include "filter_tracked_mcf/core/mesh/mesh_topology.h"
+#include "filter_tracked_mcf/core/mesh/surface.h"
 #include "filter_tracked_mcf/core/platform/process_memory.h"
 #include "filter_tracked_mcf/hosts/cli/mesh_file.h"
 #include "tests/research/experiments/csv.h"
 #include "tests/research/experiments/experiments.h"
 #include "tests/research/experiments/method.h"
 #include "tests/research/experiments/options.h"
+#include "tests/support/measures.h"
 #include "tests/support/shapes.h"
 
 namespace tracked_mcf::experiments {
@@ -33,14 +34,10 @@ bool all_finite(const TriangleMesh& mesh) {
 
 /// Returns the bounding box of the boundary, empty for a closed mesh.
 Eigen::AlignedBox3d bounding_box_of_boundary(const TriangleMesh& mesh) {
-    const std::vector<std::uint8_t> sides = topology_of(mesh).boundary;
+    const Surface surface = surface_of(mesh);
     Eigen::AlignedBox3d box;
-    for (std::size_t i = 0; i < sides.size(); ++i) {
-        for (int side = 0; side < 3; ++side) {
-            if (!has_bit(sides[i], side)) continue;
-            box.extend(mesh.positions[mesh.triangles[i][side]]);
-            box.extend(mesh.positions[mesh.triangles[i][(side + 1) % 3]]);
-        }
+    for (std::size_t i = 0; i < surface.stars.on_rim.size(); ++i) {
+        if (surface.stars.on_rim[i] != 0) box.extend(mesh.positions[surface.mesh_vertices[i]]);
     }
     return box;
 }

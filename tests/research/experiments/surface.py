@@ -20,8 +20,8 @@ class Surface:
             numpy.add.at(normals, faces[:, corner], areas)
         self.normals = normals / numpy.maximum(numpy.linalg.norm(normals, axis=1), 1e-300)[:, None]
 
-    def noisy(self, noise):
+    def noisy(self, noise, seed=SEED):
         """Returns the vertices moved along the normals. `noise` is the standard deviation, in mean edge
         lengths."""
-        heights = numpy.random.default_rng(SEED).normal(0, noise * self.edge, len(self.vertices))
+        heights = numpy.random.default_rng(seed).normal(0, noise * self.edge, len(self.vertices))
         return self.vertices + heights[:, None] * self.normals

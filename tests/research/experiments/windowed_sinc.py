@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""VTK's windowed sinc smoother over its settings, to compare with, and its surfaces of voxels."""
+"""VTK's windowed sinc smoother over its settings, to compare with."""
 
 import pathlib
 import sys
@@ -32,13 +32,3 @@ def sinc_families(surface, vertices):
             *([lambda count=count, band=band: smoothed(surface, vertices, n_iter=count, pass_band=band,
                                                        normalize_coordinates=True) for band in PASS_BANDS]
               for count in ITERATIONS)]
-
-
-def isosurface(inside, spacing):
-    """Returns the vertices and triangles between the samples inside and outside, by marching cubes. The first sample is at
-    the origin."""
-    image = pyvista.ImageData(dimensions=inside.shape, spacing=spacing)
-    image.point_data["inside"] = inside.ravel(order="F").astype(numpy.float32)
-    surface = image.contour([0.5], method="flying_edges", compute_normals=False, compute_scalars=False)
-    used, faces = numpy.unique(surface.regular_faces, return_inverse=True)
-    return numpy.array(surface.points[used], float), faces.reshape(-1, 3)

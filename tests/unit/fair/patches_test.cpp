@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "filter_tracked_mcf/core/fair.h"
+#include "filter_tracked_mcf/core/mesh/surface.h"
 #include "tests/support/shapes.h"
 #include "tests/unit/flows.h"
 
@@ -56,16 +57,6 @@ TEST(Patches, TakeNoLinksFromTrianglesWithTwoEqualVertices) {
         const Linked linked(by_places);
         Selection shorter = linked.selection;
         shorter.resize(linked.without.triangles.size());
-        const std::vector<Patch> expected = patches_of(topology_of(linked.without), shorter);
-        const std::vector<Patch> found = patches_of(topology_of(linked.with), linked.selection);
-        ASSERT_EQ(expected.size(), 1);
-        ASSERT_EQ(found.size(), 1);
-        EXPECT_GT(found[0].moving, 0);
-        EXPECT_EQ(found[0].vertices, expected[0].vertices);
-        EXPECT_EQ(found[0].moving, expected[0].moving);
-        EXPECT_EQ(found[0].has_normal, expected[0].has_normal);
-        EXPECT_EQ(found[0].triangles, expected[0].triangles);
-
         TriangleMesh with = linked.with, without = linked.without;
         const FairReport report = fair(with, linked.selection, {});
         const FairReport of_without = fair(without, shorter, {});
@@ -74,6 +65,7 @@ TEST(Patches, TakeNoLinksFromTrianglesWithTwoEqualVertices) {
             mesh->positions.resize(shapes::geodesic_sphere(12).positions.size());
         EXPECT_EQ(distance(with, without), 0);
         EXPECT_EQ(report.patches, 1);
+        EXPECT_GT(report.vertices, 0);
         EXPECT_EQ(report.vertices, of_without.vertices);
         EXPECT_EQ(report.rough_patches, 0);
     }
@@ -81,14 +73,16 @@ TEST(Patches, TakeNoLinksFromTrianglesWithTwoEqualVertices) {
 
 TEST(Patches, HaveThreeRings) {
     const TriangleMesh square = shapes::square(20);
-    Selection selection;
-    for (const Triangle& t : square.triangles) {
-        const Eigen::Vector3d& corner = square.positions[t[0]];
-        selection.push_back((corner - Eigen::Vector3d(0.5, 0.5, 0)).norm() < 0.2 ? 1 : 0);
+    const Surface surface = surface_of(square);
+    std::vector<std::uint8_t> moves;
+    for (const std::int32_t vertex : surface.mesh_vertices) {
+        const Eigen::Vector3d& at = square.positions[vertex];
+        moves.push_back((at - Eigen::Vector3d(0.5, 0.5, 0)).norm() < 0.2 ? 1 : 0);
     }
-    const std::vector<Patch> patches = patches_of(topology_of(square), selection);
+    const std::vector<Patch> patches = patches_of(surface.stars, moves);
     ASSERT_EQ(patches.size(), 1);
     const Patch& patch = patches[0];
+    EXPECT_EQ(patch.moving, std::count(moves.begin(), moves.end(), 1));
     EXPECT_LT(patch.moving, patch.held);
     EXPECT_LT(patch.held, patch.inner);
     EXPECT_LT(patch.inner, static_cast<std::int32_t>(patch.vertices.size()));

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <utility>
 
 #include "filter_tracked_mcf/core/evolve.h"
 #include "filter_tracked_mcf/core/fair.h"
@@ -68,34 +69,64 @@ TriangleMesh with_noise(TriangleMesh mesh) {
 TEST(Cracks, OfLessThanAMillionthOfTheDiagonalAreClosed) {
     // A shift of 1e-18 changes only the coordinates that are 0.
     for (const double gap : {1e-18, 1e-9, 1e-6}) {
-        const MeshTopology topology = topology_of(cut_torus(gap));
-        EXPECT_EQ(topology.cracks.joined_vertices, gap == 1e-18 ? 2 : kAlong);
-        EXPECT_EQ(topology.cracks.open_pairs, 0);
-        EXPECT_EQ(count_vertices(topology), kAround * kAlong);
-        EXPECT_EQ(genus_of(topology), 1);
+        const Surface surface = surface_of(cut_torus(gap));
+        EXPECT_EQ(surface.counts.cracks.joined_vertices, gap == 1e-18 ? 2 : kAlong);
+        EXPECT_EQ(surface.counts.cracks.open_pairs, 0);
+        EXPECT_EQ(surface.stars.count(), kAround * kAlong);
+        EXPECT_EQ(surface.genus(), 1);
     }
 }
 
 TEST(Cracks, ThatAreWiderStayOpenAndAreReported) {
     for (const double gap : {1e-3, 5e-3}) {
         const TriangleMesh mesh = cut_torus(gap);
-        const MeshTopology topology = topology_of(mesh);
-        EXPECT_EQ(topology.cracks.joined_vertices, 0);
-        EXPECT_EQ(topology.cracks.open_pairs, kAlong);
-        EXPECT_NEAR(topology.cracks.open_width, gap * mean_edge_length(mesh), 1e-6);
-        EXPECT_EQ(count_vertices(topology), (kAround + 1) * kAlong);
+        const Surface surface = surface_of(mesh);
+        EXPECT_EQ(surface.counts.cracks.joined_vertices, 0);
+        EXPECT_EQ(surface.counts.cracks.open_pairs, kAlong);
+        EXPECT_NEAR(surface.counts.cracks.open_width, gap * mean_edge_length(mesh), 1e-6);
+        EXPECT_EQ(surface.stars.count(), (kAround + 1) * kAlong);
     }
-    EXPECT_EQ(topology_of(cut_torus(0.1)).cracks.open_pairs, 0) << "a gap like any other";
+    EXPECT_EQ(surface_of(cut_torus(0.1)).counts.cracks.open_pairs, 0) << "a gap like any other";
+}
+
+/// Returns two strips of squares of side 1 beside each other, which are so far apart.
+TriangleMesh strips(int squares, double gap) {
+    TriangleMesh mesh;
+    for (const double y : {0.0, 1.0, 1 + gap, 2 + gap}) {
+        for (int i = 0; i <= squares; ++i) mesh.positions.emplace_back(i, y, 0);
+    }
+    const int row = squares + 1;
+    for (const int first : {0, 2 * row}) {
+        for (int i = first; i < first + squares; ++i) {
+            mesh.triangles.push_back({i, i + 1, i + 1 + row});
+            mesh.triangles.push_back({i, i + 1 + row, i + row});
+        }
+    }
+    return mesh;
+}
+
+TEST(Cracks, AreClosedUpToBothLimits) {
+    const auto cracks_of = [](int squares, double gap) {
+        return surface_of(strips(squares, gap)).counts.cracks;
+    };
+    // A millionth of the diagonal, and a ten-thousandth of the shortest edge.
+    for (const auto& [squares, limit] : {std::pair(10, 1e-6 * std::hypot(10, 2)), {200, 1e-4}}) {
+        EXPECT_EQ(cracks_of(squares, 0.99 * limit).joined_vertices, squares + 1);
+        EXPECT_EQ(cracks_of(squares, 1.01 * limit).joined_vertices, 0);
+        EXPECT_EQ(cracks_of(squares, 1.01 * limit).open_pairs, squares + 1);
+    }
+    EXPECT_EQ(cracks_of(10, 0.99e-2).open_pairs, 11);
+    EXPECT_EQ(cracks_of(10, 1.01e-2).open_pairs, 0);
 }
 
 TEST(Cracks, AreNotWhereSheetsLieOnEachOther) {
     // Nearest vertices of two squares are pairs, so they count as a crack; three have no pairs.
-    const MeshTopology three = topology_of(shapes::stack(shapes::square(10), 3, 1e-9));
-    EXPECT_EQ(three.cracks.joined_vertices, 0);
+    const Surface three = surface_of(shapes::stack(shapes::square(10), 3, 1e-9));
+    EXPECT_EQ(three.counts.cracks.joined_vertices, 0);
     // Vertices in one place, but along rims that do not run beside each other.
     TriangleMesh fans{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1e-9, 0, 0}, {-1, 0, 0}, {0, -1, 0}},
                       {{0, 1, 2}, {3, 4, 5}}};
-    EXPECT_EQ(topology_of(fans).cracks.joined_vertices, 0);
+    EXPECT_EQ(surface_of(fans).counts.cracks.joined_vertices, 0);
 }
 
 TEST(Cracks, AreNotNarrowTriangles) {
@@ -107,8 +138,8 @@ TEST(Cracks, AreNotNarrowTriangles) {
         strip.triangles.push_back({2 * i, 2 * i + 2, 2 * i + 3});
         strip.triangles.push_back({2 * i, 2 * i + 3, 2 * i + 1});
     }
-    EXPECT_EQ(topology_of(strip).cracks.joined_vertices, 0);
-    EXPECT_EQ(topology_of(strip).cracks.open_pairs, 0);
+    EXPECT_EQ(surface_of(strip).counts.cracks.joined_vertices, 0);
+    EXPECT_EQ(surface_of(strip).counts.cracks.open_pairs, 0);
 }
 
 TEST(Cracks, DoNotDependOnTheOrderOfVertices) {
@@ -118,7 +149,7 @@ TEST(Cracks, DoNotDependOnTheOrderOfVertices) {
     for (Triangle& t : mesh.triangles) {
         for (std::int32_t& vertex : t) vertex = last - vertex;
     }
-    EXPECT_EQ(topology_of(mesh).cracks.joined_vertices, kAlong);
+    EXPECT_EQ(surface_of(mesh).counts.cracks.joined_vertices, kAlong);
 }
 
 TEST(Cracks, StayShutInAllFilters) {

@@ -19,13 +19,13 @@ TriangleElements in_own_metric(const TriangleMesh& mesh, const std::vector<float
     return elements_in_own_metric(stars_of(mesh), mesh.positions, densities);
 }
 
-bool same_elements(const TriangleElement& a, const TriangleElement& b) {
+bool same_elements(const TriangleElement<float>& a, const TriangleElement<float>& b) {
     return a.weights == b.weights && a.mass == b.mass;
 }
 
 /// Expects that the cotangents α, β, γ are those of a triangle: αβ + βγ + γα = 1. Expects that they
 /// are at most `largest`.
-void expect_triangle(const TriangleElement& element, double largest) {
+void expect_triangle(const TriangleElement<float>& element, double largest) {
     const double a = 2 * double{element.weights[0]}, b = 2 * double{element.weights[1]},
                  c = 2 * double{element.weights[2]};
     EXPECT_NEAR(a * b + b * c + c * a, 1, 1e-6 * largest * largest);
@@ -37,7 +37,7 @@ void expect_triangle(const TriangleElement& element, double largest) {
 TEST(TriangleElements, WeightsAreHalfTheCotangentsOfAKnownTriangle) {
     // The foot of the height splits the base into 1 and 3, and the height is 2.
     const TriangleMesh mesh{{{0, 0, 0}, {4, 0, 0}, {1, 2, 0}}, {{0, 1, 2}}};
-    const TriangleElement element = in_own_metric(mesh)[0];
+    const TriangleElement<float> element = in_own_metric(mesh)[0];
     EXPECT_FLOAT_EQ(element.weights[0], 0.5F * 1 / 2);
     EXPECT_FLOAT_EQ(element.weights[1], 0.5F * 3 / 2);
     EXPECT_FLOAT_EQ(element.weights[2], 0.5F * (2 * 2 - 1 * 3) / (2 * (1 + 3)));
@@ -48,7 +48,7 @@ TEST(TriangleElements, WeightsAreHalfTheCotangentsOfAKnownTriangle) {
 
 TEST(TriangleElements, AnObtuseCornerHasANegativeWeight) {
     const TriangleMesh mesh{{{0, 0, 0}, {2, 0, 0}, {-1, 1, 0}}, {{0, 1, 2}}};
-    const TriangleElement element = in_own_metric(mesh)[0];
+    const TriangleElement<float> element = in_own_metric(mesh)[0];
     EXPECT_FLOAT_EQ(element.weights[0], -0.5F);
     EXPECT_FLOAT_EQ(element.weights[1], 1.5F);
     EXPECT_FLOAT_EQ(element.weights[2], 1.0F);
@@ -71,16 +71,30 @@ TEST(TriangleElements, DoNotDependOnTheOrderOfCornersOrOnTheUnit) {
     }
 }
 
-// All sides become longer by up to 0.03 local edges. The smallest angle is then that between two
-// sides of about an edge whose ends are 0.03 edges apart. Its cotangent is about 1.03 / 0.03 = 34.
+TEST(TriangleElements, LongRightTrianglesAreTakenAsTheyAre) {
+    for (const double length : {1.0, 60.0, 300.0, 900.0}) {
+        const TriangleMesh mesh{{{0, 0, 0}, {length, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}};
+        const TriangleElement<float> element = in_own_metric(mesh)[0];
+        EXPECT_NEAR(element.weights[0], 0, 1e-6 * length);
+        EXPECT_NEAR(element.weights[1], length / 2, 1e-6 * length);
+        EXPECT_NEAR(element.weights[2], 0.5 / length, 1e-6);
+        EXPECT_NEAR(element.mass, length / 6, 1e-6 * length);
+    }
+}
+
+// All sides become longer by up to a thousandth of the longest, or 0.03 of the shortest.
 TEST(TriangleElements, OfNeedlesAndOfTrianglesWithoutAnAreaAreThoseOfATriangle) {
     const double nearly_zero = 1e-30;
     const TriangleMesh base = shapes::square(4);
-    for (const Eigen::Vector3d& apex : {
-             Eigen::Vector3d(0.25, 0, 0),            // coincides with a corner
-             Eigen::Vector3d(0.35, 0, 0),            // lies on the opposite side
-             Eigen::Vector3d(0.35, 0, nearly_zero),  // is a needle
-             Eigen::Vector3d(0.75, 0, 0),            // lies beyond a corner
+    struct Needle {
+        Eigen::Vector3d apex;
+        double largest;  // cotangent
+    };
+    for (const auto& [apex, largest] : {
+             Needle{{0.25, 0, 0}, 1001},          // coincides with a corner
+             Needle{{0.35, 0, 0}, 10},            // lies on the opposite side
+             Needle{{0.35, 0, nearly_zero}, 10},  // is a needle
+             Needle{{0.75, 0, 0}, 10},            // lies beyond a corner
          }) {
         TriangleMesh mesh = base;
         const auto last = static_cast<std::int32_t>(mesh.positions.size());
@@ -93,14 +107,14 @@ TEST(TriangleElements, OfNeedlesAndOfTrianglesWithoutAnAreaAreThoseOfATriangle) 
         mesh.positions.push_back(apex);
         mesh.triangles.push_back({first, second, last});
         SCOPED_TRACE(apex.transpose());
-        expect_triangle(in_own_metric(mesh).back(), 35);
+        expect_triangle(in_own_metric(mesh).back(), largest);
     }
 }
 
 TEST(TriangleElements, OfASurfaceOfASinglePointAreFinite) {
     TriangleMesh mesh = shapes::geodesic_sphere(3);
     for (Eigen::Vector3d& position : mesh.positions) position = {1, 2, 3};
-    for (const TriangleElement& element : in_own_metric(mesh)) {
+    for (const TriangleElement<float>& element : in_own_metric(mesh)) {
         for (const float weight : element.weights) {
             EXPECT_FLOAT_EQ(weight, 0.5F / std::sqrt(3.0F)) << "an equilateral triangle";
         }

@@ -35,7 +35,7 @@ TEST(CrossValidation, SmoothsTheMoreTheMoreNoiseThereIs) {
         const Choice choice = best_candidate(
             sample_of_mesh(with_noise(shapes::bumpy_sphere(30), deviation)), automatic());
         EXPECT_NEAR(choice.noise, deviation, 0.1 * deviation);
-        EXPECT_EQ(choice.kind, NoiseKind::Even);
+        EXPECT_EQ(choice.kind, NoiseKind::White);
         EXPECT_GT(detail_size_of(choice.candidate), last);
         last = detail_size_of(choice.candidate);
     }

@@ -49,7 +49,7 @@ Heights with_impulses(double usual, double far, std::vector<bool>& is_far) {
 }
 
 TEST(Fidelities, TellWhatNoiseThereIs) {
-    EXPECT_EQ(Heights([](double /*x*/) { return 0.2; }).kind(), NoiseKind::Even);
+    EXPECT_EQ(Heights([](double /*x*/) { return 0.2; }).kind(), NoiseKind::White);
     EXPECT_EQ(Heights([](double x) { return x < 0.5 ? 0.1 : 0.3; }).kind(), NoiseKind::Varying);
     std::vector<bool> is_far;
     EXPECT_EQ(with_impulses(0.02, 0.4, is_far).kind(), NoiseKind::Outliers);
@@ -73,7 +73,7 @@ TEST(Fidelities, AreThoseOfVerticesThatCount) {
     for (std::size_t i = 0; i < heights.counts.size(); ++i) {
         heights.counts[i] = heights.surface.positions[i].x() < -10 ? 1 : 0;
     }
-    EXPECT_EQ(heights.kind(), NoiseKind::Even);
+    EXPECT_EQ(heights.kind(), NoiseKind::White);
 }
 
 TEST(Fidelities, AreSmallAtOutliersAlone) {

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "tests/support/shapes.h"
+#include "tests/unit/noise/noisy.h"
 
 namespace tracked_mcf {
 namespace {
@@ -16,8 +17,7 @@ constexpr int kMiddle = kSide / 2;
 
 /// A square of kSide by kSide quads, all of whose vertices may move.
 NoisySurface square() {
-    const SurfaceOfMesh result = surface_of(Domain(shapes::square(kSide), BoundaryCondition::Free));
-    return result.surface;
+    return surface_of_mesh(shapes::square(kSide));
 }
 
 Vectors upright(const NoisySurface& surface) {

@@ -41,7 +41,7 @@ struct HalfWavy {
     }
 
     std::vector<double> clean;
-    NoisySurface surface{{{}, 0}, {}, {}};
+    NoisySurface surface;
     double origin = 0;
 };
 

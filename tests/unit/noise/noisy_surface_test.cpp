@@ -28,7 +28,7 @@ TriangleMesh uneven_sphere() {
     return mesh;
 }
 
-TEST(Sample, IsPatchesOfALargeSurfaceAndAllOfASmallOne) {
+TEST(Sample, IsRegionsOfALargeSurfaceAndAllOfASmallOne) {
     const NoisySurface large = surface_of_mesh(uneven_sphere());
     const Sample sample = sample_of(large, kSampled);
     EXPECT_GE(sample.surface.stars.count(), kSampled);

@@ -5,13 +5,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 #include <vector>
 
-#include "filter_tracked_mcf/core/mesh/domain.h"
 #include "filter_tracked_mcf/core/noise/clusters.h"
 #include "filter_tracked_mcf/core/noise/rim.h"
-#include "filter_tracked_mcf/core/noise/unevenness.h"
+#include "filter_tracked_mcf/core/noise/stairs.h"
+#include "tests/support/measures.h"
+#include "tests/support/same_bits.h"
 #include "tests/support/shapes.h"
 #include "tests/support/surface_distance.h"
 #include "tests/unit/flows.h"
@@ -22,7 +24,13 @@ namespace {
 
 /// Returns which vertices are on the rim.
 std::vector<std::uint8_t> rim_of(const TriangleMesh& mesh) {
-    return Domain(mesh, BoundaryCondition::Locked).constrained_vertices();
+    const Surface surface = surface_of(mesh);
+    std::vector<std::uint8_t> rim(mesh.positions.size(), 0);
+    for (std::size_t i = 0; i < rim.size() && surface.stars.has_rim(); ++i) {
+        const std::int32_t vertex = surface.vertices[i];
+        if (vertex >= 0) rim[i] = surface.stars.on_rim[vertex];
+    }
+    return rim;
 }
 
 /// Distances that vertices have moved, in mean edges of the clean mesh.
@@ -79,6 +87,17 @@ TriangleMesh hills(double quantum) {
         if (quantum > 0) p[2] = quantum * std::round(p[2] / quantum);
     }
     return terrain;
+}
+
+// A NaN does not equal itself, so the positions seem to have changed.
+TEST(RemoveNoise, LeavesAMeshWhoseVerticesAreAllHeldBesideANaN) {
+    TriangleMesh mesh = shapes::square(1);
+    NoiseParameters parameters;
+    parameters.boundary = NoiseBoundary::Locked;
+    mesh.positions.push_back(Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN()));
+    TriangleMesh after = mesh;
+    EXPECT_EQ(remove_noise(after, {}, parameters).stop, NoiseStop::NothingMoves);
+    EXPECT_TRUE(same_bits(after, mesh));
 }
 
 TEST(RemoveNoise, KeepsTheOutlineOfAnOpenSheet) {
@@ -204,7 +223,7 @@ TEST(RemoveNoise, SmoothsTheOutlineOfARimIfAskedTo) {
 
 TEST(SmoothRim, KeepsToItsBox) {
     const RaggedCap cap = ragged_cap();
-    const NoisySurface surface = surface_of(Domain(cap.mesh, BoundaryCondition::Free)).surface;
+    const NoisySurface surface = surface_of_mesh(cap.mesh);
     Eigen::AlignedBox3d box;
     for (const Eigen::Vector3d& p : surface.positions) box.extend(p);
     Positions moved = surface.positions;
@@ -216,40 +235,14 @@ TEST(SmoothRim, KeepsToItsBox) {
     EXPECT_EQ(confined, surface.positions);
 }
 
-/// Moves vertices along their normals by noise averaged over neighbours, four times: 0.2 edges.
-TriangleMesh lumpy(const TriangleMesh& clean) {
-    std::mt19937 random(1);
-    std::normal_distribution<double> normal;
-    std::vector<double> heights(clean.positions.size());
-    for (double& height : heights) height = normal(random);
-    for (int i = 0; i < 4; ++i) {
-        std::vector<double> sums(heights.size(), 0), counts(heights.size(), 0);
-        for (const Triangle& t : clean.triangles) {
-            for (const std::int32_t a : t) {
-                for (const std::int32_t b : t) sums[a] += heights[b], counts[a] += 1;
-            }
-        }
-        for (std::size_t v = 0; v < heights.size(); ++v) heights[v] = sums[v] / counts[v];
-    }
-    double squares = 0;
-    for (const double height : heights) squares += height * height;
-    const double edge = mean_edge_length(clean);
-    const double scale = 0.2 * edge / std::sqrt(squares / static_cast<double>(heights.size()));
-    TriangleMesh mesh = clean;
-    const std::vector<Eigen::Vector3d> normals = vertex_normals(clean);
-    for (std::size_t v = 0; v < heights.size(); ++v) {
-        mesh.positions[v] += scale * heights[v] * normals[v];
-    }
-    return mesh;
-}
-
 TEST(RemoveNoise, LeavesWhatHasNoNoise) {
     const auto expect_kept = [](const TriangleMesh& mesh, NoiseStop stop) {
         TriangleMesh after = mesh;
         EXPECT_EQ(remove_noise(after, {}, {}).stop, stop);
         EXPECT_TRUE(same_bits(after, mesh));
     };
-    for (const int n : {1, 2, 3}) expect_kept(shapes::box(n, {1, 2, 3}), NoiseStop::TooFewVertices);
+    for (const int n : {1, 2}) expect_kept(shapes::box(n, {1, 2, 3}), NoiseStop::TooFewVertices);
+    expect_kept(shapes::box(3, {1, 2, 3}), NoiseStop::NoNoise);  // most vertices are flat
     expect_kept(with_noise(shapes::box(5, {1, 1, 1}), 0.1), NoiseStop::TooManyCreases);
     for (const TriangleMesh& mesh :
          {shapes::geodesic_sphere(20), shapes::bumpy_sphere(20), hills(0), shapes::square(30)}) {
@@ -268,9 +261,8 @@ TriangleMesh steps(int n, double step, double width) {
 
 TEST(Stairs, HaveTheHeightOfTheirSteps) {
     const auto stairs_on = [](const TriangleMesh& mesh) {
-        const SurfaceOfMesh surface = surface_of(Domain(mesh, BoundaryCondition::Free));
-        Stairs stairs = stairs_of(surface.surface);
-        stairs.height *= surface.edge;
+        Stairs stairs = stairs_of(surface_of_mesh(mesh));
+        stairs.height *= mean_edge_length(mesh);
         return stairs;
     };
     const double step = 0.7 / 60;
@@ -315,7 +307,7 @@ TEST(RemoveNoise, SmoothsStairs) {
 TEST(RemoveNoise, RemovesNoiseOfASizeThatItIsTold) {
     const TriangleMesh clean = shapes::box(40, {1, 1, 1});
     const double edge = mean_edge_length(clean);
-    const TriangleMesh lumps = lumpy(clean);
+    const TriangleMesh lumps = with_shared_noise(clean, 0.2, 4);
     NoiseParameters parameters;
     parameters.noise_size = 4 * edge;
     const std::vector<Eigen::Vector3d> normals = vertex_normals(clean);
@@ -327,7 +319,6 @@ TEST(RemoveNoise, RemovesNoiseOfASizeThatItIsTold) {
         }
         return std::sqrt(squares);
     };
-    EXPECT_GT(error(denoised(lumps)), 0.99 * error(lumps)) << "lumps may be detail";
     const TriangleMesh after = denoised(lumps, parameters);
     EXPECT_LT(error(after), 0.5 * error(lumps));
     EXPECT_DOUBLE_EQ(report_of(lumps, parameters).noise_size, 4 * edge);
@@ -359,17 +350,6 @@ TEST(Clusters, DoNotDependOnTheOrderOfVertices) {
                   1e-9);
         EXPECT_EQ(some.sample.signs[i], others.sample.signs[i]);
     }
-}
-
-TEST(RemoveNoise, NamesLumps) {
-    const TriangleMesh clean = shapes::box(40, {1, 1, 1});
-    const double edge = mean_edge_length(clean);
-    const NoiseReport report = report_of(lumpy(clean));
-    EXPECT_EQ(report.stop, NoiseStop::NoNoise);
-    EXPECT_GT(report.lump_width, 1.3 * edge);
-    EXPECT_LT(report.lump_width, 4.1 * edge);
-    EXPECT_NEAR(report.lump_height, 0.2 * edge, 0.08 * edge);
-    EXPECT_EQ(report_of(clean).lump_width, 0);
 }
 
 TEST(RemoveNoise, ReportsPartsThatLoseMoreThanNoise) {

@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "tests/support/measures.h"
 #include "tests/support/shapes.h"
 #include "tests/support/surface_distance.h"
 

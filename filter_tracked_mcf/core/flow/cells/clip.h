@@ -6,7 +6,7 @@
 #include <array>
 #include <cstdint>
 
-#include "filter_tracked_mcf/core/flow/cells/grid.h"
+#include "filter_tracked_mcf/core/mesh/grid.h"
 
 namespace tracked_mcf {
 

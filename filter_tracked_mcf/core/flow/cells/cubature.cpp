@@ -45,9 +45,22 @@ Nodes degree_6() {
 /// Squared distances that differ by less count as equal, so that rounding does not choose the fan.
 constexpr double kTie = 1e-9;
 
-bool nearer(const Eigen::Vector3d& p, const Eigen::Vector3d& q,
-            const std::array<Eigen::Vector3d, 3>& triangle) {
-    for (const Eigen::Vector3d& corner : triangle) {
+using Corners = std::array<Eigen::Vector3d, 3>;
+
+/// Returns the corners of a triangle from the one opposite to the longest side on.
+Corners by_opposite_side(const Corners& corners) {
+    const auto& [a, b, c] = corners;
+    const std::array<double, 3> squares = {(b - c).squaredNorm(), (c - a).squaredNorm(),
+                                           (a - b).squaredNorm()};
+    int first = 0;
+    for (int i = 1; i < 3; ++i) {
+        if (squares[i] > squares[first] + kTie) first = i;
+    }
+    return {corners[first], corners[(first + 1) % 3], corners[(first + 2) % 3]};
+}
+
+bool nearer(const Eigen::Vector3d& p, const Eigen::Vector3d& q, const Corners& corners) {
+    for (const Eigen::Vector3d& corner : corners) {
         const double difference = (p - corner).squaredNorm() - (q - corner).squaredNorm();
         if (difference < -kTie) return true;
         if (difference > kTie) return false;
@@ -73,9 +86,10 @@ const std::vector<CubatureNode>& cubature_rule(Cubature cubature) {
 }
 
 int fan_apex(const Polygon& polygon, const std::array<Eigen::Vector3d, 3>& triangle) {
+    const Corners corners = by_opposite_side(triangle);
     int apex = 0;
     for (int i = 1; i < polygon.size; ++i) {
-        if (nearer(polygon.points[i], polygon.points[apex], triangle)) apex = i;
+        if (nearer(polygon.points[i], polygon.points[apex], corners)) apex = i;
     }
     return apex;
 }

@@ -31,13 +31,14 @@ struct WeightedPoint {
     double weight;
 };
 
-/// Returns the index of the polygon's point nearest to the triangle's first corner. Ties are
-/// decided by the distance to the second corner, then to the third.
+/// Returns the index of the polygon's point nearest to the triangle's corner opposite to its
+/// longest side. Ties are decided by the distance to the next corner, then to the one after it.
 int fan_apex(const Polygon& polygon, const std::array<Eigen::Vector3d, 3>& triangle);
 
 /// Calls visit(WeightedPoint) for the nodes of `rule` on every triangle of the polygon's fan. These
-/// triangles are the paper's split triangles. The fan depends only on the shape and on the order of
-/// the triangle's corners, not on the axes, so a mesh turned by 90 degrees is sampled alike.
+/// triangles are the paper's split triangles. The fan depends only on the shape, not on the axes,
+/// so a mesh turned by 90 degrees is sampled alike; where sides are equally long, also on the order
+/// of the corners.
 template <class Visit>
 void for_each_node(const Polygon& polygon, const std::array<Eigen::Vector3d, 3>& triangle,
                    const std::vector<CubatureNode>& rule, Visit&& visit) {

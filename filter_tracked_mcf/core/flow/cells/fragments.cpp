@@ -70,7 +70,7 @@ void check_inside(const std::array<Eigen::Vector3d, 3>& corners, std::int32_t ce
 
 /// Returns the fragments, triangle by triangle, and counts the degenerate triangles.
 RawVector<FragmentEntry> list_fragments(ClippedSurface& surface) {
-    const auto count = static_cast<std::int64_t>(surface.mesh.original.triangles.size());
+    const auto count = static_cast<std::int64_t>(surface.mesh.triangles.size());
     const std::int32_t cells_per_side = surface.grid.cells_per_side();
     std::atomic<std::int64_t> degenerate_count{0};
     auto fragments = parallel_collect<FragmentEntry, RawVector<FragmentEntry>>(
@@ -93,7 +93,7 @@ RawVector<FragmentEntry> list_fragments(ClippedSurface& surface) {
 }  // namespace
 
 GridMesh to_grid(const SurfaceView& mesh, const Grid& grid) {
-    GridMesh result{mesh, RawVector<Eigen::Vector3d>(mesh.positions.size())};
+    GridMesh result{mesh.triangles, RawVector<Eigen::Vector3d>(mesh.positions.size())};
     parallel_for_rows(static_cast<std::int64_t>(mesh.positions.size()), [&](std::int32_t vertex) {
         result.positions[vertex] = rounded(grid.to_grid(mesh.positions[vertex]));
     });

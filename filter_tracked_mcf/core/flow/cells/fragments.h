@@ -6,22 +6,48 @@
 #include <cstdint>
 #include <vector>
 
-#include "filter_tracked_mcf/core/flow/cells/grid.h"
 #include "filter_tracked_mcf/core/flow_parameters.h"
+#include "filter_tracked_mcf/core/mesh/grid.h"
+#include "filter_tracked_mcf/core/mesh/measures.h"
 #include "filter_tracked_mcf/core/parallel/raw_vector.h"
 #include "filter_tracked_mcf/core/triangle_mesh.h"
 
 namespace tracked_mcf {
 
+/// Triangles by reference.
+class Triangles {
+public:
+    template <class Allocator>
+    Triangles(const std::vector<Triangle, Allocator>& triangles)
+        : first_(triangles.data()), count_(triangles.size()) {}
+
+    std::size_t size() const { return count_; }
+    const Triangle& operator[](std::size_t i) const { return first_[i]; }
+
+private:
+    const Triangle* first_;
+    std::size_t count_;
+};
+
+/// A surface by reference: triangles, and positions that need not be those of their mesh.
+struct SurfaceView {
+    SurfaceView(const std::vector<Eigen::Vector3d>& vertex_positions, Triangles vertex_indices)
+        : positions(vertex_positions), triangles(vertex_indices) {}
+    SurfaceView(const TriangleMesh& mesh) : SurfaceView(mesh.positions, mesh.triangles) {}
+
+    const std::vector<Eigen::Vector3d>& positions;
+    Triangles triangles;
+};
+
 /// A mesh in grid coordinates, for clipping. Positions are rounded to 2^-30 of a cell, so a face
 /// that misses a grid plane by rounding errors lies in the plane. Otherwise the plane would cut the
 /// face along a line of rounding errors, into parts that overlap.
 struct GridMesh {
-    SurfaceView original;
+    Triangles triangles;  ///< those of the mesh, which must outlive this
     RawVector<Eigen::Vector3d> positions;
 
     std::array<Eigen::Vector3d, 3> corners(std::int32_t triangle) const {
-        const Triangle& vertices = original.triangles[triangle];
+        const Triangle& vertices = triangles[triangle];
         return {positions[vertices[0]], positions[vertices[1]], positions[vertices[2]]};
     }
 };

@@ -33,10 +33,10 @@ void claim(std::atomic<std::int32_t>& vertex, std::int32_t element) {
 /// Fills in the fragments, samples and vertices of TrackedElements whose levels are built.
 class ElementBuilder {
 public:
-    ElementBuilder(TrackedElements& elements, const Domain& domain, const GridMesh& mesh,
+    ElementBuilder(TrackedElements& elements, const Surface& surface, const GridMesh& mesh,
                    const RawVector<FragmentEntry>& entries, Cubature cubature)
         : elements_(elements),
-          domain_(domain),
+          surface_(surface),
           mesh_(mesh),
           entries_(entries),
           rule_(cubature_rule(cubature)),
@@ -79,7 +79,7 @@ private:
             entry_count, [&](std::int64_t i) { return entries_[i].split_triangles > 0; });
         elements_.fragments.resize(entries_.size());
         elements_.samples.resize(elements_.sample_begin.back());
-        elements_.meets_constrained_edge.assign(elements_.finest().cells.size(), 0);
+        elements_.meets_held_side.assign(elements_.finest().cells.size(), 0);
     }
 
     void fill_element(std::int32_t element, Pacer& pacer) {
@@ -88,8 +88,9 @@ private:
         for (std::int64_t i = elements_.fragment_begin[element];
              i < elements_.fragment_begin[element + 1]; ++i) {
             claim_vertices(entries_[i], element);
-            if ((entries_[i].edges & domain_.constrained_edges()[entries_[i].triangle]) != 0)
-                elements_.meets_constrained_edge[element] = 1;
+            if (!surface_.held_sides.empty() &&
+                (entries_[i].edges & surface_.held_sides[entries_[i].triangle]) != 0)
+                elements_.meets_held_side[element] = 1;
             pacer.did(kItemsPerFragment);
             if (entries_[i].split_triangles == 0) {
                 elements_.fragments[i] = {};
@@ -112,28 +113,31 @@ private:
 
     void claim_vertices(const FragmentEntry& entry, std::int32_t element) {
         for (int i = 0; i < 3; ++i) {
-            if (has_bit(entry.corners, i))
-                claim(claims_[domain_.topology().triangles[entry.triangle][i]], element);
+            if ((entry.corners >> static_cast<unsigned>(i) & 1U) != 0)
+                claim(claims_[surface_.stars.triangles[entry.triangle][i]], element);
         }
     }
 
     void locate_vertices() {
-        elements_.vertices.resize(mesh_.positions.size());
-        parallel_for_rows(
-            static_cast<std::int64_t>(mesh_.positions.size()), [&](std::int32_t vertex) {
-                // Coincident vertices take the location of the first, so that soups stay together.
-                const std::int32_t first = domain_.topology().welded[vertex];
-                const std::int32_t element = claims_[first].load(std::memory_order_relaxed);
-                if (element == kUnclaimed) return;
-                const Cell cell = cell_at(elements_.finest().cells[element]);
-                const Eigen::Vector3d position =
-                    elements_.grid.to_grid(mesh_.original.positions[first]);
-                elements_.vertices[vertex] = {element, position - cell.cast<double>()};
-            });
+        const auto count = static_cast<std::int64_t>(surface_.vertices.size());
+        elements_.vertices.resize(surface_.vertices.size());
+        elements_.vertex_held.resize(surface_.vertices.size());
+        parallel_for_rows(count, [&](std::int32_t of_mesh) {
+            // Coincident vertices have one location, so that soups stay together.
+            const std::int32_t vertex = surface_.vertices[of_mesh];
+            const std::int32_t element =
+                vertex < 0 ? kUnclaimed : claims_[vertex].load(std::memory_order_relaxed);
+            if (element == kUnclaimed) return;
+            elements_.vertex_held[of_mesh] = surface_.held[vertex];
+            const Cell cell = cell_at(elements_.finest().cells[element]);
+            const Eigen::Vector3d position = elements_.grid.to_grid(
+                surface_.edge * surface_.positions[vertex] + surface_.box.center());
+            elements_.vertices[of_mesh] = {element, position - cell.cast<double>()};
+        });
     }
 
     TrackedElements& elements_;
-    const Domain& domain_;
+    const Surface& surface_;
     const GridMesh& mesh_;
     const RawVector<FragmentEntry>& entries_;
     const std::vector<CubatureNode>& rule_;
@@ -156,23 +160,21 @@ void build_octree(TrackedElements& elements, const RawVector<FragmentEntry>& fra
 
 }  // namespace
 
-TrackedElements build_tracked_elements(const Domain& domain, ClippedSurface surface,
+TrackedElements build_tracked_elements(const Surface& surface, ClippedSurface clipped,
                                        Cubature cubature) {
-    const std::size_t triangle_count = domain.surface().triangles.size();
-    if (surface.degenerate_count == static_cast<std::int64_t>(triangle_count)) {
+    if (clipped.degenerate_count == static_cast<std::int64_t>(surface.stars.triangles.size())) {
         throw InvalidMesh(
             "All faces to be smoothed are degenerate: none has an area, or none that shows beside "
             "the size of the mesh.");
     }
     TrackedElements elements;
-    elements.grid = surface.grid;
-    elements.vertex_constrained = domain.constrained_vertices();
+    elements.grid = clipped.grid;
     // There are many fragments: they are gone when the elements are built.
-    const RawVector<FragmentEntry> fragments = std::move(surface.fragments);
+    const RawVector<FragmentEntry> fragments = std::move(clipped.fragments);
     enter_setup_phase(kBuildOctree);
     build_octree(elements, fragments);
     enter_setup_phase(kSampleSurface);
-    ElementBuilder(elements, domain, surface.mesh, fragments, cubature).build();
+    ElementBuilder(elements, surface, clipped.mesh, fragments, cubature).build();
     return elements;
 }
 
@@ -192,7 +194,7 @@ void add_at_vertices(const TrackedElements& elements, const Coefficients& coeffi
     parallel_for_rows(static_cast<std::int64_t>(vectors.size()), [&](std::int32_t vertex) {
         const VertexLocation& location = elements.vertices[vertex];
         if (location.element == VertexLocation::kNoElement) return;
-        if (elements.vertex_constrained[vertex] != 0) return;
+        if (elements.vertex_held[vertex] != 0) return;
         const Eigen::Vector3d added =
             elements.grid.cell_size * evaluate_vertex(elements, coefficients, location);
         if (!added.isZero(0)) vectors[vertex] += added;

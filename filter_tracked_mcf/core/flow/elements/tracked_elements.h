@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "filter_tracked_mcf/core/flow/cells/fragments.h"
-#include "filter_tracked_mcf/core/flow/cells/grid.h"
 #include "filter_tracked_mcf/core/flow/elements/samples.h"
 #include "filter_tracked_mcf/core/flow/octree/octree.h"
 #include "filter_tracked_mcf/core/flow_parameters.h"
-#include "filter_tracked_mcf/core/mesh/domain.h"
+#include "filter_tracked_mcf/core/mesh/grid.h"
+#include "filter_tracked_mcf/core/mesh/surface.h"
 #include "filter_tracked_mcf/core/parallel/raw_vector.h"
 
 namespace tracked_mcf {
@@ -37,9 +37,9 @@ struct TrackedElements {
     std::vector<std::int64_t> fragment_begin;  ///< per finest element, and the end
     std::vector<std::int64_t> sample_begin;    ///< per finest element, and the end
 
-    RawVector<VertexLocation> vertices;                ///< equal for coincident vertices
-    std::vector<std::uint8_t> vertex_constrained;      ///< per vertex: it keeps its bits
-    std::vector<std::uint8_t> meets_constrained_edge;  ///< per finest element
+    RawVector<VertexLocation> vertices;         ///< of the mesh, equal for coincident vertices
+    std::vector<std::uint8_t> vertex_held;      ///< per vertex: whether it keeps its bits
+    std::vector<std::uint8_t> meets_held_side;  ///< per finest element
 
     std::int64_t split_triangle_count = 0;
     std::int64_t fragment_count = 0;  ///< without fragments of degenerate triangles
@@ -47,9 +47,9 @@ struct TrackedElements {
     const Level& finest() const { return levels.back(); }
 };
 
-/// Builds the octree over the domain's clipped surface, and computes its samples and the locations
-/// of its vertices. Throws InvalidMesh if all triangles are degenerate.
-TrackedElements build_tracked_elements(const Domain& domain, ClippedSurface surface,
+/// Builds the octree over a clipped surface, and computes its samples and the locations of the
+/// mesh's vertices. Throws InvalidMesh if all triangles are degenerate.
+TrackedElements build_tracked_elements(const Surface& surface, ClippedSurface clipped,
                                        Cubature cubature);
 
 /// Returns the map with these coefficients at a vertex that has an element: the paper's

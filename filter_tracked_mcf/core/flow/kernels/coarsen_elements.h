@@ -19,7 +19,7 @@ struct ChildElements {
 /// P_c are the refinement weights of the child's octant (bspline.h). `begin` is a multiple of
 /// kBlockElements; `end` is one too, or the number of parents. Fastest if the children of
 /// consecutive parents are consecutive elements.
-using CoarsenElements = void(const ChildElements& elements, std::int32_t begin, std::int32_t end,
-                             MatrixBlock* parents);
+void coarsen_elements(const ChildElements& elements, std::int32_t begin, std::int32_t end,
+                      MatrixBlock* parents);
 
 }  // namespace tracked_mcf

@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
 
-// Only integrate_elements.cpp includes this, see lanes.h.
-#if defined(TRACKED_MCF_ELEMENT_BATCH_H) == defined(HWY_TARGET_TOGGLE)
-#ifdef TRACKED_MCF_ELEMENT_BATCH_H
-#undef TRACKED_MCF_ELEMENT_BATCH_H
-#else
-#define TRACKED_MCF_ELEMENT_BATCH_H
-#endif
+#include <cstdint>
+#include <cstring>
 
 #include "filter_tracked_mcf/core/flow/kernels/moments.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace tracked_mcf::HWY_NAMESPACE {
+namespace tracked_mcf::kernels {
 
 constexpr int kCoefficients = 7;
 
@@ -29,8 +24,8 @@ constexpr int bit(int corner, int axis) {
 }
 
 /// Sets one element's corners. Differences are taken in double precision.
-static HWY_INLINE void read_corners(const IntegrationInput& input, std::int64_t element, int lane,
-                                    ElementBatch& batch) {
+inline void read_corners(const IntegrationInput& input, std::int64_t element, int lane,
+                         ElementBatch& batch) {
     const std::int32_t* const unknowns = input.unknowns + 8 * element;
     const double* const base = input.displacement + std::int64_t{3} * unknowns[0];
     const double origin[3][2] = {
@@ -45,7 +40,7 @@ static HWY_INLINE void read_corners(const IntegrationInput& input, std::int64_t 
 }
 
 /// Computes the polynomials of all elements from their corners.
-static HWY_INLINE void find_polynomials(ElementBatch& batch) {
+inline void find_polynomials(ElementBatch& batch) {
     for (int axis = 0; axis < 3; ++axis) {
         Lanes c[8];
         for (int corner = 0; corner < 8; ++corner) c[corner] = load(batch.corners[axis][corner]);
@@ -59,28 +54,32 @@ static HWY_INLINE void find_polynomials(ElementBatch& batch) {
     }
 }
 
-static HWY_INLINE void read_embedding(const IntegrationInput& input, std::int64_t begin, int count,
-                                      ElementBatch& batch) {
+inline void read_embedding(const IntegrationInput& input, std::int64_t begin, int count,
+                           ElementBatch& batch) {
     for (int lane = 0; lane < count; ++lane) read_corners(input, begin + lane, lane, batch);
     find_polynomials(batch);
 }
 
-static HWY_INLINE Trilinear trilinear(const float (&p)[kCoefficients][kLanes], int lane) {
+inline Trilinear trilinear(const float (&p)[kCoefficients][kLanes], int lane) {
     return {p[0][lane], p[1][lane], p[2][lane], p[3][lane], p[4][lane], p[5][lane], p[6][lane]};
 }
-static HWY_INLINE Embedding embedding_of(const ElementBatch& batch, int lane) {
+inline Embedding embedding_of(const ElementBatch& batch, int lane) {
     return {trilinear(batch.polynomials[0], lane), trilinear(batch.polynomials[1], lane),
             trilinear(batch.polynomials[2], lane)};
 }
 
 /// Adds x or subtracts it. The sign is a product of slopes, which are 1 or -1.
-static HWY_INLINE void add_signed(Lanes& sum, bool positive, const Lanes& x) {
-    sum = positive ? sum + x : sum - x;
+inline void add_signed(Lanes& sum, bool positive, const Lanes& x) {
+    if (positive) {
+        sum += x;
+    } else {
+        sum -= x;
+    }
 }
 
 /// Returns ∫ ∇B_I · G ∇B_J, a sum of moments. ∂B_I/∂x is a slope times the linear functions of y
 /// and z in B_I; these linear functions choose the moment.
-static HWY_INLINE Lanes stiffness_entry(const Lanes (&moments)[kMomentRows], int row, int column) {
+inline Lanes stiffness_entry(const Lanes (&moments)[kMomentRows], int row, int column) {
     const int xi = bit(row, 0), yi = bit(row, 1), zi = bit(row, 2);
     const int xj = bit(column, 0), yj = bit(column, 1), zj = bit(column, 2);
     Lanes sum = zero();
@@ -96,13 +95,13 @@ static HWY_INLINE Lanes stiffness_entry(const Lanes (&moments)[kMomentRows], int
     return sum;
 }
 
-static HWY_INLINE Lanes mass_entry(const Lanes (&moments)[kMomentRows], int row, int column) {
+inline Lanes mass_entry(const Lanes (&moments)[kMomentRows], int row, int column) {
     return moments[kMass + 9 * (bit(row, 0) + bit(column, 0)) + 3 * (bit(row, 1) + bit(column, 1)) +
                    bit(row, 2) + bit(column, 2)];
 }
 
 /// Returns ∫ ∇B_I · G ∇X_t for one coordinate of X_t.
-static HWY_INLINE Lanes flux_entry(const Lanes (&moments)[kMomentRows], int axis, int row) {
+inline Lanes flux_entry(const Lanes (&moments)[kMomentRows], int axis, int row) {
     const int x = bit(row, 0), y = bit(row, 1), z = bit(row, 2);
     Lanes sum = zero();
     add_signed(sum, x == 1, moments[kFluxX + 4 * axis + 2 * y + z]);
@@ -113,31 +112,28 @@ static HWY_INLINE Lanes flux_entry(const Lanes (&moments)[kMomentRows], int axis
 
 /// Returns the area in the metric of the mass: the sum of ∫ B_I B_J over all I and J, because the
 /// functions B sum to 1.
-static HWY_INLINE Lanes area_of_mass(const Lanes (&moments)[kMomentRows]) {
+inline Lanes area_of_mass(const Lanes (&moments)[kMomentRows]) {
     Lanes area = zero();
     for (int i = 0; i < 3; ++i) {
         for (int j = 0; j < 3; ++j) {
             const Lanes* const m = moments + kMass + 9 * i + 3 * j;
             const auto products = static_cast<float>((1 + i % 2) * (1 + j % 2));
-            area = hn::MulAdd(splat(products), hn::MulAdd(splat(2), m[1], m[0]) + m[2], area);
+            area += splat(products) * (splat(2) * m[1] + m[0] + m[2]);
         }
     }
     return area;
 }
 
 /// Writes the matrices of the batch into a block, from this lane of the block on.
-static HWY_INLINE void write_matrices(const IntegrationInput& input, const Lanes& mass,
-                                      const Lanes (&moments)[kMomentRows], MatrixBlock& block,
-                                      std::int64_t lane) {
+inline void write_matrices(const IntegrationInput& input, const Lanes& mass,
+                           const Lanes (&moments)[kMomentRows], MatrixBlock& block,
+                           std::int64_t lane) {
     const Lanes step_size = splat(input.step_size_in_squared_cells);
-    HWY_UNROLL(8)
     for (int row = 0; row < 8; ++row) {
-        HWY_UNROLL(8)
         for (int column = row; column < 8; ++column) {
             float* const entry = block.entry[kEntryIndices.of[row][column]] + lane;
             const Lanes weighted_mass = mass * mass_entry(moments, row, column);
-            store(hn::MulAdd(step_size, stiffness_entry(moments, row, column), weighted_mass),
-                  entry);
+            store(step_size * stiffness_entry(moments, row, column) + weighted_mass, entry);
         }
     }
 }
@@ -147,9 +143,8 @@ constexpr int kRightSide = 0;
 constexpr int kArea = 24;
 constexpr int kResults = 32;  ///< rounded up to a multiple of kLanes
 
-static HWY_INLINE void find_results(const IntegrationInput& input,
-                                    const Lanes (&moments)[kMomentRows],
-                                    Lanes (&results)[kResults]) {
+inline void find_results(const IntegrationInput& input, const Lanes (&moments)[kMomentRows],
+                         Lanes (&results)[kResults]) {
     for (int axis = 0; axis < 3; ++axis) {
         for (int row = 0; row < 8; ++row) {
             results[kRightSide + 8 * axis + row] =
@@ -161,7 +156,7 @@ static HWY_INLINE void find_results(const IntegrationInput& input,
 }
 
 /// Transposes the moments: from one row for each element to one lane for each element.
-static HWY_INLINE void transpose_moments(const ElementBatch& batch, Lanes (&moments)[kMomentRows]) {
+inline void transpose_moments(const ElementBatch& batch, Lanes (&moments)[kMomentRows]) {
     for (int m = 0; m < kMomentRows; m += kLanes) {
         Lanes block[kLanes];
         for (int lane = 0; lane < kLanes; ++lane) block[lane] = load(batch.moments[lane] + m);
@@ -170,8 +165,8 @@ static HWY_INLINE void transpose_moments(const ElementBatch& batch, Lanes (&mome
     }
 }
 
-static HWY_INLINE void write_systems(const IntegrationInput& input, std::int64_t begin, int count,
-                                     const ElementBatch& batch, const IntegrationOutput& output) {
+inline void write_systems(const IntegrationInput& input, std::int64_t begin, int count,
+                          const ElementBatch& batch, const IntegrationOutput& output) {
     Lanes moments[kMomentRows];
     transpose_moments(batch, moments);
     const std::int64_t block = begin / kBlockElements;
@@ -190,12 +185,9 @@ static HWY_INLINE void write_systems(const IntegrationInput& input, std::int64_t
         for (int i = 0; i < kLanes; ++i) store(square[i], rows[i] + r);
     }
     for (int i = 0; i < count; ++i) {
-        hwy::CopyBytes<sizeof(ElementVector)>(rows[i] + kRightSide, output.right_sides + begin + i);
+        std::memcpy(output.right_sides + begin + i, rows[i] + kRightSide, sizeof(ElementVector));
         output.areas[begin + i] = rows[i][kArea];
     }
 }
 
-}  // namespace tracked_mcf::HWY_NAMESPACE
-HWY_AFTER_NAMESPACE();
-
-#endif  // per-target guard
+}  // namespace tracked_mcf::kernels

@@ -3,8 +3,6 @@
 
 #include <cstdint>
 
-// The kernels include this: plain structs and constants only (see kernels.h).
-
 namespace tracked_mcf {
 
 /// The symmetric matrix of one element, a row and a column for each of its cell's eight functions.

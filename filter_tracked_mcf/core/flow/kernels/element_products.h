@@ -26,7 +26,7 @@ struct ElementRange {
 /// slots. R_e selects an element's eight unknowns; M_e is its matrix, and `matrices` are those of
 /// all blocks of the level. x and y have four floats for each unknown, 16-byte aligned; the fourth
 /// is zero.
-using AddElementProducts = void(const ElementRange& range, const MatrixBlock* matrices,
-                                float factor, const float* x, float* y);
+void add_element_products(const ElementRange& range, const MatrixBlock* matrices, float factor,
+                          const float* x, float* y);
 
 }  // namespace tracked_mcf

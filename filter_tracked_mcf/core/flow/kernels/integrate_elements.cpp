@@ -1,16 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "filter_tracked_mcf/core/flow/kernels/integrate_elements.h"
 
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "filter_tracked_mcf/core/flow/kernels/integrate_elements.cpp"
-#include "filter_tracked_mcf/core/flow/kernels/targets.h"
-
 #include "filter_tracked_mcf/core/flow/kernels/element_batch.h"
 #include "filter_tracked_mcf/core/flow/kernels/moments.h"
 #include "filter_tracked_mcf/core/flow/kernels/sample_chunk.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace tracked_mcf::HWY_NAMESPACE {
+namespace tracked_mcf::kernels {
 
 namespace {
 
@@ -40,7 +35,12 @@ std::int64_t integrate(const SampleArrays& samples, const Embedding& embedding,
 
 }  // namespace
 
+}  // namespace tracked_mcf::kernels
+
+namespace tracked_mcf {
+
 std::int64_t integrate_elements(const IntegrationInput& input, const IntegrationOutput& output) {
+    using namespace kernels;
     std::int64_t collapsed = 0;
     for (std::int64_t begin = input.begin; begin < input.end; begin += kLanes) {
         const std::int64_t left = input.end - begin;
@@ -56,5 +56,4 @@ std::int64_t integrate_elements(const IntegrationInput& input, const Integration
     return collapsed;
 }
 
-}  // namespace tracked_mcf::HWY_NAMESPACE
-HWY_AFTER_NAMESPACE();
+}  // namespace tracked_mcf

@@ -62,7 +62,6 @@ struct IntegrationOutput {
 
 /// Integrates elements by their samples, see assemble_elements(). Returns the number of collapsed
 /// samples.
-using IntegrateElements = std::int64_t(const IntegrationInput& input,
-                                       const IntegrationOutput& output);
+std::int64_t integrate_elements(const IntegrationInput& input, const IntegrationOutput& output);
 
 }  // namespace tracked_mcf

@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "filter_tracked_mcf/core/flow/kernels/local_systems.h"
 
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "filter_tracked_mcf/core/flow/kernels/local_systems.cpp"
-#include "filter_tracked_mcf/core/flow/kernels/targets.h"
-
 #include "filter_tracked_mcf/core/flow/kernels/lanes.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace tracked_mcf::HWY_NAMESPACE {
+namespace tracked_mcf::kernels {
 
 namespace {
 
@@ -22,7 +17,7 @@ struct Triangles {
     alignas(64) float entry[8][8][kBlockElements];
 };
 
-static HWY_INLINE bool is_without_place(std::uint32_t without_place, int i, int j) {
+inline bool is_without_place(std::uint32_t without_place, int i, int j) {
     return ((without_place >> kCouplingIndices.bit[i][j]) & 1U) != 0;
 }
 
@@ -30,10 +25,8 @@ static HWY_INLINE bool is_without_place(std::uint32_t without_place, int i, int 
 void restrict(const CoupledElements& range, std::int32_t element, const MatrixBlock& own,
               const Couplings* couplings, Triangles& triangles, int lane) {
     const std::int32_t* const unknowns = range.unknowns + std::int64_t{8} * element;
-    HWY_UNROLL(8)
     for (int j = 0; j < 8; ++j) {
         const float* const sum = couplings[unknowns[j]].sum;
-        HWY_UNROLL(8)
         for (int i = j; i < 8; ++i) {
             // Since j <= i, the Couplings of the unknown at corner j contain the entry (i, j).
             triangles.entry[i][j][lane] = sum[kCouplingIndices.of[i][j]];
@@ -52,46 +45,38 @@ void restrict(const CoupledElements& range, std::int32_t element, const MatrixBl
 /// Inverts kLanes symmetric positive semi-definite matrices in place, as L⁻ᵀ D⁻¹ L⁻¹. This is a sum
 /// of squares, so it is positive despite rounding errors; an inverse by elimination need not be.
 /// Rows that are left out become zero.
-static HWY_INLINE void invert(Lanes (&m)[8][8]) {
+inline void invert(Lanes (&m)[8][8]) {
     Lanes least[8];
     Lanes inverse_pivot[8];
     for (int k = 0; k < 8; ++k) least[k] = splat(kDependent) * m[k][k];
     // Factorise into L, below the diagonal, and D.
-    HWY_UNROLL(8)
     for (int k = 0; k < 8; ++k) {
         const Lanes pivot = m[k][k];
         // Written so that a NaN propagates.
-        inverse_pivot[k] = hn::IfThenZeroElse(pivot <= least[k], splat(1) / pivot);
+        for (int lane = 0; lane < kLanes; ++lane) {
+            inverse_pivot[k][lane] = pivot[lane] <= least[k][lane] ? 0 : 1 / pivot[lane];
+        }
         Lanes column[8];
-        HWY_UNROLL(8)
         for (int i = k + 1; i < 8; ++i) column[i] = m[i][k];
-        HWY_UNROLL(8)
         for (int i = k + 1; i < 8; ++i) {
             const Lanes factor = column[i] * inverse_pivot[k];
-            HWY_UNROLL(8)
-            for (int j = k + 1; j <= i; ++j) m[i][j] = hn::NegMulAdd(factor, column[j], m[i][j]);
+            for (int j = k + 1; j <= i; ++j) m[i][j] -= factor * column[j];
             m[i][k] = factor;
         }
     }
     // Replace L by L⁻¹ below the diagonal.
-    HWY_UNROLL(8)
     for (int i = 0; i < 8; ++i) {
-        HWY_UNROLL(8)
         for (int j = 0; j < i; ++j) {
             Lanes sum = m[i][j];
-            HWY_UNROLL(8)
-            for (int k = j + 1; k < i; ++k) sum = hn::MulAdd(m[i][k], m[k][j], sum);
-            m[i][j] = hn::Neg(sum);
+            for (int k = j + 1; k < i; ++k) sum = m[i][k] * m[k][j] + sum;
+            m[i][j] = -sum;
         }
     }
-    HWY_UNROLL(8)
     for (int i = 0; i < 8; ++i) {
-        HWY_UNROLL(8)
         for (int j = 0; j <= i; ++j) {
             Lanes sum = j < i ? inverse_pivot[i] * m[i][j] : inverse_pivot[i];
-            HWY_UNROLL(8)
             for (int k = i + 1; k < 8; ++k) {
-                sum = hn::MulAdd(inverse_pivot[k] * m[k][i], m[k][j], sum);
+                sum = inverse_pivot[k] * m[k][i] * m[k][j] + sum;
             }
             m[i][j] = sum;
         }
@@ -102,15 +87,11 @@ static HWY_INLINE void invert(Lanes (&m)[8][8]) {
 void invert(const Triangles& triangles, const float (&factors)[kBlockElements], int lane,
             MatrixBlock& inverses) {
     Lanes m[8][8];
-    HWY_UNROLL(8)
     for (int i = 0; i < 8; ++i) {
-        HWY_UNROLL(8)
         for (int j = 0; j <= i; ++j) m[i][j] = load(triangles.entry[i][j] + lane);
     }
     invert(m);
-    HWY_UNROLL(8)
     for (int j = 0; j < 8; ++j) {
-        HWY_UNROLL(8)
         for (int i = j; i < 8; ++i) {
             store(load(factors + lane) * m[i][j], inverses.entry[kEntryIndices.of[i][j]] + lane);
         }
@@ -119,6 +100,12 @@ void invert(const Triangles& triangles, const float (&factors)[kBlockElements], 
 
 }  // namespace
 
+}  // namespace tracked_mcf::kernels
+
+namespace tracked_mcf {
+
+using namespace kernels;
+
 void sum_couplings(const CoupledElements& range, const MatrixBlock* matrices,
                    Couplings* couplings) {
     for (std::int32_t element = range.begin; element < range.end; ++element) {
@@ -126,10 +113,8 @@ void sum_couplings(const CoupledElements& range, const MatrixBlock* matrices,
         const std::uint32_t without_place = range.without_place[element];
         const MatrixBlock& block = matrices[element / kBlockElements];
         const int lane = element % kBlockElements;
-        HWY_UNROLL(8)
         for (int i = 0; i < 8; ++i) {
             float* const sum = couplings[unknowns[i]].sum;
-            HWY_UNROLL(8)
             for (int j = i; j < 8; ++j) {
                 if (without_place != 0 && is_without_place(without_place, i, j)) continue;
                 sum[kCouplingIndices.of[i][j]] += block.entry[kEntryIndices.of[i][j]][lane];
@@ -157,5 +142,4 @@ void invert_locally(const CoupledElements& range, const MatrixBlock* matrices,
     }
 }
 
-}  // namespace tracked_mcf::HWY_NAMESPACE
-HWY_AFTER_NAMESPACE();
+}  // namespace tracked_mcf

@@ -53,14 +53,13 @@ struct CoupledElements {
 
 /// Adds the entries of the elements' matrices, except those without a place, to the couplings of
 /// their unknowns.
-using SumCouplings = void(const CoupledElements& range, const MatrixBlock* matrices,
-                          Couplings* couplings);
+void sum_couplings(const CoupledElements& range, const MatrixBlock* matrices, Couplings* couplings);
 
 /// Sets the inverse of each element e to damping[e] * A_e⁻¹. A_e is the assembled matrix restricted
 /// to the element's unknowns, with the element's own value for entries without a place. Rows of A_e
 /// that are zero, or depend on the rows before them, are left out, and are zero in the inverse. The
 /// range goes from a multiple of kBlockElements to another one, or to the number of elements.
-using InvertLocally = void(const CoupledElements& range, const MatrixBlock* matrices,
-                           const Couplings* couplings, const float* damping, MatrixBlock* inverses);
+void invert_locally(const CoupledElements& range, const MatrixBlock* matrices,
+                    const Couplings* couplings, const float* damping, MatrixBlock* inverses);
 
 }  // namespace tracked_mcf

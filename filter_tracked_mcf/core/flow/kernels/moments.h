@@ -1,17 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-
-// Only integrate_elements.cpp includes this, see lanes.h.
-#if defined(TRACKED_MCF_MOMENTS_H) == defined(HWY_TARGET_TOGGLE)
-#ifdef TRACKED_MCF_MOMENTS_H
-#undef TRACKED_MCF_MOMENTS_H
-#else
-#define TRACKED_MCF_MOMENTS_H
-#endif
+#pragma once
 
 #include "filter_tracked_mcf/core/flow/kernels/sample_chunk.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace tracked_mcf::HWY_NAMESPACE {
+namespace tracked_mcf::kernels {
 
 /// Moments: integrals from which the element matrices follow. A product of two of a cell's
 /// functions is a product of three quadratic Bernstein polynomials bx_i by_j bz_k, one for each
@@ -37,7 +29,7 @@ constexpr int kMoments = 126;
 constexpr int kMomentRows = (kMoments + kLanes - 1) / kLanes * kLanes;
 
 /// Sums the mass moments [j][k] of one i.
-static HWY_INLINE void mass_moments(const SampleChunk& chunk, int i, Lanes* moments) {
+inline void mass_moments(const SampleChunk& chunk, int i, Lanes* moments) {
     Lanes sum[9];
     set_zero(sum);
     for (int s = 0; s < chunk.count; s += kLanes) {
@@ -45,7 +37,7 @@ static HWY_INLINE void mass_moments(const SampleChunk& chunk, int i, Lanes* mome
         for (int j = 0; j < 3; ++j) {
             const Lanes xy = x * load(chunk.bernstein[3 + j] + s);
             for (int k = 0; k < 3; ++k) {
-                sum[3 * j + k] = hn::MulAdd(xy, load(chunk.bernstein[6 + k] + s), sum[3 * j + k]);
+                sum[3 * j + k] += xy * load(chunk.bernstein[6 + k] + s);
             }
         }
     }
@@ -53,8 +45,8 @@ static HWY_INLINE void mass_moments(const SampleChunk& chunk, int i, Lanes* mome
 }
 
 /// Sums the moments [j][k] of a diagonal entry: ∫ G_aa bb_j bc_k, where b is `axis`, c `other`.
-static HWY_INLINE void diagonal_moments(const SampleChunk& chunk, const Row& tensor, int axis,
-                                        int other, Lanes* moments) {
+inline void diagonal_moments(const SampleChunk& chunk, const Row& tensor, int axis, int other,
+                             Lanes* moments) {
     Lanes sum[9];
     set_zero(sum);
     for (int s = 0; s < chunk.count; s += kLanes) {
@@ -63,7 +55,7 @@ static HWY_INLINE void diagonal_moments(const SampleChunk& chunk, const Row& ten
             const Lanes ty = t * load(chunk.bernstein[3 * axis + j] + s);
             for (int k = 0; k < 3; ++k) {
                 const Lanes z = load(chunk.bernstein[3 * other + k] + s);
-                sum[3 * j + k] = hn::MulAdd(ty, z, sum[3 * j + k]);
+                sum[3 * j + k] += ty * z;
             }
         }
     }
@@ -71,8 +63,8 @@ static HWY_INLINE void diagonal_moments(const SampleChunk& chunk, const Row& ten
 }
 
 /// Sums the moments [i][j][k] of an off-diagonal entry: ∫ G_ab la_i lb_j bc_k, where c is `third`.
-static HWY_INLINE void mixed_moments(const SampleChunk& chunk, const Row& tensor, int a, int b,
-                                     int third, Lanes* moments) {
+inline void mixed_moments(const SampleChunk& chunk, const Row& tensor, int a, int b, int third,
+                          Lanes* moments) {
     Lanes sum[12];
     set_zero(sum);
     for (int s = 0; s < chunk.count; s += kLanes) {
@@ -85,7 +77,7 @@ static HWY_INLINE void mixed_moments(const SampleChunk& chunk, const Row& tensor
         for (int k = 0; k < 3; ++k) {
             const Lanes z = load(chunk.bernstein[3 * third + k] + s);
             for (int p = 0; p < 4; ++p) {
-                sum[3 * p + k] = hn::MulAdd(products[p], z, sum[3 * p + k]);
+                sum[3 * p + k] += products[p] * z;
             }
         }
     }
@@ -93,8 +85,7 @@ static HWY_INLINE void mixed_moments(const SampleChunk& chunk, const Row& tensor
 }
 
 /// Sums the moments [a][j][k] of the fluxes along one axis: ∫ F_a lb_j lc_k.
-static HWY_INLINE void flux_moments(const SampleChunk& chunk, int along, int b, int c,
-                                    Lanes* moments) {
+inline void flux_moments(const SampleChunk& chunk, int along, int b, int c, Lanes* moments) {
     Lanes sum[12];
     set_zero(sum);
     for (int s = 0; s < chunk.count; s += kLanes) {
@@ -106,7 +97,7 @@ static HWY_INLINE void flux_moments(const SampleChunk& chunk, int along, int b, 
         for (int axis = 0; axis < 3; ++axis) {
             const Lanes flux = load(chunk.flux[axis][along] + s);
             for (int p = 0; p < 4; ++p) {
-                sum[4 * axis + p] = hn::MulAdd(flux, products[p], sum[4 * axis + p]);
+                sum[4 * axis + p] += flux * products[p];
             }
         }
     }
@@ -114,7 +105,7 @@ static HWY_INLINE void flux_moments(const SampleChunk& chunk, int along, int b, 
 }
 
 /// Adds the moments of a chunk's samples to the sums.
-static HWY_INLINE void add_moments(const SampleChunk& chunk, float (&sums)[kMomentRows]) {
+inline void add_moments(const SampleChunk& chunk, float (&sums)[kMomentRows]) {
     Lanes lanes[kMomentRows];
     for (int m = kMoments; m < kMomentRows; ++m) lanes[m] = zero();
     for (int i = 0; i < 3; ++i) mass_moments(chunk, i, lanes + kMass + 9 * i);
@@ -132,7 +123,4 @@ static HWY_INLINE void add_moments(const SampleChunk& chunk, float (&sums)[kMome
     }
 }
 
-}  // namespace tracked_mcf::HWY_NAMESPACE
-HWY_AFTER_NAMESPACE();
-
-#endif  // per-target guard
+}  // namespace tracked_mcf::kernels

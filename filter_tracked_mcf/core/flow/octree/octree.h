@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "filter_tracked_mcf/core/flow/cells/grid.h"
+#include "filter_tracked_mcf/core/mesh/grid.h"
 #include "filter_tracked_mcf/core/parallel/raw_vector.h"
 
 namespace tracked_mcf {

@@ -5,14 +5,15 @@
 
 namespace tracked_mcf {
 
-std::vector<double> triangle_densities(const Domain& domain) {
-    if (!domain.has_strengths()) return {};
-    std::vector<double> densities;
-    densities.reserve(domain.topology().triangles.size());
-    for (const auto& [a, b, c] : domain.topology().triangles) {
-        const double mean = (domain.strength(a) + domain.strength(b) + domain.strength(c)) / 3;
+std::vector<float> triangle_densities(const Surface& surface) {
+    const std::vector<double>& strengths = surface.strengths;
+    if (strengths.empty()) return {};
+    std::vector<float> densities;
+    densities.reserve(surface.stars.triangles.size());
+    for (const auto& [a, b, c] : surface.stars.triangles) {
+        const double mean = (strengths[a] + strengths[b] + strengths[c]) / 3;
         const double strength = std::max(mean, kLeastStrength);
-        densities.push_back(1 / (strength * strength));
+        densities.push_back(static_cast<float>(1 / (strength * strength)));
     }
     return densities;
 }

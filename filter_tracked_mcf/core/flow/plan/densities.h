@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "filter_tracked_mcf/core/mesh/domain.h"
+#include "filter_tracked_mcf/core/mesh/surface.h"
 
 namespace tracked_mcf {
 
@@ -11,9 +11,9 @@ namespace tracked_mcf {
 /// moves by a millionth of what it would with strength 1.
 inline constexpr double kLeastStrength = 1e-3;
 
-/// Returns the mass density of each triangle of the domain's surface; nothing if all are 1. In
+/// Returns the mass density of each triangle of a surface; nothing if all are 1. In
 /// equation 2, a density ρ acts like a time step δ / ρ, so it is 1 / s² where s is the mean
 /// strength of the vertices.
-std::vector<double> triangle_densities(const Domain& domain);
+std::vector<float> triangle_densities(const Surface& surface);
 
 }  // namespace tracked_mcf

@@ -6,7 +6,6 @@
 
 #include "filter_tracked_mcf/core/flow/cells/cubature.h"
 #include "filter_tracked_mcf/core/mesh/measures.h"
-#include "filter_tracked_mcf/core/mesh/mesh_topology.h"
 
 namespace tracked_mcf {
 
@@ -15,8 +14,9 @@ namespace {
 /// Bytes of the flow (threads, program code) and of each of its items.
 /// tests/unit/flow/plan/calibrate.cpp measures the peaks of many flows beside the estimate. Run it
 /// again after a change of the data that the flow keeps.
-constexpr double kBytesOfFlow = 1.8e6, kBytesPerPosition = 75, kBytesPerFragment = 36,
-                 kBytesPerSample = 10.5, kBytesPerUnknown = 150, kBytesPerElement = 770;
+constexpr double kBytesOfFlow = 1.8e6, kBytesPerPosition = 75, kBytesPerSurfaceVertex = 140,
+                 kBytesPerFragment = 36, kBytesPerSample = 10.5, kBytesPerUnknown = 150,
+                 kBytesPerElement = 770;
 /// The same for orders above 1: the stiffness of an element, and an unknown of each solution.
 constexpr double kBytesPerStiffness = 108, kBytesPerSolution = 30;
 
@@ -29,35 +29,29 @@ struct Sizes {
     double spheres = 0;  ///< Euler characteristic, if it is positive
 };
 
-Sizes sizes_of(const Domain& domain) {
-    const SurfaceView surface = domain.surface();
-    const MeshTopology& topology = domain.topology();
+Sizes sizes_of(const Stars& stars, const Positions& positions) {
     Sizes sizes;
-    double inner_edges = 0, rim_edges = 0;
-    for (std::size_t i = 0; i < surface.triangles.size(); ++i) {
-        const auto corners = corners_of(surface.positions, surface.triangles[i]);
+    for (std::size_t i = 0; i < stars.triangles.size(); ++i) {
+        const auto corners = corners_of(positions, stars.triangles[i]);
         const auto& [a, b, c] = corners;
         sizes.extents += (a.cwiseMax(b).cwiseMax(c) - a.cwiseMin(b).cwiseMin(c)).sum();
         sizes.shadows += 0.5 * twice_vector_area(a, b, c).lpNorm<1>();
-        for (int side = 0; side < 3; ++side) {
-            if (!has_bit(topology.boundary[i], side)) {
-                inner_edges += 0.5;
-                continue;
-            }
-            ++rim_edges;
-            sizes.rim += (corners[(side + 1) % 3] - corners[side]).lpNorm<1>();
+        for (std::size_t side = 0; side < 3 && stars.has_rim(); ++side) {
+            if (stars.rim_sides[3 * i + side] != 0)
+                sizes.rim += (corners[(side + 1) % 3] - corners[side]).lpNorm<1>();
         }
     }
-    sizes.spheres = std::max(0.0, static_cast<double>(count_vertices(topology)) - inner_edges -
-                                      rim_edges + static_cast<double>(surface.triangles.size()));
+    sizes.spheres = std::max(0.0, static_cast<double>(stars.count() - stars.edge_count()) +
+                                      static_cast<double>(stars.triangles.size()));
     return sizes;
 }
 
 }  // namespace
 
-double paper_flow_bytes(const Domain& domain, const Grid& grid, Cubature cubature, int order) {
-    const Sizes sizes = sizes_of(domain);
-    const auto triangles = static_cast<double>(domain.surface().triangles.size());
+double paper_flow_bytes(const Surface& surface, const Positions& positions, const Grid& grid,
+                        Cubature cubature, int order) {
+    const Sizes sizes = sizes_of(surface.stars, positions);
+    const auto triangles = static_cast<double>(surface.stars.triangles.size());
     double elements = 0, unknowns = 0;  // of all levels
     double fragments = 0, split_triangles = 0;
     for (int depth = 0; depth <= grid.depth; ++depth) {
@@ -79,11 +73,12 @@ double paper_flow_bytes(const Domain& domain, const Grid& grid, Cubature cubatur
         unknowns += std::min({8 * sizes.spheres + 2 * rim + 2 * shadows, 8 * fragments,
                               std::pow(std::ldexp(1.0, depth) + 1, 3)});
     }
-    const auto vertices = static_cast<double>(domain.mesh().positions.size());
+    const auto vertices = static_cast<double>(surface.vertices.size());
     const double samples = split_triangles * static_cast<double>(cubature_rule(cubature).size());
-    double bytes = kBytesOfFlow + kBytesPerPosition * vertices + kBytesPerFragment * fragments +
-                   kBytesPerSample * samples + kBytesPerUnknown * unknowns +
-                   kBytesPerElement * elements;
+    double bytes = kBytesOfFlow + kBytesPerPosition * vertices +
+                   kBytesPerSurfaceVertex * static_cast<double>(surface.stars.count()) +
+                   kBytesPerFragment * fragments + kBytesPerSample * samples +
+                   kBytesPerUnknown * unknowns + kBytesPerElement * elements;
     if (order > 1) bytes += kBytesPerStiffness * elements;
     return bytes + (order - 1) * kBytesPerSolution * unknowns;
 }

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "filter_tracked_mcf/core/errors.h"
-#include "filter_tracked_mcf/core/flow/plan/densities.h"
 #include "filter_tracked_mcf/core/flow/plan/paper_memory.h"
 #include "filter_tracked_mcf/core/flow/plan/setup_phases.h"
 #include "filter_tracked_mcf/core/mesh/measures.h"
@@ -21,8 +20,8 @@ namespace {
 /// fraction of a sphere is 0.09.
 constexpr double kFlat = 1e-9;
 
-void check_no_constraints(const Domain& domain, const char* what) {
-    if (!domain.has_constraints()) return;
+void check_nothing_held(const Surface& surface, const char* what) {
+    if (!surface.has_held_vertices()) return;
     throw InvalidParameter(
         std::string(what) +
         " would move vertices that must stay: those of a boundary that is not free, those of "
@@ -30,47 +29,51 @@ void check_no_constraints(const Domain& domain, const char* what) {
         "instead, or free all vertices.");
 }
 
-void check_oriented(const Domain& domain) {
-    if (domain.topology().is_oriented_consistently()) return;
+void check_oriented(const Surface& surface) {
+    if (surface.is_oriented_alike()) return;
     throw InvalidMesh(
-        "The volume cannot be preserved because the faces are not oriented consistently: some "
-        "neighbours disagree about which side is inside. Re-orient all faces coherently first, or "
-        "preserve the area.");
+        "The volume cannot be preserved because the faces cannot be oriented alike: the surface "
+        "has only one side, or more than two faces share an edge. Preserve the area instead.");
 }
 
-void check_encloses_volume(const Domain& domain) {
-    if (domain.boundary_edge_count() > 0) {
+void check_encloses_volume(const Surface& surface) {
+    if (surface.counts.boundary_edges > 0) {
         throw InvalidMesh(
             "A conformalized flow cannot preserve the volume because the surface is open: " +
-            std::to_string(domain.boundary_edge_count()) +
+            std::to_string(surface.counts.boundary_edges) +
             " edges have only one face. Close the holes first, or preserve the area.");
     }
-    if (!domain.topology().bounds_volume() ||
-        std::abs(enclosed_volume(domain.mesh())) <=
-            kFlat * std::pow(surface_area(domain.mesh()), 1.5)) {
+    double volume = 0, area = 0;
+    for (const Triangle& t : surface.stars.triangles) {
+        const auto [a, b, c] = corners_of(surface.positions, t);
+        const Eigen::Vector3d normal = twice_vector_area(a, b, c);
+        volume += a.dot(normal) / 6;
+        area += normal.norm() / 2;
+    }
+    if (!surface.bounds_volume() || std::abs(volume) <= kFlat * std::pow(area, 1.5)) {
         throw InvalidMesh(
             "The volume cannot be preserved because the surface encloses none; preserve the area "
             "instead.");
     }
 }
 
-/// Returns whether components are scaled to preserve this, instead of pushed along their normals.
-bool scales_components(Preserve preserve, FlowKind flow) {
+/// Returns whether parts are scaled to preserve this, instead of pushed along their normals.
+bool scales_parts(Preserve preserve, FlowKind flow) {
     return preserve == Preserve::Area || flow == FlowKind::Conformalized;
 }
 
 /// Throws InvalidParameter or InvalidMesh if the flow cannot preserve this; see
 /// FlowParameters::preserve.
-void check_preservable(const Domain& domain, Preserve preserve, FlowKind flow) {
+void check_preservable(const Surface& surface, Preserve preserve, FlowKind flow) {
     if (preserve == Preserve::None) return;
     if (preserve == Preserve::Area) {
-        check_no_constraints(domain, "Preserving the area");
+        check_nothing_held(surface, "Preserving the area");
         return;
     }
-    check_oriented(domain);
-    if (!scales_components(preserve, flow)) return;
-    check_no_constraints(domain, "Preserving the volume of a conformalized flow");
-    check_encloses_volume(domain);
+    check_oriented(surface);
+    if (!scales_parts(preserve, flow)) return;
+    check_nothing_held(surface, "Preserving the volume of a conformalized flow");
+    check_encloses_volume(surface);
 }
 
 /// Beyond this δ, single precision loses the mass beside the stiffness, and with it the location of
@@ -86,14 +89,14 @@ constexpr double kBytesPerVertex = 370, kBytesPerTriangle = 120;
 constexpr double kAutomaticCellInEdges = 1.6;
 
 /// Returns the plan of a flow, with a step size of at most `largest`.
-Plan plan_of(Domain domain, const FlowParameters& parameters, double mean_edge, double largest,
-             double bytes) {
+Plan plan_of(const TriangleMesh& mesh, Surface surface, const FlowParameters& parameters,
+             double largest, double bytes) {
     const double asked = parameters.step_size > 0
                              ? parameters.step_size
-                             : step_size_for(detail_size_of(parameters, mean_edge),
+                             : step_size_for(detail_size_of(parameters, surface.edge),
                                              parameters.iterations, parameters.order);
-    return {std::move(domain), parameters, std::min(asked, largest), asked, parameters.iterations,
-            mean_edge,         bytes};
+    return {mesh,  std::move(surface),    parameters, std::min(asked, largest),
+            asked, parameters.iterations, bytes};
 }
 
 /// Returns the depth that the parameters ask for on the grid's cube.
@@ -112,35 +115,49 @@ MeshPlan mesh_plan_of(const TriangleMesh& mesh, const Inputs& inputs,
                          kBytesPerTriangle * static_cast<double>(mesh.triangles.size());
     check_free_memory(bytes, "The flow", "Simplify the mesh, or take a part of it.");
     enter_setup_phase(kFindEdges);
-    Domain domain(mesh, inputs, parameters.boundary);
+    Surface surface = surface_of(mesh, inputs, parameters.boundary);
     enter_setup_phase(kMeasureSurface);
-    check_preservable(domain, parameters.preserve, parameters.flow);
-    const double mean_edge = mean_edge_length(domain.surface());
-    auto densities = triangle_densities(domain);
-    const double largest = kLargestStepSizeInEdges * mean_edge * mean_edge;
-    return {plan_of(std::move(domain), parameters, mean_edge, largest, bytes), std::move(densities),
-            parameters.preserve, parameters.depth};
+    check_preservable(surface, parameters.preserve, parameters.flow);
+    const double largest = kLargestStepSizeInEdges * surface.edge * surface.edge;
+    return {plan_of(mesh, std::move(surface), parameters, largest, bytes), parameters.preserve,
+            parameters.depth};
 }
 
+namespace {
+
+/// Returns the surface on which the paper's flow is planned.
+Surface paper_surface_of(const TriangleMesh& mesh, const FlowParameters& parameters) {
+    enter_setup_phase(kFindEdges);
+    return surface_of(mesh, {}, parameters.boundary);
+}
+
+PaperPlan paper_plan_on(const Grid& grid, const TriangleMesh& mesh, Surface surface,
+                        const FlowParameters& parameters) {
+    enter_setup_phase(kMeasureSurface);
+    const Positions positions = surface.in_mesh_units(mesh);
+    const double bytes =
+        paper_flow_bytes(surface, positions, grid, parameters.cubature, parameters.order);
+    check_free_memory(bytes, "Depth " + std::to_string(grid.depth) + " of the paper's method",
+                      "Choose a smaller depth, or the method Converged.");
+    enter_setup_phase(kClipTriangles);
+    ClippedSurface clipped = clip_to_grid({positions, surface.stars.triangles}, grid);
+    const double largest = kLargestStepSizeInCells * grid.cell_size * grid.cell_size;
+    return {plan_of(mesh, std::move(surface), parameters, largest, bytes), std::move(clipped),
+            parameters.cubature, parameters.cycles};
+}
+
+}  // namespace
+
 PaperPlan paper_plan_of(const TriangleMesh& mesh, const FlowParameters& parameters) {
-    const Grid cube = enclosing_grid(mesh, 0);
-    return paper_plan_of(mesh, parameters,
-                         with_depth(cube, depth_of(parameters, mean_edge_length(mesh), cube)));
+    Surface surface = paper_surface_of(mesh, parameters);
+    const Grid cube = enclosing_grid(surface.box, 0);
+    const int depth = depth_of(parameters, surface.edge, cube);
+    return paper_plan_on(with_depth(cube, depth), mesh, std::move(surface), parameters);
 }
 
 PaperPlan paper_plan_of(const TriangleMesh& mesh, const FlowParameters& parameters,
                         const Grid& grid) {
-    enter_setup_phase(kFindEdges);
-    Domain domain(mesh, parameters.boundary);
-    enter_setup_phase(kMeasureSurface);
-    const double bytes = paper_flow_bytes(domain, grid, parameters.cubature, parameters.order);
-    check_free_memory(bytes, "Depth " + std::to_string(grid.depth) + " of the paper's method",
-                      "Choose a smaller depth, or the method Converged.");
-    enter_setup_phase(kClipTriangles);
-    ClippedSurface surface = clip_to_grid(domain.surface(), grid);
-    const double largest = kLargestStepSizeInCells * grid.cell_size * grid.cell_size;
-    return {plan_of(std::move(domain), parameters, mean_edge_length(mesh), largest, bytes),
-            std::move(surface), parameters.cubature, parameters.cycles};
+    return paper_plan_on(grid, mesh, paper_surface_of(mesh, parameters), parameters);
 }
 
 }  // namespace tracked_mcf

@@ -5,32 +5,31 @@
 
 #include "filter_tracked_mcf/core/flow/cells/fragments.h"
 #include "filter_tracked_mcf/core/flow_parameters.h"
-#include "filter_tracked_mcf/core/mesh/domain.h"
+#include "filter_tracked_mcf/core/mesh/surface.h"
 
 namespace tracked_mcf {
 
 /// What follows from a mesh, inputs and parameters before any element is made. A flow consumes it.
 /// Its parts take members of the plan, and never read the parameters.
 struct Plan {
-    Domain domain;  ///< its mesh must outlive the plan
+    const TriangleMesh& mesh;  ///< must outlive the plan and the flow
+    Surface surface;
     StepParameters steps;
     double step_size;        ///< δ, mesh units²
     double asked_step_size;  ///< larger if δ was limited: single precision loses masses beside it
     int iterations;
-    double mean_edge;       ///< of the surface, mesh units
     double expected_bytes;  ///< of the whole flow
 };
 
 /// The plan of a flow on the mesh's own elements.
 struct MeshPlan : Plan {
-    std::vector<double> densities;  ///< per triangle of the surface (densities.h); empty if all 1
     Preserve preserve;
     int depth;  ///< of the octree, as asked for; 0 chooses it
 };
 
 /// The plan of the paper's flow.
 struct PaperPlan : Plan {
-    ClippedSurface surface;
+    ClippedSurface clipped;
     Cubature cubature;
     int cycles;
 };

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "filter_tracked_mcf/core/flow/kernels/kernels.h"
+#include "filter_tracked_mcf/core/flow/kernels/element_products.h"
 #include "filter_tracked_mcf/core/pi.h"
 
 namespace tracked_mcf {
@@ -106,7 +106,7 @@ void ElementMultigrid::LevelData::smooth(float step, const Field& right_side, Fi
 void ElementMultigrid::LevelData::make_residual(const Field& right_side, const Field& x) {
     // A = Σ_e R_eᵀ M_e R_e, with the matrix M_e of an element and its eight unknowns R_e.
     partition.sum(&right_side, residual, [&](const ElementRange& range, float* sum) {
-        kernels().add_element_products(range, matrices->blocks(), -1, x.data(), sum);
+        add_element_products(range, matrices->blocks(), -1, x.data(), sum);
     });
 }
 

@@ -12,58 +12,59 @@
 
 namespace tracked_mcf {
 
-/// A level's elements, cut into parts of consecutive elements. Threads sum the contributions of
-/// elements to their unknowns part by part. The first part that has an unknown owns it, so a part
-/// owns consecutive unknowns. Contributions of other parts go to slots, and the slots are added
-/// afterwards in the order of the parts. Parts do not depend on the number of threads, so neither
-/// do the bits.
+/// A level's elements, cut into subsets of consecutive elements. Threads sum the contributions of
+/// elements to their unknowns subset by subset. The first subset that has an unknown owns it, so a
+/// subset owns consecutive unknowns. Contributions of other subsets go to slots, and the slots are
+/// added afterwards in the order of the subsets. Subsets do not depend on the number of threads, so
+/// neither do the bits.
 class ElementPartition {
 public:
     /// `level` must outlive this.
     explicit ElementPartition(const Level& level);
 
-    /// Sets the result to the base, and adds the contributions of all parts by calling
+    /// Sets the result to the base, and adds the contributions of all subsets by calling
     /// contribute(range, result's data). A null base is zero; the base may be the result itself.
     /// contribute() may access the result only to add to targets.
     template <class Contribute>
     void sum(const Field* base, Field& result, const Contribute& contribute) const {
         result.resize(4, level_.unknown_count());
-        const auto contribute_part = [&](std::int64_t i) {
-            initialize(parts_[i], base, result);
-            contribute(range(parts_[i]), result.data());
+        const auto contribute_subset = [&](std::int64_t i) {
+            initialize(subsets_[i], base, result);
+            contribute(range(subsets_[i]), result.data());
         };
-        parallel_for(static_cast<std::int64_t>(parts_.size()), contribute_part, kPartsWorthThreads);
+        parallel_for(static_cast<std::int64_t>(subsets_.size()), contribute_subset,
+                     kSubsetsWorthThreads);
         add_slots(result);
     }
 
 private:
-    /// Number of elements per part: the columns of their unknowns fit into a second-level cache.
-    static constexpr std::int32_t kPartSize = 4096;
-    static_assert(kPartSize % kBlockElements == 0);
+    /// Number of elements per subset: the columns of their unknowns fit into a second-level cache.
+    static constexpr std::int32_t kSubsetSize = 4096;
+    static_assert(kSubsetSize % kBlockElements == 0);
 
-    /// With this many parts or more, threads save more time than they cost.
-    static constexpr std::int64_t kPartsWorthThreads = 4;
+    /// With this many subsets or more, threads save more time than they cost.
+    static constexpr std::int64_t kSubsetsWorthThreads = 4;
 
-    /// An unknown of several parts. Its slots are shared_slots_[begin] to shared_slots_[end - 1].
+    /// An unknown of several subsets. Its slots are shared_slots_[begin] to shared_slots_[end - 1].
     struct Shared {
         std::int32_t unknown;
         std::int64_t begin, end;
     };
 
-    struct Part {
+    struct Subset {
         std::int32_t begin, end;                  ///< elements
         std::int32_t unknown_begin, unknown_end;  ///< unknowns that it owns
-        std::int32_t slot_begin, slot_end;        ///< slots for unknowns of earlier parts
+        std::int32_t slot_begin, slot_end;        ///< slots for unknowns of earlier subsets
     };
 
-    void find_parts();
+    void find_subsets();
     void assign_slots();
-    void initialize(const Part& part, const Field* base, Field& result) const;
+    void initialize(const Subset& subset, const Field* base, Field& result) const;
     void add_slots(Field& result) const;
-    ElementRange range(const Part& part) const;
+    ElementRange range(const Subset& subset) const;
 
     const Level& level_;
-    std::vector<Part> parts_;
+    std::vector<Subset> subsets_;
     std::vector<std::int64_t> target_offsets_;  ///< see ElementRange
     std::vector<std::int32_t> targets_;
     std::vector<Shared> shared_;

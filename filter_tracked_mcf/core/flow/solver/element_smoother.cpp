@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "filter_tracked_mcf/core/flow/kernels/kernels.h"
+#include "filter_tracked_mcf/core/flow/kernels/element_products.h"
 #include "filter_tracked_mcf/core/flow/system/constrained_cells.h"
 #include "filter_tracked_mcf/core/parallel/parallel.h"
 
@@ -86,22 +86,21 @@ void ElementSmoother::refresh(const MatrixBlocks& matrices, std::vector<Coupling
     parallel_for_rows(level_.unknown_count(),
                       [&](std::int32_t unknown) { workspace[unknown] = Couplings{}; });
     bricks_.for_each([&](std::int32_t begin, std::int32_t end) {
-        kernels().sum_couplings(coupled(begin, end), matrices.blocks(), workspace.data());
+        sum_couplings(coupled(begin, end), matrices.blocks(), workspace.data());
     });
     parallel_for_rows(level_.unknown_count(), [&](std::int32_t unknown) {
         free_unknowns_[unknown] = is_free(workspace[unknown].sum[0]) ? 1 : 0;
     });
     parallel_for_chunks(level_.element_count(), [&](std::int64_t begin, std::int64_t end) {
-        kernels().invert_locally(
-            coupled(static_cast<std::int32_t>(begin), static_cast<std::int32_t>(end)),
-            matrices.blocks(), workspace.data(), damping_.data(), inverses_.blocks());
+        invert_locally(coupled(static_cast<std::int32_t>(begin), static_cast<std::int32_t>(end)),
+                       matrices.blocks(), workspace.data(), damping_.data(), inverses_.blocks());
     });
 }
 
 void ElementSmoother::correct(const Field* base, float factor, const Field& residual,
                               Field& x) const {
     partition_.sum(base, x, [&](const ElementRange& range, float* sum) {
-        kernels().add_element_products(range, inverses_.blocks(), factor, residual.data(), sum);
+        add_element_products(range, inverses_.blocks(), factor, residual.data(), sum);
     });
 }
 

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "filter_tracked_mcf/core/flow/solver/element_transfer.h"
 
-#include <hwy/base.h>
-
 #include "filter_tracked_mcf/core/flow/cells/bspline.h"
-#include "filter_tracked_mcf/core/flow/kernels/kernels.h"
+#include "filter_tracked_mcf/core/flow/kernels/coarsen_elements.h"
 #include "filter_tracked_mcf/core/parallel/parallel.h"
 
 namespace tracked_mcf {
@@ -43,7 +41,9 @@ std::vector<std::uint8_t> owned_unknowns(const Level& level) {
 }
 
 int lowest_bit(int mask) {
-    return static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero32(static_cast<std::uint32_t>(mask)));
+    int bit = 0;
+    while (((mask >> bit) & 1) == 0) ++bit;
+    return bit;
 }
 
 }  // namespace
@@ -79,10 +79,10 @@ void ElementTransfer::add_prolongated(const Field& correction,
     });
 }
 
-void ElementTransfer::restrict(const Field& residual, const ElementPartition& coarse_parts,
+void ElementTransfer::restrict(const Field& residual, const ElementPartition& coarse_partition,
                                Field& coarse_residual) const {
     const RefinementTable& table = refinement_table();
-    coarse_parts.sum(nullptr, coarse_residual, [&](const ElementRange& range, float* sums) {
+    coarse_partition.sum(nullptr, coarse_residual, [&](const ElementRange& range, float* sums) {
         for (std::int32_t parent = range.begin; parent < range.end; ++parent) {
             const std::array<float*, 8> to = targets_of(range, parent, sums);
             for (const std::int32_t child : children_.members(parent)) {
@@ -106,8 +106,8 @@ void coarsen_element_matrices(const Level& fine, const Groups& children,
     const ChildElements elements = {fine_matrices.blocks(), fine.cells.data(), children.items(),
                                     children.begins()};
     parallel_for_chunks(coarse_matrices.size(), [&](std::int64_t begin, std::int64_t end) {
-        kernels().coarsen_elements(elements, static_cast<std::int32_t>(begin),
-                                   static_cast<std::int32_t>(end), coarse_matrices.blocks());
+        coarsen_elements(elements, static_cast<std::int32_t>(begin), static_cast<std::int32_t>(end),
+                         coarse_matrices.blocks());
     });
 }
 

@@ -40,8 +40,9 @@ public:
     void add_prolongated(const Field& correction, const std::vector<std::uint8_t>& free_unknowns,
                          Field& x) const;
 
-    /// Computes coarse_residual = Pᵀ residual; `coarse_parts` is the partition of the coarse level.
-    void restrict(const Field& residual, const ElementPartition& coarse_parts,
+    /// Computes coarse_residual = Pᵀ residual; `coarse_partition` is the partition of the coarse
+    /// level.
+    void restrict(const Field& residual, const ElementPartition& coarse_partition,
                   Field& coarse_residual) const;
 
     /// Returns the fine elements, grouped by parent.

@@ -66,24 +66,30 @@ std::vector<std::int32_t> corners_of_elements(const Level& level) {
 }  // namespace
 
 VertexOctree::VertexOctree(const Stars& stars, const std::vector<Eigen::Vector3d>& positions,
-                           const Grid& grid)
+                           const Grid& grid, const std::vector<std::uint8_t>& has_functions)
     : cell_size_(grid.cell_size), local_(positions.size()) {
     std::vector<MortonCode> cells(positions.size());
     parallel_for_rows(stars.count(), [&](std::int32_t vertex) {
+        if (!has_functions.empty() && has_functions[vertex] == 0) return;
         const Eigen::Vector3d place = grid.to_grid(positions[vertex]);
         const Cell cell = place.array().floor().cast<std::int32_t>();
         cells[vertex] = morton_code(cell);
         local_[vertex] = (place - cell.cast<double>()).cast<float>();
     });
-    find_elements(stars, cells, grid.depth);
-    vertices_ = Groups(element_of_, finest().element_count());
+    find_elements(stars, cells, grid.depth, has_functions);
+    // The last group has no functions.
+    vertices_ = Groups(element_of_, finest().element_count() + 1);
     corners_ = Groups(corners_of_elements(finest()), finest().unknown_count());
 }
 
 void VertexOctree::find_elements(const Stars& stars, const std::vector<MortonCode>& cells,
-                                 int depth) {
+                                 int depth, const std::vector<std::uint8_t>& has_functions) {
+    const auto is_left_out = [&](std::int32_t vertex) {
+        return !has_functions.empty() && has_functions[vertex] == 0;
+    };
     ConcurrentSets sets(stars.count());
     parallel_for_rows(stars.count(), [&](std::int32_t vertex) {
+        if (is_left_out(vertex)) return;
         for (auto i = stars.neighbour_begin[vertex]; i < stars.neighbour_begin[vertex + 1]; ++i) {
             const std::int32_t neighbour = stars.neighbours[i];
             if (neighbour > vertex && cells[neighbour] == cells[vertex]) {
@@ -94,12 +100,12 @@ void VertexOctree::find_elements(const Stars& stars, const std::vector<MortonCod
     // Elements are numbered in the order of their cells, then of their first vertices.
     std::vector<KeyValue> first;
     for (std::int32_t vertex = 0; vertex < stars.count(); ++vertex) {
-        if (sets.find(vertex) == vertex) {
+        if (!is_left_out(vertex) && sets.find(vertex) == vertex) {
             first.push_back({cells[vertex], static_cast<std::uint64_t>(vertex)});
         }
     }
     sort_by_key(first);
-    element_of_.resize(cells.size());
+    element_of_.resize(cells.size(), static_cast<std::int32_t>(first.size()));
     std::vector<MortonCode> cells_of_elements(first.size());
     for (std::size_t element = 0; element < first.size(); ++element) {
         element_of_[first[element].value] = static_cast<std::int32_t>(element);
@@ -133,7 +139,7 @@ void VertexOctree::assemble(const MeshSystem& system, const TriangleElements& el
             sum += weight * values * values.transpose();
         };
         for (const std::int32_t vertex : vertices_.members(element)) {
-            if (!system.is_fixed(vertex)) add(system.mass(vertex), values_at(vertex));
+            if (!system.is_held(vertex)) add(system.mass(vertex), values_at(vertex));
             for_each_corner(stars, vertex, [&](std::uint32_t triangle, std::uint32_t corner) {
                 std::array<Values, 3> values;
                 int inside = 0;
@@ -142,7 +148,7 @@ void VertexOctree::assemble(const MeshSystem& system, const TriangleElements& el
                     const bool is_inside = element_of_[other] == element;
                     if (is_inside && inside == 0 && k != corner) return;  // counted there
                     inside += is_inside ? 1 : 0;
-                    if (system.is_fixed(other)) {
+                    if (system.is_held(other)) {
                         values[k].setZero();
                     } else {
                         values[k] = is_inside ? values_at(other) : values_at(other, element);
@@ -188,9 +194,11 @@ void VertexOctree::restrict(const Field& r, Field& coarse) {
     });
 }
 
-void VertexOctree::add_prolongated(const MeshSystem& system, const Field& coarse, Field& x) const {
-    parallel_for_rows(x.cols(), [&](std::int32_t vertex) {
-        if (system.is_fixed(vertex)) return;
+double VertexOctree::add_prolongated(const MeshSystem& system, const PartBlocks::Block& block,
+                                     const Field& coarse, const Field& r, Field& x) const {
+    Eigen::Vector4f product = Eigen::Vector4f::Zero();
+    for (std::int32_t vertex = block.begin; vertex < block.end; ++vertex) {
+        if (system.is_held(vertex)) continue;
         const auto& unknowns = finest().unknowns[element_of_[vertex]];
         const Values values = values_at(vertex);
         Eigen::Vector4f sum = Eigen::Vector4f::Zero();
@@ -198,7 +206,9 @@ void VertexOctree::add_prolongated(const MeshSystem& system, const Field& coarse
             sum += values[corner] * coarse.col(unknowns[corner]);
         }
         x.col(vertex) += sum;
-    });
+        product += sum.cwiseProduct(r.col(vertex));
+    }
+    return double{product.sum()};
 }
 
 }  // namespace tracked_mcf

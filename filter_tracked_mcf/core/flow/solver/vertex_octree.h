@@ -5,11 +5,11 @@
 #include <cstdint>
 #include <vector>
 
-#include "filter_tracked_mcf/core/flow/cells/grid.h"
 #include "filter_tracked_mcf/core/flow/octree/octree.h"
 #include "filter_tracked_mcf/core/flow/solver/field.h"
 #include "filter_tracked_mcf/core/flow/solver/mesh_system.h"
 #include "filter_tracked_mcf/core/flow/system/matrix_blocks.h"
+#include "filter_tracked_mcf/core/mesh/grid.h"
 #include "filter_tracked_mcf/core/mesh/stars.h"
 #include "filter_tracked_mcf/core/parallel/raw_vector.h"
 #include "filter_tracked_mcf/core/parallel/sorting.h"
@@ -25,13 +25,18 @@ namespace tracked_mcf {
 /// with the vertices.
 class VertexOctree {
 public:
-    /// Puts the vertices into the cells of a grid that encloses them.
+    /// Puts vertices into the cells of a grid that encloses them: all of the parts for which
+    /// `has_functions`, per vertex, is not 0; of all parts if it is empty.
     VertexOctree(const Stars& stars, const std::vector<Eigen::Vector3d>& positions,
-                 const Grid& grid);
+                 const Grid& grid, const std::vector<std::uint8_t>& has_functions = {});
 
     const std::vector<Level>& levels() const { return levels_; }
     const Level& finest() const { return levels_.back(); }
     double cell_size() const { return cell_size_; }  ///< of the finest level
+    /// Returns whether there are functions at a vertex.
+    bool has_functions(std::int32_t vertex) const {
+        return element_of_[vertex] < finest().element_count();
+    }
 
     /// Sets the matrices of the finest elements to those of the system, as seen by the element's
     /// functions. Their sum is nearly PᵀAP: a triangle across cells counts in each by the share of
@@ -41,15 +46,18 @@ public:
     void assemble(const MeshSystem& system, const TriangleElements& elements,
                   MatrixBlocks& matrices) const;
 
-    /// Computes coarse = Pᵀ r; r is 0 at vertices that stay.
+    /// Computes coarse = Pᵀ r; r is 0 at held vertices.
     void restrict(const Field& r, Field& coarse);
-    /// Computes x += P coarse, except for vertices that stay.
-    void add_prolongated(const MeshSystem& system, const Field& coarse, Field& x) const;
+    /// Computes the rows of a block of x += P coarse, except for held vertices. Returns the product
+    /// r · P coarse of these rows, which must have functions.
+    double add_prolongated(const MeshSystem& system, const PartBlocks::Block& block,
+                           const Field& coarse, const Field& r, Field& x) const;
 
 private:
     using Values = Eigen::Matrix<float, 8, 1>;
 
-    void find_elements(const Stars& stars, const std::vector<MortonCode>& cells, int depth);
+    void find_elements(const Stars& stars, const std::vector<MortonCode>& cells, int depth,
+                       const std::vector<std::uint8_t>& has_functions);
     /// Returns the values at a vertex of the functions of its own element.
     Values values_at(std::int32_t vertex) const;
     /// Returns the values at a vertex of the functions of an element, continued from its cell.
@@ -57,7 +65,7 @@ private:
 
     double cell_size_;
     std::vector<Level> levels_;
-    std::vector<std::int32_t> element_of_;        ///< per vertex
+    std::vector<std::int32_t> element_of_;        ///< per vertex; without functions, their number
     RawVector<Eigen::Vector3f> local_;            ///< per vertex, in the cell of its element
     Groups vertices_;                             ///< by element
     Groups corners_;                              ///< 8 × element + corner, by unknown

@@ -7,10 +7,10 @@
 #include <memory>
 #include <utility>
 
+#include "filter_tracked_mcf/core/flow/plan/densities.h"
 #include "filter_tracked_mcf/core/flow/plan/setup_phases.h"
 #include "filter_tracked_mcf/core/flow/stepping/mean_curvature.h"
 #include "filter_tracked_mcf/core/mesh/measures.h"
-#include "filter_tracked_mcf/core/mesh/mesh_topology.h"
 #include "filter_tracked_mcf/core/mesh/triangle_elements.h"
 #include "filter_tracked_mcf/core/parallel/parallel.h"
 #include "filter_tracked_mcf/core/parallel/progress_meter.h"
@@ -33,7 +33,7 @@ constexpr double kRoundedArea = 1e-6;
 /// A solve whose error is more than this part of its solution has failed.
 constexpr double kUseless = 0.5;
 
-/// The tolerance where components are scaled after the step, relative to the usual one.
+/// The tolerance where parts are scaled after the step, relative to the usual one.
 constexpr double kToleranceOfScaled = 0.1;
 
 /// A step of order 2 or more overshoots at corners. It may leave the box of the surface by this
@@ -58,41 +58,56 @@ constexpr double kSameShape = 0.95;
 /// to a point need the functions that they had.
 constexpr double kFewerElements = 0.25;
 
+/// Parts of fewer vertices use no octree: all of their waves are short.
+constexpr std::int32_t kFewestForOctree = 64;
+
 /// The octree has at most this share of the vertices as elements.
 constexpr double kMostElements = 0.25;
 
-using Positions = std::vector<Eigen::Vector3d>;
 using Boxes = std::vector<Eigen::AlignedBox3d>;
 
-/// Returns the box of each component.
-Boxes boxes_of(const FlowSurface& surface, const Positions& positions) {
-    Boxes boxes(static_cast<std::size_t>(surface.component_count));
+/// Returns the box of each part.
+Boxes boxes_of(const Surface& surface, const Positions& positions) {
+    Boxes boxes(static_cast<std::size_t>(surface.part_count));
     for (std::size_t i = 0; i < positions.size(); ++i) {
-        boxes[surface.components[i]].extend(positions[i]);
+        boxes[surface.parts[i]].extend(positions[i]);
     }
     return boxes;
 }
 
-/// Returns the box of all components.
+/// Returns the box of all parts.
 Eigen::AlignedBox3d box_of(const Boxes& boxes) {
     Eigen::AlignedBox3d all;
     for (const Eigen::AlignedBox3d& box : boxes) all.extend(box);
     return all;
 }
 
-/// Returns an octree for the vertices at these positions. A depth of 0 chooses it. Returns none if
-/// the surface consists of parts of so few vertices that an octree is of no use.
-std::unique_ptr<VertexOctree> octree_of(const FlowSurface& surface, const Positions& positions,
+/// Returns an octree for the parts at these positions that have enough vertices; none if there are
+/// no such parts, or if an octree is of no use to them. A depth of 0 chooses it.
+std::unique_ptr<VertexOctree> octree_of(const Surface& surface, const Positions& positions,
                                         int depth) {
-    const Grid cube = cube_around(box_of(boxes_of(surface, positions)));
-    if (depth > 0) {
-        return std::make_unique<VertexOctree>(surface.stars, positions, with_depth(cube, depth));
+    std::vector<std::int32_t> sizes(static_cast<std::size_t>(surface.part_count), 0);
+    for (const std::int32_t part : surface.parts) ++sizes[part];
+    std::vector<std::uint8_t> has_functions(positions.size());
+    Eigen::AlignedBox3d box;
+    std::int32_t count = 0;
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+        if (sizes[surface.parts[i]] < kFewestForOctree) continue;
+        has_functions[i] = 1;
+        box.extend(positions[i]);
+        ++count;
     }
+    if (count == 0) return nullptr;
+    const Grid cube = cube_around(box);
+    const auto of_depth = [&](int levels) {
+        return std::make_unique<VertexOctree>(surface.stars, positions, with_depth(cube, levels),
+                                              has_functions);
+    };
+    if (depth > 0) return of_depth(depth);
     const double finest = std::floor(std::log2(cube.cell_size / kSmallestCell));
     for (int l = static_cast<int>(std::min(finest, double{kMaximumDepth})); l >= 1; --l) {
-        auto octree = std::make_unique<VertexOctree>(surface.stars, positions, with_depth(cube, l));
-        if (octree->finest().element_count() <= kMostElements * surface.stars.count())
-            return octree;
+        auto octree = of_depth(l);
+        if (octree->finest().element_count() <= kMostElements * count) return octree;
     }
     return nullptr;
 }
@@ -101,29 +116,29 @@ std::unique_ptr<VertexOctree> octree_of(const FlowSurface& surface, const Positi
 
 MeshFlow::MeshFlow(MeshPlan plan)
     : SurfaceFlow(plan),
-      surface_(flow_surface_of(plan.domain, plan.densities)),
       steps_(plan.steps),
       step_size_(plan.step_size / (surface_.edge * surface_.edge)),
       depth_(plan.depth),
-      initial_(surface_.positions),
-      solver_(surface_.stars, surface_.fixed, surface_.components) {
-    first_area_ = area_ = area_of(surface_.positions);
+      densities_(triangle_densities(surface_)),
+      positions_(std::move(surface_.positions)),
+      solver_(surface_.stars, surface_.held, surface_.parts) {
+    first_area_ = area_ = area_of(positions_);
     enter_setup_phase(kBuildOctree);
     if (plan.depth > 0 || detail_size_for(step_size_, 1, steps_.order) >= kShortWaves) {
         use_octree();
     }
     enter_setup_phase(kPrepareSolver);
-    const double diagonal = box_of(boxes_of(surface_, initial_)).diagonal().norm();
+    const double diagonal = box_of(boxes_of(surface_, positions_)).diagonal().norm();
     const double halved = detail_size_for(step_size_, 1, steps_.order);
     margin_ = kOvershootInDetail * std::min(halved, diagonal) + kOvershootInDiagonals * diagonal;
     if (plan.preserve != Preserve::None)
-        preserver_.emplace(surface_, plan.preserve, plan.steps.flow);
-    if (steps_.flow == FlowKind::Conformalized) report_.genus = genus_of(plan.domain.topology());
+        preserver_.emplace(surface_, mesh_, positions_, plan.preserve, plan.steps.flow);
+    if (steps_.flow == FlowKind::Conformalized) report_.genus = surface_.genus();
     report_.unknowns = surface_.stars.count();
 }
 
 void MeshFlow::use_octree() {
-    std::unique_ptr<VertexOctree> octree = octree_of(surface_, surface_.positions, depth_);
+    std::unique_ptr<VertexOctree> octree = octree_of(surface_, positions_, depth_);
     if (!octree) return;
     const auto elements = octree->finest().element_count();
     if (!solver_.octree()) {
@@ -160,7 +175,7 @@ double MeshFlow::area_of(const Positions& positions) const {
 }
 
 void MeshFlow::solve(StepReport& report, Positions* response) {
-    // Once components have been scaled, most of a step is given back, but not its errors.
+    // Once parts have been scaled, most of a step is given back, but not its errors.
     const bool scales = preserver_ && !preserver_->pushes() && !report_.steps.empty();
     const double tolerance = (scales ? kToleranceOfScaled : 1) * steps_.tolerance;
     const int solves = steps_.order + (response != nullptr ? 1 : 0);
@@ -171,49 +186,44 @@ void MeshFlow::solve(StepReport& report, Positions* response) {
         report.solver_iterations += result.iterations;
         report.residual_before = std::hypot(report.residual_before, result.residual_before);
         report.residual_after = std::hypot(report.residual_after, result.residual_after);
-        // Written so that a NaN is kept.
-        if (!(result.error_estimate <= report.error_estimate)) {
-            report.error_estimate = result.error_estimate;
-        }
+        report.error_estimate = worse_of(report.error_estimate, result.error_estimate);
     };
-    solver_.system().multiply_stiffness(surface_.positions, -1, right_side_);
+    solver_.system().multiply_stiffness(positions_, -1, right_side_);
     for (int i = 0; i < steps_.order; ++i) {
         // A d = δ L d', where d' is the displacement of a step of one order less
         if (i > 0) solver_.system().multiply_stiffness(d_, 1, right_side_);
         solve_one(i, d_);
     }
     if (response != nullptr) {
-        preserver_->pressure(surface_.positions, right_side_);
+        preserver_->pressure(positions_, right_side_);
         solve_one(steps_.order, *response);
     }
     report.reached_tolerance = report.error_estimate <= steps_.tolerance;
     octree_harms_ = octree_harms_ || (had_octree && !solver_.octree());
 }
 
-std::vector<Eigen::Vector3d> MeshFlow::displaced() const {
-    Positions to(surface_.positions.size());
+void MeshFlow::displace(Positions& to) const {
+    to.resize(positions_.size());
     parallel_for_rows(static_cast<std::int64_t>(to.size()),
-                      [&](std::int32_t i) { to[i] = surface_.positions[i] + d_[i]; });
-    if (steps_.order > 1) return to;
+                      [&](std::int32_t i) { to[i] = positions_[i] + d_[i]; });
+    if (steps_.order > 1) return;
     // Order 1 obeys a maximum principle for each coordinate, but for the tolerance.
-    const Boxes boxes = boxes_of(surface_, surface_.positions);
+    const Boxes boxes = boxes_of(surface_, positions_);
     parallel_for_rows(static_cast<std::int64_t>(to.size()), [&](std::int32_t i) {
-        const Eigen::AlignedBox3d& box = boxes[surface_.components[i]];
+        const Eigen::AlignedBox3d& box = boxes[surface_.parts[i]];
         Eigen::AlignedBox3d wide(box.min().array() - margin_, box.max().array() + margin_);
         if (wide.contains(to[i])) to[i] = to[i].cwiseMax(box.min()).cwiseMin(box.max());
     });
-    return to;
 }
 
 Stop MeshFlow::advance(Positions& to, StepReport& report) {
     const Stopwatch assembling;
     report.area = area_ * surface_.edge * surface_.edge;
-    if (area_ < kVanishedArea * first_area_) return Stop::Vanished;
-    if (surface_.constrained_count == report_.vertices) return Stop::NothingMoves;
+    if (report_.held_vertices == report_.vertices) return Stop::NothingMoves;
     renew_octree();
     const bool takes_stiffness = steps_.flow == FlowKind::MeanCurvature || report_.steps.empty();
-    solver_.take(elements_in_own_metric(surface_.stars, surface_.positions, surface_.densities),
-                 step_size_, takes_stiffness);
+    solver_.take(elements_in_own_metric(surface_.stars, positions_, densities_), step_size_,
+                 takes_stiffness);
     report.assemble_seconds = assembling.seconds();
     const ProgressSpan solving(kShareOfAssembly, 1);
     const Stopwatch stopwatch;
@@ -222,10 +232,10 @@ Stop MeshFlow::advance(Positions& to, StepReport& report) {
     poll_progress();
     report.solve_seconds = stopwatch.seconds();
     if (!report.reached_tolerance && !(report.error_estimate <= kUseless)) return Stop::StepFailed;
-    to = displaced();
-    const Boxes boxes = boxes_of(surface_, surface_.positions);
+    displace(to);
+    const Boxes boxes = boxes_of(surface_, positions_);
     const auto is_outside = [&](std::int64_t i) {
-        const Eigen::AlignedBox3d& box = boxes[surface_.components[i]];
+        const Eigen::AlignedBox3d& box = boxes[surface_.parts[i]];
         return !Eigen::AlignedBox3d(box.min().array() - margin_, box.max().array() + margin_)
                     .contains(to[i]);
     };
@@ -243,37 +253,36 @@ Stop MeshFlow::advance(Positions& to, StepReport& report) {
 }
 
 bool MeshFlow::step() {
-    StepReport report;
-    Positions to;
-    const Stop stop = advance(to, report);
-    if (stop == Stop::Vanished && to.empty()) {
+    if (area_ < kVanishedArea * first_area_) {
         end_before_last_step(Stop::Vanished);
         return false;
     }
+    StepReport report;
+    const Stop stop = advance(before_, report);
     if (stop != Stop::None) {
         report_.stop = stop;
         return false;
     }
-    before_ = std::exchange(surface_.positions, std::move(to));
+    positions_.swap(before_);
     report_.steps.push_back(report);
     return true;
 }
 
 void MeshFlow::take_last_step_back() {
-    surface_.positions = std::move(before_);
+    positions_ = std::move(before_);
 }
 
 void MeshFlow::move_vertices(Positions& positions) const {
     parallel_for_rows(static_cast<std::int64_t>(positions.size()), [&](std::int32_t i) {
         const std::int32_t vertex = surface_.vertices[i];
-        if (vertex < 0 || surface_.fixed[vertex] != 0) return;
-        const Eigen::Vector3d moved = surface_.positions[vertex] - initial_[vertex];
+        if (vertex < 0 || surface_.held[vertex] != 0) return;
+        const Eigen::Vector3d moved = positions_[vertex] - surface_.in_edges(mesh_, vertex);
         if (!moved.isZero(0)) positions[i] += surface_.edge * moved;
     });
 }
 
-std::vector<double> MeshFlow::mean_curvatures(const SurfaceView& /*after*/) {
-    return mean_curvatures_of(surface_);
+std::vector<double> MeshFlow::mean_curvatures(const Positions& /*after*/) {
+    return mean_curvatures_of(surface_, positions_);
 }
 
 }  // namespace tracked_mcf

@@ -7,7 +7,6 @@
 
 #include "filter_tracked_mcf/core/flow/plan/plan.h"
 #include "filter_tracked_mcf/core/flow/solver/mesh_solver.h"
-#include "filter_tracked_mcf/core/flow/stepping/flow_surface.h"
 #include "filter_tracked_mcf/core/flow/stepping/preserving.h"
 #include "filter_tracked_mcf/core/flow/stepping/surface_flow.h"
 #include "filter_tracked_mcf/core/flow_report.h"
@@ -27,11 +26,9 @@ public:
 
     bool step() override;
     void move_vertices(std::vector<Eigen::Vector3d>& positions) const override;
-    std::vector<double> mean_curvatures(const SurfaceView& after) override;
+    std::vector<double> mean_curvatures(const Positions& after) override;
 
 private:
-    using Positions = std::vector<Eigen::Vector3d>;
-
     void take_last_step_back() override;
     /// Makes the solver use an octree of the surface as it is now.
     void use_octree();
@@ -41,19 +38,20 @@ private:
     /// Solves for the displacement of one step, and for the response to a pressure if `response` is
     /// not null.
     void solve(StepReport& report, Positions* response);
-    /// Returns the positions after the displacement d_, where a step of order 1 can lead.
-    Positions displaced() const;
+    /// Sets the positions to those after the displacement d_, where a step of order 1 can lead.
+    void displace(Positions& to) const;
+    /// Sets `to` to the positions after one step.
     Stop advance(Positions& to, StepReport& report);
 
-    FlowSurface surface_;  ///< as it is now
     const StepParameters steps_;
-    const double step_size_;  ///< δ, in squared edges
-    const int depth_;         ///< of the octree; 0 chooses it
-    const Positions initial_;
+    const double step_size_;              ///< δ, in squared edges
+    const int depth_;                     ///< of the octree; 0 chooses it
+    const std::vector<float> densities_;  ///< per triangle; empty if all are 1
+    Positions positions_;                 ///< of the surface's vertices as they are now, in edges
     std::optional<Preserver> preserver_;
     MeshSolver solver_;
     bool octree_harms_ = false;         ///< whether the solver goes on without one
-    Positions before_;                  ///< the positions before the last step
+    Positions before_;                  ///< the positions before the last step; workspace in one
     double first_area_ = 0, area_ = 0;  ///< at the start and after the last step, squared edges
     double margin_ = 0;
     Field right_side_;

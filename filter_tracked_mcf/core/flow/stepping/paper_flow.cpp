@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "filter_tracked_mcf/core/flow/plan/setup_phases.h"
-#include "filter_tracked_mcf/core/flow/stepping/flow_surface.h"
 #include "filter_tracked_mcf/core/flow/stepping/mean_curvature.h"
 #include "filter_tracked_mcf/core/flow/system/constrained_cells.h"
 #include "filter_tracked_mcf/core/parallel/progress_meter.h"
@@ -37,8 +36,8 @@ PaperFlow::PaperFlow(PaperPlan plan)
     : SurfaceFlow(plan),
       order_(plan.steps.order),
       cycles_(plan.cycles),
-      step_size_(plan.step_size / (plan.surface.grid.cell_size * plan.surface.grid.cell_size)),
-      elements_(build_tracked_elements(plan.domain, std::move(plan.surface), plan.cubature)),
+      step_size_(plan.step_size / (plan.clipped.grid.cell_size * plan.clipped.grid.cell_size)),
+      elements_(build_tracked_elements(surface_, std::move(plan.clipped), plan.cubature)),
       multigrid_(elements_, fixed_unknowns(elements_)),
       displacement_(Coefficients::Zero(elements_.finest().unknown_count(), 3)) {
     report_.depth = elements_.grid.depth;
@@ -139,9 +138,13 @@ void PaperFlow::move_vertices(std::vector<Eigen::Vector3d>& positions) const {
     add_at_vertices(elements_, displacement_, positions);
 }
 
-std::vector<double> PaperFlow::mean_curvatures(const SurfaceView& after) {
-    const TriangleMesh mesh{after.positions, after.triangles};
-    return mean_curvatures_of(flow_surface_of(Domain(mesh, BoundaryCondition::Free), {}));
+std::vector<double> PaperFlow::mean_curvatures(const Positions& after) {
+    Positions moved(surface_.mesh_vertices.size());
+    parallel_for_rows(surface_.stars.count(), [&](std::int32_t vertex) {
+        moved[vertex] =
+            (after[surface_.mesh_vertices[vertex]] - surface_.box.center()) / surface_.edge;
+    });
+    return mean_curvatures_of(surface_, moved);
 }
 
 }  // namespace tracked_mcf

@@ -27,7 +27,7 @@ public:
     /// the box's diagonal: the flow obeys a maximum principle, but for the error of the grid.
     bool step() override;
     void move_vertices(std::vector<Eigen::Vector3d>& positions) const override;
-    std::vector<double> mean_curvatures(const SurfaceView& after) override;
+    std::vector<double> mean_curvatures(const Positions& after) override;
 
     const TrackedElements& elements() const { return elements_; }
     /// Returns the coefficients of X_t minus the identity, in grid units.

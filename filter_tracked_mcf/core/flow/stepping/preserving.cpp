@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "filter_tracked_mcf/core/flow/stepping/surface_flow.h"
 #include "filter_tracked_mcf/core/mesh/measures.h"
@@ -13,52 +14,87 @@ namespace tracked_mcf {
 
 namespace {
 
-using Positions = std::vector<Eigen::Vector3d>;
-
-/// The flow ends if components of more than this share of the area would be inflated.
+/// The flow ends if parts of more than this share of the area would be inflated.
 constexpr double kMostInflated = 0.5;
 
-/// The volume that a component has swept, relative to its area times its size. Newton's method
+/// The volume that a part has swept, relative to its area times its size. Newton's method
 /// takes it to the goal in a few steps, unless the flow's step has changed the shape beyond
 /// recovery.
 constexpr double kGoalOfSwept = 1e-13, kMostSwept = 1e-7;
 constexpr int kStepsOfNewton = 10;
 
-/// A component cannot move if a pressure moves it less than this fraction of what it moves a plane.
+/// Parts are specks if they have at most this share of the initial area together.
+constexpr double kMostInSpecks = 0.01;
+
+/// A part cannot move if a pressure moves it less than this fraction of what it moves a plane.
 constexpr double kHardlyMoves = 1e-9;
+
+/// Returns, for each part, the sum of of_triangle(t) over its triangles.
+template <class Value, class OfTriangle>
+std::vector<Value> sums_of_parts(const Surface& surface, const OfTriangle& of_triangle) {
+    using OfPart = std::pair<std::int32_t, Value>;
+    const RawVector<Triangle>& triangles = surface.stars.triangles;
+    // Triangles are sorted by part.
+    const auto of_chunks = parallel_collect<OfPart>(
+        static_cast<std::int64_t>(triangles.size()),
+        [&](std::int64_t begin, std::int64_t end, std::vector<OfPart>& out) {
+            for (std::int64_t i = begin; i < end; ++i) {
+                const std::int32_t part = surface.parts[triangles[i][0]];
+                if (out.empty() || out.back().first != part) out.push_back({part, Value()});
+                out.back().second += of_triangle(triangles[i]);
+            }
+        });
+    std::vector<Value> sums(static_cast<std::size_t>(surface.part_count));
+    for (const auto& [part, sum] : of_chunks) sums[part] += sum;
+    return sums;
+}
 
 }  // namespace
 
-Preserver::Preserver(const FlowSurface& surface, Preserve kind, FlowKind flow)
+Preserver::Measures& Preserver::Measures::operator+=(const Measures& other) {
+    area += other.area;
+    volume += other.volume;
+    centroid += other.centroid;
+    box.extend(other.box);
+    return *this;
+}
+
+Preserver::Swept& Preserver::Swept::operator+=(const Swept& other) {
+    volume += other.volume;
+    rate += other.rate;
+    return *this;
+}
+
+Preserver::Preserver(const Surface& surface, const TriangleMesh& mesh, const Positions& initial,
+                     Preserve kind, FlowKind flow)
     : surface_(surface),
-      before_(surface.positions),
+      mesh_(mesh),
       kind_(kind),
       pushes_(kind == Preserve::Volume && flow == FlowKind::MeanCurvature),
-      initial_(measure(before_)) {
+      initial_(measure(initial)) {
     const double growth =
         flow == FlowKind::Conformalized ? kLargestConformalizedGrowth : kLargestGrowth;
-    for (Measures& component : initial_) {
-        const double sphere = std::sqrt(component.area / kPi);
-        const double half = growth / 2 * std::max(component.box.sizes().maxCoeff(), sphere);
-        component.bounds = {component.box.center().array() - half,
-                            component.box.center().array() + half};
+    for (Measures& part : initial_) {
+        const double sphere = std::sqrt(part.area / kPi);
+        const double half = growth / 2 * std::max(part.box.sizes().maxCoeff(), sphere);
+        part.bounds = {part.box.center().array() - half, part.box.center().array() + half};
     }
 }
 
 std::vector<Preserver::Measures> Preserver::measure(const Positions& positions) const {
-    std::vector<Measures> components(static_cast<std::size_t>(surface_.component_count));
-    for (const Triangle& t : surface_.stars.triangles) {
-        Measures& component = components[surface_.components[t[0]]];
+    // The sums of the centroids are weighted by area.
+    auto parts = sums_of_parts<Measures>(surface_, [&](const Triangle& t) {
         const auto [a, b, c] = corners_of(positions, t);
         const Eigen::Vector3d normal = twice_vector_area(a, b, c) / 2;
-        const double area = normal.norm();
-        component.area += area;
-        component.volume += a.dot(normal) / 3;
-        component.centroid += area / 3 * (a + b + c);
-        for (const Eigen::Vector3d& corner : {a, b, c}) component.box.extend(corner);
-    }
-    for (Measures& component : components) component.centroid /= component.area;
-    return components;
+        Measures of_triangle;
+        of_triangle.area = normal.norm();
+        of_triangle.volume = a.dot(normal) / 3;
+        of_triangle.centroid = of_triangle.area / 3 * (a + b + c);
+        for (const Eigen::Vector3d& corner : {a, b, c}) of_triangle.box.extend(corner);
+        return of_triangle;
+    });
+    for (Measures& part : parts) part.centroid /= part.area;
+    return parts;
 }
 
 void Preserver::pressure(const Positions& positions, Field& pull) const {
@@ -70,7 +106,7 @@ void Preserver::pressure(const Positions& positions, Field& pull) const {
             const auto [a, b, c] = corners_of(positions, stars.triangles[triangle]);
             sum += twice_vector_area(a, b, c) / 6;
         });
-        if (surface_.fixed[vertex] != 0) sum.setZero();
+        if (surface_.held[vertex] != 0) sum.setZero();
         pull.col(vertex) << sum.cast<float>(), 0;
     });
 }
@@ -96,7 +132,7 @@ double Preserver::scale(const std::vector<Measures>& present, Positions& positio
         const bool by_volume = kind_ == Preserve::Volume;
         const double ratio =
             by_volume ? initial_[i].volume / present[i].volume : initial_[i].area / present[i].area;
-        // The ratio is negative if a component has turned inside out.
+        // The ratio is negative if a part has turned inside out.
         const bool vanished = present[i].area <= kVanishedArea * initial_[i].area;
         if (vanished || !(ratio > 0) || !std::isfinite(ratio)) continue;
         const double factor = by_volume ? std::cbrt(ratio) : std::sqrt(ratio);
@@ -110,52 +146,58 @@ double Preserver::scale(const std::vector<Measures>& present, Positions& positio
         }
     }
     parallel_for_rows(surface_.stars.count(), [&](std::int32_t vertex) {
-        const std::int32_t component = surface_.components[vertex];
-        const Eigen::Vector3d& centre = present[component].centroid;
-        if (factors[component] == 1) return;
-        positions[vertex] = centre + factors[component] * (positions[vertex] - centre);
+        const std::int32_t part = surface_.parts[vertex];
+        const Eigen::Vector3d& centre = present[part].centroid;
+        if (factors[part] == 1) return;
+        positions[vertex] = centre + factors[part] * (positions[vertex] - centre);
     });
     return inflated;
 }
 
+std::vector<Preserver::Swept> Preserver::sweep(const Positions& positions,
+                                               const Positions& velocity) const {
+    return sums_of_parts<Swept>(surface_, [&](const Triangle& t) {
+        const auto initial = initial_corners(t), present = corners_of(positions, t);
+        return Swept{swept_volume(initial, present),
+                     swept_volume_rate(initial, present, corners_of(velocity, t))};
+    });
+}
+
 std::optional<double> Preserver::push(const Positions& velocity, Positions& positions) const {
-    const Stars& stars = surface_.stars;
+    const std::int32_t vertices = surface_.stars.count();
     Positions moved = positions;
     std::vector<double> pressures(initial_.size(), 0);
-    double worst = 0;  // swept volume, relative
+    std::vector<double> left(initial_.size(), 0);  // swept volume, relative
     for (int step = 0; step <= kStepsOfNewton; ++step) {
-        std::vector<double> swept(initial_.size(), 0), rate(initial_.size(), 0);
-        for (const Triangle& t : stars.triangles) {
-            const std::int32_t component = surface_.components[t[0]];
-            const auto initial = corners_of(before_, t), present = corners_of(moved, t);
-            swept[component] += swept_volume(initial, present);
-            rate[component] += swept_volume_rate(initial, present, corners_of(velocity, t));
-        }
-        worst = 0;
+        const std::vector<Swept> swept = sweep(moved, velocity);
         std::vector<double> change(initial_.size(), 0);
+        bool goes_on = false;
         for (std::size_t i = 0; i < initial_.size(); ++i) {
             const double area = initial_[i].area;
-            if (std::abs(rate[i]) <= kHardlyMoves * area) continue;
+            if (std::abs(swept[i].rate) <= kHardlyMoves * area) continue;
             const double size = initial_[i].box.sizes().maxCoeff();
-            worst = std::max(worst, std::abs(swept[i]) / (area * size));
-            change[i] = -swept[i] / rate[i];
+            left[i] = std::abs(swept[i].volume) / (area * size);
+            change[i] = -swept[i].volume / swept[i].rate;
+            goes_on = goes_on || left[i] > kGoalOfSwept;
         }
-        if (worst <= kGoalOfSwept || step == kStepsOfNewton) break;
+        if (!goes_on || step == kStepsOfNewton) break;
         for (std::size_t i = 0; i < initial_.size(); ++i) pressures[i] += change[i];
-        parallel_for_rows(stars.count(), [&](std::int32_t vertex) {
-            moved[vertex] += change[surface_.components[vertex]] * velocity[vertex];
+        parallel_for_rows(vertices, [&](std::int32_t vertex) {
+            moved[vertex] += change[surface_.parts[vertex]] * velocity[vertex];
         });
     }
-    if (!(worst <= kMostSwept)) return std::nullopt;
     const std::vector<Measures> restored = measure(moved);
-    double inflated = 0;
+    double initial_area = 0, inflated = 0, not_restored = 0;
     for (std::size_t i = 0; i < initial_.size(); ++i) {
-        if (initial_[i].bounds.contains(restored[i].box)) continue;
-        inflated += initial_[i].area;
+        initial_area += initial_[i].area;
+        const bool is_restored = left[i] <= kMostSwept;
+        if (is_restored && initial_[i].bounds.contains(restored[i].box)) continue;
+        (is_restored ? inflated : not_restored) += initial_[i].area;
         pressures[i] = 0;
     }
-    parallel_for_rows(stars.count(), [&](std::int32_t vertex) {
-        const double pressure = pressures[surface_.components[vertex]];
+    if (not_restored > kMostInSpecks * initial_area) return std::nullopt;
+    parallel_for_rows(vertices, [&](std::int32_t vertex) {
+        const double pressure = pressures[surface_.parts[vertex]];
         if (pressure != 0) positions[vertex] = moved[vertex];
     });
     return inflated;

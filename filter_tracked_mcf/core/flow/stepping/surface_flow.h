@@ -40,24 +40,24 @@ public:
     /// bits.
     virtual void move_vertices(std::vector<Eigen::Vector3d>& positions) const = 0;
 
-    /// Returns the mean curvature at each vertex of the mesh, see mean_curvatures_of(). `after` is
-    /// the mesh with the present positions.
-    virtual std::vector<double> mean_curvatures(const SurfaceView& after) = 0;
+    /// Returns the mean curvature at each vertex of the mesh, see mean_curvatures_of(). `after` has
+    /// the present positions of the mesh's vertices.
+    virtual std::vector<double> mean_curvatures(const Positions& after) = 0;
 
     const FlowReport& report() const { return report_; }
-    /// Returns the part of the mesh that flows.
-    const MovingPart& part() const { return part_; }
+    /// Returns the surface that flows. A flow may have taken its positions.
+    const Surface& surface() const { return surface_; }
 
 protected:
-    /// Sets what the report says of a plan.
-    explicit SurfaceFlow(const Plan& plan);
+    /// Takes the plan's surface, and sets what the report says of the plan.
+    explicit SurfaceFlow(Plan& plan);
 
+    const TriangleMesh& mesh_;
+    Surface surface_;
     FlowReport report_;
 
 private:
     virtual void take_last_step_back() = 0;
-
-    MovingPart part_;
 };
 
 }  // namespace tracked_mcf

@@ -36,7 +36,7 @@ constexpr double kNegligible = 1e-8;
 
 std::vector<std::vector<std::uint8_t>> constrained_unknowns(const TrackedElements& elements) {
     std::vector<std::vector<std::uint8_t>> constrained(elements.levels.size());
-    std::vector<std::uint8_t> marked = elements.meets_constrained_edge;
+    std::vector<std::uint8_t> marked = elements.meets_held_side;
     for (std::size_t l = elements.levels.size(); l-- > 0;) {
         constrained[l] = mark_unknowns(elements.levels[l], marked);
         if (l > 0) marked = mark_parents(elements.levels[l], elements.levels[l - 1], marked);

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "filter_tracked_mcf/core/flow/kernels/kernels.h"
+#include "filter_tracked_mcf/core/flow/kernels/integrate_elements.h"
 #include "filter_tracked_mcf/core/parallel/parallel.h"
 
 namespace tracked_mcf {
@@ -60,7 +60,6 @@ CornerRows product(const TrackedElements& elements, const MatrixBlocks& matrices
 
 void assemble_elements(const TrackedElements& elements, const Coefficients& displacement,
                        double step_size, bool keep_stiffness, ElementSystems& systems) {
-    IntegrateElements& integrate_elements = *kernels().integrate_elements;
     const std::int64_t count = elements.finest().element_count();
     systems.matrices.resize(count);
     systems.right_sides.resize(static_cast<std::size_t>(count));

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 namespace tracked_mcf {
@@ -64,6 +65,16 @@ TEST(Cubature, NodesLieInsideWithPositiveWeights) {
             EXPECT_GT(node.barycentric.minCoeff(), 0);
         }
     }
+}
+
+// The longest side is the first one, so the corner opposite to it is the third.
+TEST(Cubature, FansBeginNearestToTheCornerOppositeToTheLongestSide) {
+    const std::array<Eigen::Vector3d, 3> triangle = {{{0, 0, 0}, {0.9, 0, 0}, {0.4, 0.3, 0}}};
+    Polygon polygon;
+    for (const Eigen::Vector3d& corner : triangle) polygon.points[polygon.size++] = corner;
+    EXPECT_EQ(fan_apex(polygon, triangle), 2);
+    polygon.points[polygon.size++] = triangle[2];
+    EXPECT_EQ(fan_apex(polygon, triangle), 2) << "of two points at one place, the first";
 }
 
 }  // namespace

@@ -7,14 +7,15 @@
 #include <cmath>
 
 #include "filter_tracked_mcf/core/errors.h"
-#include "filter_tracked_mcf/core/mesh/mesh_topology.h"
+#include "filter_tracked_mcf/core/mesh/measures.h"
+#include "tests/support/measures.h"
 #include "tests/support/shapes.h"
 
 namespace tracked_mcf {
 namespace {
 
 ClippedSurface clipped(const TriangleMesh& mesh, int depth) {
-    return clip_to_grid(mesh, enclosing_grid(mesh, depth));
+    return clip_to_grid(mesh, enclosing_grid(bounding_box(mesh), depth));
 }
 
 TEST(Fragments, AreSortedByCellThenByTriangle) {

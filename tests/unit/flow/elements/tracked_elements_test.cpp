@@ -7,6 +7,7 @@
 
 #include "filter_tracked_mcf/core/errors.h"
 #include "tests/support/elements.h"
+#include "tests/support/measures.h"
 #include "tests/support/shapes.h"
 
 namespace tracked_mcf {
@@ -79,7 +80,8 @@ TEST(TrackedElements, UnreferencedVerticesHaveNoElement) {
 
 TEST(TrackedElements, CoincidentVerticesShareTheirLocation) {
     const TriangleMesh soup = shapes::soup(shapes::geodesic_sphere(5));
-    const std::vector<std::int32_t> welded = weld_coincident_vertices(soup);
+    const std::vector<std::int32_t> welded =
+        weld_coincident_vertices(soup, referenced_vertices(soup));
     const TrackedElements elements = build(soup, 4);
     for (std::size_t i = 0; i < welded.size(); ++i) {
         EXPECT_EQ(elements.vertices[i].element, elements.vertices[welded[i]].element);
@@ -90,10 +92,14 @@ TEST(TrackedElements, CoincidentVerticesShareTheirLocation) {
 TEST(TrackedElements, VerticesOfDegenerateTrianglesHaveALocation) {
     TriangleMesh mesh = shapes::geodesic_sphere(4);
     const auto extra = static_cast<std::int32_t>(mesh.positions.size());
-    mesh.positions.emplace_back(0, 0, 0);  // the end of a needle, far from the sphere
-    mesh.triangles.push_back({0, extra, extra});
+    // A needle inside the sphere. A triangle with two equal vertices is none.
+    for (const double x : {0.0, 0.25, 0.5, 0.75}) mesh.positions.emplace_back(x, 0, 0);
+    mesh.triangles.push_back({extra, extra + 1, extra + 3});
+    mesh.triangles.push_back({0, extra + 2, extra + 2});
     const TrackedElements elements = build(mesh, 5);
     EXPECT_NE(elements.vertices[extra].element, VertexLocation::kNoElement);
+    EXPECT_NE(elements.vertices[extra + 1].element, VertexLocation::kNoElement);
+    EXPECT_EQ(elements.vertices[extra + 2].element, VertexLocation::kNoElement);
     expect_area_kept(mesh, elements);
 }
 
@@ -101,6 +107,11 @@ TEST(TrackedElements, IfAllTrianglesAreDegenerateItIsAnError) {
     TriangleMesh mesh;
     mesh.positions = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}};
     mesh.triangles = {{0, 1, 2}, {1, 2, 3}, {0, 0, 3}};
+    EXPECT_THROW(build(mesh, 3), InvalidMesh);
+    // Triangles that do not show beside the distance between them.
+    mesh.positions = {{0, 0, 0}, {1e-12, 0, 0},     {0, 1e-12, 0},
+                      {1, 1, 1}, {1, 1, 1 + 1e-12}, {1, 1 + 1e-12, 1}};
+    mesh.triangles = {{0, 1, 2}, {3, 4, 5}};
     EXPECT_THROW(build(mesh, 3), InvalidMesh);
 }
 
@@ -119,7 +130,7 @@ TEST(TrackedElements, ElementsThatMeetTheBoundaryAreMarked) {
     for (std::int32_t element = 0; element < 64; ++element) {
         const Cell cell = cell_at(elements.finest().cells[element]);
         const bool outer = cell[0] == 0 || cell[0] == 7 || cell[1] == 0 || cell[1] == 7;
-        EXPECT_EQ(elements.meets_constrained_edge[element], outer ? 1 : 0);
+        EXPECT_EQ(elements.meets_held_side[element], outer ? 1 : 0);
     }
 }
 

@@ -6,11 +6,9 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <array>
-#include <string>
 #include <tuple>
 #include <vector>
 
-#include "filter_tracked_mcf/core/flow/kernels/kernels.h"
 #include "filter_tracked_mcf/core/flow/system/matrix_blocks.h"
 #include "tests/unit/flow/equation_4.h"
 #include "tests/unit/flow/kernels/random_surface.h"
@@ -28,8 +26,7 @@ struct Results {
     std::int64_t collapsed = 0;  ///< samples
 };
 
-Results integrate(const Surface& surface, InstructionSet instructions,
-                  bool keep_stiffness = false) {
+Results integrate(const Surface& surface, bool keep_stiffness = false) {
     const std::vector<double> displacement = displacement_array(surface);
     const auto count = static_cast<std::size_t>(surface.element_count());
     Results results = {MatrixBlocks(surface.element_count()),
@@ -43,10 +40,9 @@ Results integrate(const Surface& surface, InstructionSet instructions,
     for (; input.begin < surface.element_count(); input.begin = input.end) {
         input.end = std::min(input.begin + kElementBatch, surface.element_count());
         results.collapsed +=
-            kernels_for(instructions)
-                .integrate_elements(input, {results.matrices.blocks(),
-                                            keep_stiffness ? results.stiffnesses.blocks() : nullptr,
-                                            results.right_sides.data(), results.areas.data()});
+            integrate_elements(input, {results.matrices.blocks(),
+                                       keep_stiffness ? results.stiffnesses.blocks() : nullptr,
+                                       results.right_sides.data(), results.areas.data()});
     }
     return results;
 }
@@ -89,24 +85,21 @@ void expect_equation_4(const Surface& surface, const Results& results) {
     EXPECT_EQ(results.collapsed, collapsed);
 }
 
-class IntegrateElements : public testing::TestWithParam<InstructionSet> {
-protected:
-    void check(const Surface& surface) {
-        expect_equation_4(surface, integrate(surface, GetParam()));
-    }
-};
+void check(const Surface& surface) {
+    expect_equation_4(surface, integrate(surface));
+}
 
-TEST_P(IntegrateElements, EqualTheIntegralsInDouble) {
+TEST(IntegrateElements, EqualTheIntegralsInDouble) {
     check(SurfaceMaker().make());
 }
 
-TEST_P(IntegrateElements, EqualTheIntegralsInDoubleAtRest) {
+TEST(IntegrateElements, EqualTheIntegralsInDoubleAtRest) {
     Surface surface = SurfaceMaker().make();
     for (Matrix83& displacement : surface.displacement) displacement.setConstant(-7);
     check(surface);
 }
 
-TEST_P(IntegrateElements, ReportCollapsedSamples) {
+TEST(IntegrateElements, ReportCollapsedSamples) {
     // Every other element is flat or a point. Samples of a flat element whose normal is in its
     // plane have nearly no area.
     Surface surface = SurfaceMaker().make();
@@ -126,7 +119,7 @@ TEST_P(IntegrateElements, ReportCollapsedSamples) {
     check(surface);
 }
 
-TEST_P(IntegrateElements, KeepTheRightHandSideAccurateWhereTheSurfaceIsCompressed) {
+TEST(IntegrateElements, KeepTheRightHandSideAccurateWhereTheSurfaceIsCompressed) {
     // The matrix is large there, and the right-hand side is not.
     Surface surface = SurfaceMaker().make();
     for (Matrix83& displacement : surface.displacement) {
@@ -137,17 +130,17 @@ TEST_P(IntegrateElements, KeepTheRightHandSideAccurateWhereTheSurfaceIsCompresse
     for (Fragment& fragment : surface.fragments) {
         fragment = {{0, 0.6F, 0.8F}, fragment.sample_count};
     }
-    const Results results = integrate(surface, GetParam());
+    const Results results = integrate(surface);
     for (std::size_t element = 0; element < results.right_sides.size(); ++element) {
         const Matrix83 expected = right_side_for(surface, element);
         EXPECT_LE((right_side_of(results, element) - expected).norm(), 2e-6 * expected.norm());
     }
 }
 
-TEST_P(IntegrateElements, WriteTheStiffnessesAlone) {
+TEST(IntegrateElements, WriteTheStiffnessesAlone) {
     const Surface surface = SurfaceMaker().make();
-    const Results plain = integrate(surface, GetParam());
-    const Results with = integrate(surface, GetParam(), true);
+    const Results plain = integrate(surface);
+    const Results with = integrate(surface, true);
     for (std::size_t element = 0; element < with.areas.size(); ++element) {
         const ElementMatrix whole = with.stiffnesses.of(static_cast<std::int64_t>(element));
         const Matrix8 stiffness =
@@ -163,29 +156,6 @@ TEST_P(IntegrateElements, WriteTheStiffnessesAlone) {
         EXPECT_EQ(with.areas[element], plain.areas[element]);
     }
 }
-
-TEST(InstructionSetsOfFourLanes, GiveTheSameBits) {
-    const std::vector<InstructionSet> available = available_instruction_sets();
-    if (std::count(available.begin(), available.end(), InstructionSet::Ssse3) == 0) {
-        GTEST_SKIP() << "This machine has one alone.";
-    }
-    const Surface surface = SurfaceMaker().make();
-    const Results a = integrate(surface, InstructionSet::Baseline);
-    const Results b = integrate(surface, InstructionSet::Ssse3);
-    EXPECT_EQ(a.areas, b.areas);
-    for (std::size_t element = 0; element < a.areas.size(); ++element) {
-        EXPECT_EQ(right_side_of(a, element), right_side_of(b, element));
-        for (int entry = 0; entry < 64; ++entry) {
-            const auto index = static_cast<std::int64_t>(element);
-            EXPECT_EQ(a.matrices.at(index, entry / 8, entry % 8),
-                      b.matrices.at(index, entry / 8, entry % 8));
-        }
-    }
-}
-
-INSTANTIATE_TEST_SUITE_P(InstructionSets, IntegrateElements,
-                         testing::ValuesIn(available_instruction_sets()),
-                         [](const auto& instance) { return std::string(name_of(instance.param)); });
 
 }  // namespace
 }  // namespace tracked_mcf

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Compares the kernels for element matrices, with every instruction set of this machine, with plain
-// loops in double.
+// Compares the kernels for element matrices with plain loops in double.
 
 #include <gtest/gtest.h>
 
@@ -13,7 +12,9 @@
 #include <vector>
 
 #include "filter_tracked_mcf/core/flow/cells/bspline.h"
-#include "filter_tracked_mcf/core/flow/kernels/kernels.h"
+#include "filter_tracked_mcf/core/flow/kernels/coarsen_elements.h"
+#include "filter_tracked_mcf/core/flow/kernels/element_products.h"
+#include "filter_tracked_mcf/core/flow/kernels/local_systems.h"
 #include "filter_tracked_mcf/core/flow/solver/field.h"
 #include "filter_tracked_mcf/core/flow/system/matrix_blocks.h"
 
@@ -83,10 +84,8 @@ Dense rows(const Field& field) {
     return field.topRows<3>().transpose().cast<double>();
 }
 
-class MatrixKernels : public testing::TestWithParam<InstructionSet> {
+class MatrixKernels : public testing::Test {
 protected:
-    const Kernels& chosen() const { return kernels_for(GetParam()); }
-
     /// Expects that a kernel added exactly this, slots included.
     void expect_added(const Field& before, const Field& after, const Dense& expected) {
         Field sum = after;
@@ -100,32 +99,32 @@ protected:
     Field slots_ = Field::Zero(4, RandomElements::kElsewhere);
 };
 
-TEST_P(MatrixKernels, ProductsEqualThoseOfTheAssembledMatrix) {
+TEST_F(MatrixKernels, ProductsEqualThoseOfTheAssembledMatrix) {
     const Field x = elements_.field();
     const Field before = elements_.field();
     Field y = before;
-    chosen().add_element_products(elements_.range(slots_), elements_.matrices.blocks(), -0.5F,
-                                  x.data(), y.data());
+    add_element_products(elements_.range(slots_), elements_.matrices.blocks(), -0.5F, x.data(),
+                         y.data());
     expect_added(before, y, -0.5 * elements_.assembled() * rows(x));
 }
 
-TEST_P(MatrixKernels, ProductsOfALastBlockWithoutSlots) {
+TEST_F(MatrixKernels, ProductsOfALastBlockWithoutSlots) {
     elements_.target_offsets.back() = ElementRange::kDirect;
     const Field x = elements_.field();
     Field y = Field::Zero(4, RandomElements::kUnknowns);
-    chosen().add_element_products(elements_.range(slots_), elements_.matrices.blocks(), 1, x.data(),
-                                  y.data());
+    add_element_products(elements_.range(slots_), elements_.matrices.blocks(), 1, x.data(),
+                         y.data());
     expect_added(Field::Zero(4, x.cols()), y, elements_.assembled() * rows(x));
 }
 
-TEST_P(MatrixKernels, ProductsOfRangesSumToThatOfTheWhole) {
+TEST_F(MatrixKernels, ProductsOfRangesSumToThatOfTheWhole) {
     const Field x = elements_.field();
     Field y = Field::Zero(4, RandomElements::kUnknowns);
     for (std::int32_t begin = 0; begin < RandomElements::kCount; begin += kBlockElements) {
         ElementRange range = elements_.range(slots_);
         range.begin = begin;
         range.end = std::min(begin + kBlockElements, RandomElements::kCount);
-        chosen().add_element_products(range, elements_.matrices.blocks(), 1, x.data(), y.data());
+        add_element_products(range, elements_.matrices.blocks(), 1, x.data(), y.data());
     }
     expect_added(Field::Zero(4, x.cols()), y, elements_.assembled() * rows(x));
 }
@@ -153,7 +152,7 @@ void expect_zero_padding(const MatrixBlocks& matrices) {
     }
 }
 
-TEST_P(MatrixKernels, AParentsMatrixIsTheSumOverItsChildren) {
+TEST_F(MatrixKernels, AParentsMatrixIsTheSumOverItsChildren) {
     // Every parent has one or two children, and two children are out of order.
     constexpr std::int32_t parents = 19;
     std::vector<std::uint64_t> cells(RandomElements::kCount);
@@ -168,8 +167,8 @@ TEST_P(MatrixKernels, AParentsMatrixIsTheSumOverItsChildren) {
     MatrixBlocks sums = unset(parents);
     const ChildElements elements = {elements_.matrices.blocks(), cells.data(), children.data(),
                                     begins.data()};
-    chosen().coarsen_elements(elements, 0, kBlockElements, sums.blocks());
-    chosen().coarsen_elements(elements, kBlockElements, parents, sums.blocks());
+    coarsen_elements(elements, 0, kBlockElements, sums.blocks());
+    coarsen_elements(elements, kBlockElements, parents, sums.blocks());
     for (std::int32_t parent = 0; parent < parents; ++parent) {
         Matrix8 expected = Matrix8::Zero();
         for (std::int64_t k = begins[parent]; k < begins[parent + 1]; ++k) {
@@ -181,7 +180,7 @@ TEST_P(MatrixKernels, AParentsMatrixIsTheSumOverItsChildren) {
     expect_zero_padding(sums);
 }
 
-TEST_P(MatrixKernels, ALocalInverseWithoutSharedUnknownsIsTheElementsInverse) {
+TEST_F(MatrixKernels, ALocalInverseWithoutSharedUnknownsIsTheElementsInverse) {
     std::vector<float> damping;
     std::iota(elements_.unknowns.begin(), elements_.unknowns.end(), 0);
     for (std::int32_t element = 0; element < RandomElements::kCount; ++element) {
@@ -195,19 +194,15 @@ TEST_P(MatrixKernels, ALocalInverseWithoutSharedUnknownsIsTheElementsInverse) {
     MatrixBlocks inverses = unset(RandomElements::kCount);
     const CoupledElements range = {elements_.unknowns.data(), without_place.data(), 0,
                                    RandomElements::kCount};
-    chosen().sum_couplings(range, elements_.matrices.blocks(), couplings.data());
-    chosen().invert_locally(range, elements_.matrices.blocks(), couplings.data(), damping.data(),
-                            inverses.blocks());
+    sum_couplings(range, elements_.matrices.blocks(), couplings.data());
+    invert_locally(range, elements_.matrices.blocks(), couplings.data(), damping.data(),
+                   inverses.blocks());
     for (std::int32_t element = 0; element < RandomElements::kCount; ++element) {
         const Matrix8 product = whole(inverses, element) * whole(elements_.matrices, element);
         EXPECT_LT((product - damping[element] * Matrix8::Identity()).norm(), 1e-5);
     }
     expect_zero_padding(inverses);
 }
-
-INSTANTIATE_TEST_SUITE_P(InstructionSets, MatrixKernels,
-                         testing::ValuesIn(available_instruction_sets()),
-                         [](const auto& instance) { return std::string(name_of(instance.param)); });
 
 }  // namespace
 }  // namespace tracked_mcf

@@ -21,9 +21,9 @@ constexpr double kSingleRounding = 1e-6;  ///< of sums of some products, relativ
 struct SystemOfMesh {
     explicit SystemOfMesh(const TriangleMesh& mesh,
                           BoundaryCondition boundary = BoundaryCondition::Free)
-        : surface(flow_surface(mesh, boundary)),
+        : surface(surface_of(mesh, {}, boundary)),
           elements(elements_of(surface)),
-          system(surface.stars, surface.fixed) {
+          system(surface.stars, surface.held, surface.parts) {
         system.take(elements, kStepOfSystem);
     }
     SystemOfMesh(const SystemOfMesh&) = delete;
@@ -37,11 +37,11 @@ struct SystemOfMesh {
     /// Returns A x.
     Field product(const Field& x) const {
         Field p = zero(), q = zero();
-        system.advance(x, 0, p, q);
+        advance(system, x, 0, p, q);
         return q;
     }
 
-    FlowSurface surface;
+    Surface surface;
     TriangleElements elements;
     MeshSystem system;
 };
@@ -56,7 +56,7 @@ void expect_close(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b,
 }
 
 /// Returns a surface of the same triangles, squeezed.
-FlowSurface squeezed(FlowSurface surface) {
+Surface squeezed(Surface surface) {
     for (Eigen::Vector3d& position : surface.positions) {
         position = position.cwiseProduct(Eigen::Vector3d(1, 0.7, 0.4));
     }
@@ -69,13 +69,13 @@ TEST(MeshSystem, MultipliesLikeADenseMatrix) {
     const Field first = random_at_vertices(of.surface, 1),
                 second = random_at_vertices(of.surface, 2);
     Field p = of.zero(), q = of.zero();
-    double energy = of.system.advance(first, 0, p, q);
+    double energy = advance(of.system, first, 0, p, q);
     EXPECT_EQ(p, first);
     expect_close(rows_of(q), a * rows_of(first));
     EXPECT_NEAR(energy, rows_of(first).cwiseProduct(a * rows_of(first)).sum(),
                 kSingleRounding * energy);
 
-    energy = of.system.advance(second, 0.5F, p, q);
+    energy = advance(of.system, second, 0.5F, p, q);
     const Field sum = second + 0.5F * first;
     EXPECT_EQ(p, sum);
     expect_close(rows_of(q), a * rows_of(sum));
@@ -92,7 +92,7 @@ TEST(MeshSystem, MultipliesConstantsByTheLumpedMass) {
         EXPECT_NEAR(product(0, vertex), of.system.mass(vertex), 1e-5);
         sum += double{of.system.mass(vertex)};
     }
-    for (const TriangleElement& element : of.elements) area += 3 * double{element.mass};
+    for (const TriangleElement<float>& element : of.elements) area += 3 * double{element.mass};
     EXPECT_NEAR(sum, area, kSingleRounding * area);
 }
 
@@ -122,42 +122,53 @@ TEST(MeshSystem, ResidualIsThatOfADenseMatrix) {
     const SystemOfMesh of(closed_mesh());
     const Eigen::MatrixXd a = of.dense();
     const Field b = random_at_vertices(of.surface, 1);
-    Field residual;
-    of.system.residual(b, of.surface.positions, residual);
-    expect_close(rows_of(residual), rows_of(b) - a * rows_of(of.surface.positions));
+    expect_close(rows_of(residual_of(of.system, b, of.surface.positions)),
+                 rows_of(b) - a * rows_of(of.surface.positions));
 
     const Eigen::MatrixXd solution = a.llt().solve(rows_of(b));
     std::vector<Eigen::Vector3d> x(of.surface.positions.size());
     for (std::size_t i = 0; i < x.size(); ++i) {
         x[i] = solution.row(static_cast<Eigen::Index>(i)).transpose();
     }
-    of.system.residual(b, x, residual);
-    EXPECT_LT(norm(residual), kSingleRounding * norm(b));
+    EXPECT_LT(norm(residual_of(of.system, b, x)), kSingleRounding * norm(b));
 }
 
 TEST(MeshSystem, KeepsZeroRowsAtVerticesThatStay) {
     const SystemOfMesh of(bumpy_cap(12), BoundaryCondition::Locked);
-    ASSERT_GT(of.surface.constrained_count, 10);
+    ASSERT_GT(std::count(of.surface.held.begin(), of.surface.held.end(), 1), 10);
     const Eigen::MatrixXd a = of.dense();
     const Field x = random_at_vertices(of.surface, 1);
     // A right-hand side that is not zero at vertices that stay must not matter.
     const Field everywhere = Field::Constant(4, of.surface.stars.count(), 1);
-    Field product, residual, z = of.zero();
+    Field product, z = of.zero();
     of.system.multiply_stiffness(of.surface.positions, 1, product);
-    of.system.residual(everywhere, of.surface.positions, residual);
-    of.system.relax(0, std::min(of.surface.stars.count(), 1024), everywhere, z);
+    const Field residual = residual_of(of.system, everywhere, of.surface.positions);
+    of.system.relax(of.system.blocks()[0], everywhere, z);
     const Field multiplied = of.product(x);
     for (std::int32_t vertex = 0; vertex < of.surface.stars.count(); ++vertex) {
-        if (of.surface.fixed[vertex] == 0) continue;
-        EXPECT_TRUE(of.system.is_fixed(vertex));
+        if (of.surface.held[vertex] == 0) continue;
+        EXPECT_TRUE(of.system.is_held(vertex));
         for (const Field& field : {product, residual, z, multiplied}) {
             EXPECT_TRUE(field.col(vertex).isZero(0));
         }
     }
-    expect_close(rows_of(multiplied), without_fixed_rows(of.surface, a * rows_of(x)));
+    expect_close(rows_of(multiplied), without_held_rows(of.surface, a * rows_of(x)));
     expect_close(
         rows_of(residual),
-        without_fixed_rows(of.surface, rows_of(everywhere) - a * rows_of(of.surface.positions)));
+        without_held_rows(of.surface, rows_of(everywhere) - a * rows_of(of.surface.positions)));
+}
+
+TEST(MeshSystem, SolvesAPartOfAFewRows) {
+    for (const auto boundary : {BoundaryCondition::Free, BoundaryCondition::Locked}) {
+        const SystemOfMesh of(noisy(shapes::square(3), 0.05), boundary);
+        ASSERT_EQ(of.surface.stars.count(), MeshSystem::kFewRows);
+        const Field b = random_at_vertices(of.surface, 1);
+        std::vector<Eigen::Vector3d> x(of.surface.positions.size());
+        of.system.solve(of.system.blocks()[0], b, x);
+        EXPECT_LT(norm(residual_of(of.system, b, x)), kSingleRounding * norm(b));
+        for (std::size_t i = 0; i < x.size(); ++i)
+            EXPECT_EQ(x[i].isZero(0), of.surface.held[i] != 0);
+    }
 }
 
 /// Returns E such that (E + U)ᵀ E⁻¹ (E + U) has the diagonal of a block, but no less than `least`.
@@ -180,15 +191,16 @@ int expect_factorised_blocks(const SystemOfMesh& of) {
     // Rows of another block must not matter.
     Field z = Field::Constant(4, of.surface.stars.count(), std::numeric_limits<float>::quiet_NaN());
     int limited = 0;
-    for (const std::int32_t begin : {1024, 0}) {
-        const std::int32_t end = std::min(of.surface.stars.count(), begin + 1024);
-        const double product = of.system.relax(begin, end, r, z);
+    for (std::int32_t number = of.system.blocks().count(); number-- > 0;) {
+        const PartBlocks::Block& rows_of_block = of.system.blocks()[number];
+        const std::int32_t begin = rows_of_block.begin, end = rows_of_block.end;
+        const double product = of.system.relax(rows_of_block, r, z);
         Eigen::MatrixXd block = a.block(begin, begin, end - begin, end - begin);
         Eigen::MatrixXd upper = block.triangularView<Eigen::StrictlyUpper>();
         Eigen::VectorXd least = upper.cwiseAbs().rowwise().sum();
         for (std::int32_t row = begin; row < end; ++row) {
             least[row - begin] += double{of.system.mass(row)};
-            if (of.surface.fixed[row] == 0) continue;
+            if (of.surface.held[row] == 0) continue;
             block.row(row - begin).setZero();
             block.col(row - begin).setZero();
             block(row - begin, row - begin) = 1;
@@ -226,7 +238,7 @@ TEST(MeshSystem, PivotsDominateTheirRowsWhereTrianglesAreObtuse) {
 
 TEST(MeshSystem, KeepsTheStiffnessOfTheCallBefore) {
     SystemOfMesh of(closed_mesh());
-    const FlowSurface other = squeezed(of.surface);
+    const Surface other = squeezed(of.surface);
     const TriangleElements elements = elements_of(other);
     Field before, after;
     of.system.multiply_stiffness(of.surface.positions, 1, before);
@@ -253,7 +265,7 @@ TEST(MeshSystem, MassesKeepASmallPartOfTheFirstOnesIfTheSurfaceVanishes) {
     SystemOfMesh of(closed_mesh());
     std::vector<float> first(of.surface.positions.size());
     for (std::int32_t i = 0; i < of.surface.stars.count(); ++i) first[i] = of.system.mass(i);
-    FlowSurface vanished = of.surface;
+    Surface vanished = of.surface;
     for (Eigen::Vector3d& position : vanished.positions) position = {1, 2, 3};
     for (const bool takes_stiffness : {true, false}) {
         of.system.take(elements_of(vanished), kStepOfSystem, takes_stiffness);

@@ -18,9 +18,9 @@ namespace {
 struct OctreeOfMesh {
     OctreeOfMesh(const TriangleMesh& mesh, int depth,
                  BoundaryCondition boundary = BoundaryCondition::Free, double step = 1)
-        : surface(flow_surface(mesh, boundary)),
+        : surface(surface_of(mesh, {}, boundary)),
           elements(elements_of(surface)),
-          system(surface.stars, surface.fixed),
+          system(surface.stars, surface.held, surface.parts),
           grid(grid_around(surface.positions, depth)),
           octree(surface.stars, surface.positions, grid) {
         system.take(elements, step);
@@ -45,8 +45,15 @@ struct OctreeOfMesh {
     }
     Field prolongated(const Field& coarse) const {
         Field x = Field::Zero(4, surface.stars.count());
-        octree.add_prolongated(system, coarse, x);
+        add_prolongated(coarse, x, x);
         return x;
+    }
+    /// Adds P coarse to x. Returns r · P coarse.
+    double add_prolongated(const Field& coarse, const Field& r, Field& x) const {
+        double product = 0;
+        for (std::int32_t i = 0; i < system.blocks().count(); ++i)
+            product += octree.add_prolongated(system, system.blocks()[i], coarse, r, x);
+        return product;
     }
     Field random_coefficients() const {
         std::mt19937 random(3);
@@ -58,7 +65,7 @@ struct OctreeOfMesh {
     /// Returns x · A x.
     double energy(const Field& x) const {
         Field p = Field::Zero(4, x.cols()), q = p;
-        return system.advance(x, 0, p, q);
+        return advance(system, x, 0, p, q);
     }
     /// Returns c · (sum of the elements' matrices) c.
     double assembled_energy(const Field& c) {
@@ -68,7 +75,7 @@ struct OctreeOfMesh {
         return rows.cwiseProduct(assembled(octree.finest(), matrices) * rows).sum();
     }
 
-    FlowSurface surface;
+    Surface surface;
     TriangleElements elements;
     MeshSystem system;
     Grid grid;
@@ -92,13 +99,12 @@ TEST(VertexOctree, ValuesSumToOne) {
 
 TEST(VertexOctree, AddsToWhatIsThereButNotAtVerticesThatStay) {
     OctreeOfMesh of(bumpy_cap(20), 4, BoundaryCondition::Locked);
-    ASSERT_GT(of.surface.constrained_count, 10);
+    ASSERT_GT(std::count(of.surface.held.begin(), of.surface.held.end(), 1), 10);
     const Field before = Field::Random(4, of.surface.stars.count());
     Field x = before;
-    of.octree.add_prolongated(of.system, Field::Constant(4, of.octree.finest().unknown_count(), 1),
-                              x);
+    of.add_prolongated(Field::Constant(4, of.octree.finest().unknown_count(), 1), before, x);
     for (std::int32_t i = 0; i < of.surface.stars.count(); ++i) {
-        const float added = of.surface.fixed[i] != 0 ? 0 : 1;
+        const float added = of.surface.held[i] != 0 ? 0 : 1;
         const Eigen::Vector4f expected = before.col(i).array() + added;
         EXPECT_LT((x.col(i) - expected).norm(), added * 1e-6F + 1e-30F);
     }
@@ -113,8 +119,31 @@ TEST(VertexOctree, RestrictsByTheTransposeOfTheProlongation) {
         ASSERT_EQ(restricted.cols(), of.octree.finest().unknown_count());
         const Field prolongated = of.prolongated(c);
         const Eigen::Vector4d fine = dot(r, prolongated), coarse = dot(restricted, c);
-        EXPECT_LT((fine - coarse).norm(), 1e-6 * norm(r) * norm(prolongated));
+        const double rounding = 1e-6 * norm(r) * norm(prolongated);
+        EXPECT_LT((fine - coarse).norm(), rounding);
+        Field x = r;
+        EXPECT_NEAR(of.add_prolongated(c, r, x), fine.sum(), rounding);
     }
+}
+
+TEST(VertexOctree, LeavesPartsOut) {
+    const TriangleMesh sphere = shapes::bumpy_sphere(20);
+    const Eigen::Affine3d beside(Eigen::Translation3d(1e5, 0, 0));
+    const OctreeOfMesh one(sphere, 4);
+    const Surface both =
+        surface_of(shapes::merged(sphere, shapes::transformed(shapes::bumpy_sphere(4), beside)));
+    std::vector<std::uint8_t> has_functions(both.positions.size());
+    std::vector<Eigen::Vector3d> inside;
+    for (std::size_t i = 0; i < has_functions.size(); ++i) {
+        if (both.parts[i] != both.parts[both.vertices[0]]) continue;
+        has_functions[i] = 1;
+        inside.push_back(both.positions[i]);
+    }
+    const VertexOctree octree(both.stars, both.positions, grid_around(inside, 4), has_functions);
+    EXPECT_EQ(octree.finest().cells, one.octree.finest().cells);
+    EXPECT_EQ(octree.finest().unknown_count(), one.octree.finest().unknown_count());
+    for (std::int32_t i = 0; i < both.stars.count(); ++i)
+        EXPECT_EQ(octree.has_functions(i), has_functions[i] != 0);
 }
 
 TEST(VertexOctree, CloseSheetsHaveFunctionsOfTheirOwn) {
@@ -128,13 +157,13 @@ TEST(VertexOctree, CloseSheetsHaveFunctionsOfTheirOwn) {
 
     Field on_one = Field::Zero(4, two.surface.stars.count());
     for (std::int32_t i = 0; i < on_one.cols(); ++i) {
-        if (two.surface.components[i] == 0) on_one.col(i).setOnes();
+        if (two.surface.parts[i] == 0) on_one.col(i).setOnes();
     }
     Field coarse;
     two.octree.restrict(on_one, coarse);
     const Field there_and_back = two.prolongated(coarse);
     for (std::int32_t i = 0; i < on_one.cols(); ++i) {
-        EXPECT_EQ(there_and_back(0, i) != 0, two.surface.components[i] == 0);
+        EXPECT_EQ(there_and_back(0, i) != 0, two.surface.parts[i] == 0);
     }
 }
 

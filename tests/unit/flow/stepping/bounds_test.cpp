@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "filter_tracked_mcf/core/mesh/measures.h"
+#include "tests/support/measures.h"
 #include "tests/support/shapes.h"
 #include "tests/unit/flows.h"
 

@@ -39,7 +39,7 @@ TEST(Conformalized, TheStiffnessIsOfTheInitialMetricAndTheMassOfThePresentOne) {
     p.tolerance = 1e-8;
     const TriangleMesh after = evolved(mesh, p);
     p.iterations = 1;
-    const FlowSurface initial = flow_surface(mesh);
+    const Surface initial = surface_of(mesh);
     // In the units and the order of the initial surface.
     const auto positions_of = [&](const TriangleMesh& moved) {
         std::vector<Eigen::Vector3d> positions(initial.positions.size());

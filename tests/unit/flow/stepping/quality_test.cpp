@@ -75,6 +75,46 @@ TEST(Quality, MeanCurvatureOfASphereIsOneOverItsRadius) {
     expect_all_near(quality_of(sphere(), p), 1 / kRadius, 0.05 / kRadius);
 }
 
+TEST(Quality, MeanCurvatureOfABandWithoutInnerVertices) {
+    FlowParameters p = measuring(Quality::MeanCurvature);
+    p.boundary = BoundaryCondition::Locked;  // nothing moves
+    expect_all_near(quality_of(shapes::tube(100, 1, 0.1), p), 0.5, 1e-3);
+    expect_all_near(quality_of(shapes::annulus(100, 1, 0.9, 1), p), 0, 1e-6);
+}
+
+TEST(Quality, MeanCurvatureIsContinuedToVerticesFarFromTheInside) {
+    // A ribbon of one quad's width, which only touches the inside with its beginning.
+    TriangleMesh mesh = shapes::square(4);
+    for (Eigen::Vector3d& position : mesh.positions) position *= 4;
+    const auto vertex_at = [&](double x, double y) {
+        const auto is_there = [&](const Eigen::Vector3d& p) {
+            return (p - Eigen::Vector3d(x, y, 0)).norm() < 1e-9;
+        };
+        const auto found = std::find_if(mesh.positions.begin(), mesh.positions.end(), is_there);
+        return static_cast<std::int32_t>(found - mesh.positions.begin());
+    };
+    std::int32_t low = vertex_at(4, 2), high = vertex_at(4, 3);
+    for (int i = 1; i <= 20; ++i) {
+        const auto next = static_cast<std::int32_t>(mesh.positions.size());
+        mesh.positions.emplace_back(4 + i, 2, 0);
+        mesh.positions.emplace_back(4 + i, 3, 0);
+        mesh.triangles.push_back({low, next, next + 1});
+        mesh.triangles.push_back({low, next + 1, high});
+        low = next;
+        high = next + 1;
+    }
+    // Bent at the seam to the ribbon only.
+    for (Eigen::Vector3d& position : mesh.positions) {
+        if (position.x() <= 4) position.z() = 0.1 * position.x() * position.x();
+    }
+    FlowParameters p = measuring(Quality::MeanCurvature);
+    p.step_size = 1e-9;
+    p.boundary = BoundaryCondition::Free;
+    const std::vector<double> curvature = quality_of(mesh, p);
+    EXPECT_LT(curvature.back(), -0.05) << "as inside";
+    EXPECT_LT(curvature[mesh.positions.size() - 20], -0.05);
+}
+
 TEST(Quality, MeanCurvatureIsThatOfTheSurfaceIfItsFirstStepIsTakenBack) {
     FlowParameters p = measuring(Quality::MeanCurvature);
     p.step_size = 1000;

@@ -29,7 +29,9 @@ TEST(Stop, UndoesTheStepInWhichASphereVanishes) {
             // A flow of just the reported steps gives the same mesh: the vanishing step was undone.
             TriangleMesh until_then = sphere;
             p.iterations = static_cast<int>(report.steps.size());
-            EXPECT_EQ(evolve(until_then, p).stop, Stop::None);
+            const FlowReport of_just_these = evolve(until_then, p);
+            EXPECT_EQ(of_just_these.stop, Stop::None);
+            EXPECT_EQ(of_just_these.detail_size, report.detail_size);
             EXPECT_TRUE(same_bits(mesh, until_then));
             // The vanishing step is undone also if it is the last step.
             TriangleMesh just = sphere;
@@ -49,6 +51,7 @@ TEST(Stop, UndoesAFirstStepInWhichTheSurfaceVanishes) {
         const FlowReport report = evolve(mesh, p);
         EXPECT_EQ(report.stop, Stop::Vanished);
         EXPECT_TRUE(report.steps.empty());
+        EXPECT_EQ(report.detail_size, 0);
         EXPECT_EQ(report.area_after, report.area_before);
         EXPECT_TRUE(same_bits(mesh, sphere));
     }

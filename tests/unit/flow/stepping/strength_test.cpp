@@ -171,8 +171,7 @@ TEST(Strength, RefusesNumbersOutsideItsRangeAndLeavesTheMeshAsItWas) {
         }
         return "nothing";
     };
-    EXPECT_EQ(refused({1, 1, 1.5}),
-              "The strength of vertex 2 is 1.500000; give numbers from 0 to 1.");
+    EXPECT_EQ(refused({1, 1, 1.5}), "The strength of vertex 2 is 1.5; give numbers from 0 to 1.");
     EXPECT_NE(refused({-1e-9}), "nothing");
     EXPECT_NE(refused({std::numeric_limits<double>::quiet_NaN()}), "nothing");
     EXPECT_EQ(refused({}), "There are 251 strengths for the 252 vertices; give one for each.");

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "filter_tracked_mcf/core/evolve.h"
-#include "filter_tracked_mcf/core/flow/cells/grid.h"
+#include "filter_tracked_mcf/core/mesh/grid.h"
 #include "tests/support/shapes.h"
 #include "tests/unit/flows.h"
 
