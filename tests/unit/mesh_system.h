@@ -55,20 +55,32 @@ inline Eigen::MatrixXd dense_stiffness(const Stars& stars, const TriangleElement
     return stiffness;
 }
 
-/// Sets p = z + keep * p and q = A p, given q = A p before. Returns p · q.
-inline double advance(const MeshSystem& system, const Field& z, float keep, Field& p, Field& q) {
-    double product = 0;
-    for (std::int32_t i = 0; i < system.blocks().count(); ++i)
-        product += system.advance(system.blocks()[i], z, keep, p, q);
+/// Returns the rows of a system that are eliminated together, in the order of their elimination.
+inline std::vector<Elimination::Rows> rows_in_order(const MeshSystem& system) {
+    const Elimination& elimination = system.elimination();
+    std::vector<Elimination::Rows> rows;
+    for (std::int32_t block = 0; block < system.blocks().count(); ++block)
+        rows.push_back(elimination.inside(block));
+    for (const auto& separators : elimination.later_stages()) {
+        for (const Elimination::Separator& separator : separators) rows.push_back(separator.rows);
+    }
+    return rows;
+}
+
+/// Returns A x.
+inline Field product_of(const MeshSystem& system, const Field& x) {
+    Field other = Field::Zero(4, x.cols()), p = other, product = other;
+    for (const Elimination::Rows& rows : rows_in_order(system))
+        system.advance(rows, {}, x, other, p, product);
     return product;
 }
 
-/// Returns b - A x.
+/// Returns b / unit - A x.
 inline Field residual_of(const MeshSystem& system, const Field& b,
-                         const std::vector<Eigen::Vector3d>& x) {
+                         const std::vector<Eigen::Vector3d>& x, double unit = 1) {
     Field residual(4, b.cols());
     for (std::int32_t i = 0; i < system.blocks().count(); ++i)
-        system.residual(system.blocks()[i], b, x, residual);
+        system.residual(system.blocks()[i], b, unit, x, residual);
     return residual;
 }
 

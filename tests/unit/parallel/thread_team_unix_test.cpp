@@ -94,7 +94,8 @@ TEST(ThreadTeam, SleepsWhileItHasNothingToDo) {
     });
     std::this_thread::sleep_for(std::chrono::milliseconds(300));
     const double processor_seconds = double(std::clock() - begin) / CLOCKS_PER_SEC;
-    EXPECT_LT(processor_seconds, 0.1) << "threads that spin take 0.3 s or more";
+    // A busy machine starts threads slowly, above all with sanitizers.
+    EXPECT_LT(processor_seconds, 0.25) << "threads that spin take 0.3 s or more";
 }
 
 TEST(ThreadTeam, StaysSmallerIfTheSystemRefusesThreads) {

@@ -120,32 +120,41 @@ void MeshSolver::for_each_active(const Body& body) {
     });
 }
 
+template <class Body>
+void MeshSolver::for_each_active(const Separators& separators, const Body& body) {
+    parallel_for(static_cast<std::int64_t>(separators.size()), [&](std::int64_t i) {
+        const Part& part = parts_[separators[i].part];
+        if (part.is_active) body(part, i);
+    });
+}
+
+template <class Body>
+void MeshSolver::sum_over(const Separators& separators, double Part::*sum, const Body& body) {
+    std::vector<double> sums(separators.size(), 0);
+    for_each_active(separators,
+                    [&](const Part& /*part*/, std::int64_t i) { sums[i] = body(separators[i]); });
+    for (std::size_t i = 0; i < sums.size(); ++i) parts_[separators[i].part].*sum += sums[i];
+}
+
 double MeshSolver::sum_of(std::int32_t part) const {
     const auto [first, last] = system_.blocks().of_part(part);
     return std::accumulate(sums_.begin() + first, sums_.begin() + last, 0.0);
 }
 
-double MeshSolver::scale(const Field& b) {
+double MeshSolver::choose_units(const Field& b) {
     const PartBlocks& blocks = system_.blocks();
     blocks.for_each([&](std::int32_t block) { sums_[block] = squared_norm(blocks[block], b); });
-    for (std::int32_t part = 0; part < blocks.part_count(); ++part) {
+    for (std::int32_t part = 0; part < blocks.part_count(); ++part)
         parts_[part].unit = power_of_two_of(std::sqrt(sum_of(part)));
-    }
-    b_.resize(4, b.cols());
-    blocks.for_each([&](std::int32_t number) {
-        const Block& block = blocks[number];
-        const auto factor = static_cast<float>(1 / parts_[block.part].unit);
-        const Eigen::Index rows = block.end - block.begin;
-        b_.middleCols(block.begin, rows) = factor * b.middleCols(block.begin, rows);
-    });
     return std::sqrt(std::accumulate(sums_.begin(), sums_.end(), 0.0));
 }
 
-void MeshSolver::begin() {
-    for_each_active([&](const Part& /*part*/, std::int32_t number) {
+void MeshSolver::begin(const Field& b) {
+    for_each_active([&](const Part& part, std::int32_t number) {
         const Block& block = system_.blocks()[number];
         const Eigen::Index rows = block.end - block.begin;
-        r_.middleCols(block.begin, rows) = b_.middleCols(block.begin, rows);
+        const auto factor = static_cast<float>(1 / part.unit);
+        r_.middleCols(block.begin, rows) = factor * b.middleCols(block.begin, rows);
     });
     precondition_positively();
     for (const std::int32_t part : active_) parts_[part].first = parts_[part].square;
@@ -177,21 +186,35 @@ void MeshSolver::mend_octree(const Parts& failed) {
 
 void MeshSolver::precondition(bool moves) {
     const PartBlocks& blocks = system_.blocks();
+    const Elimination& elimination = system_.elimination();
     for_each_active([&](const Part& part, std::int32_t number) {
         const Block& block = blocks[number];
         if (moves) {
-            for (std::int32_t row = block.begin; row < block.end; ++row) {
-                x_.col(row) += part.step * p_.col(row);
-                r_.col(row) -= part.step * q_.col(row);
-            }
+            for (std::int32_t row = block.begin; row < block.end; ++row)
+                r_.col(row) -= part.search.step * q_.col(row);
         }
-        sums_[number] = system_.relax(block, r_, z_);
+        sums_[number] = system_.solve_lower(elimination.inside(number), r_, z_);
     });
     for (const std::int32_t part : active_) parts_[part].square = sum_of(part);
-    const Parts with_octree = choose(active_, [](const Part& part) { return part.has_octree; });
+    for (const Separators& separators : elimination.later_stages()) {
+        sum_over(separators, &Part::square, [&](const Elimination::Separator& separator) {
+            return system_.solve_lower(separator.rows, r_, z_);
+        });
+    }
+    const auto has_octree = [](const Part& part) { return part.has_octree; };
+    const Parts with_octree = choose(active_, has_octree);
     if (with_octree.empty()) return;
+    solve_upper_at_separators(has_octree);
+    for_each_active([&](const Part& part, std::int32_t block) {
+        if (part.has_octree) system_.solve_upper(elimination.inside(block), z_);
+    });
+    precondition_by_octree(with_octree);
+}
+
+void MeshSolver::precondition_by_octree(const Parts& with_octree) {
     octree_->restrict(r_, coarse_b_);
     multigrid_->cycle(coarse_b_, coarse_x_);
+    const PartBlocks& blocks = system_.blocks();
     for_each_active([&](const Part& part, std::int32_t block) {
         if (part.has_octree)
             sums_[block] = octree_->add_prolongated(system_, blocks[block], coarse_x_, r_, z_);
@@ -204,6 +227,38 @@ void MeshSolver::precondition(bool moves) {
     }
 }
 
+template <class Wanted>
+void MeshSolver::solve_upper_at_separators(const Wanted& wanted) {
+    const auto& stages = system_.elimination().later_stages();
+    for (auto separators = stages.rbegin(); separators != stages.rend(); ++separators) {
+        for_each_active(*separators, [&](const Part& part, std::int64_t i) {
+            if (wanted(part)) system_.solve_upper((*separators)[i].rows, z_);
+        });
+    }
+}
+
+void MeshSolver::search() {
+    const Elimination& elimination = system_.elimination();
+    solve_upper_at_separators([](const Part& part) { return !part.has_octree; });
+    // Rows inside of a block have neighbours in this block and at separators only.
+    for_each_active([&](const Part& part, std::int32_t block) {
+        const Elimination::Rows rows = elimination.inside(block);
+        if (!part.has_octree) system_.solve_upper(rows, z_);
+        sums_[block] = system_.advance(rows, part.search, z_, x_, p_, q_);
+    });
+    for (const std::int32_t part : active_) parts_[part].energy = sum_of(part);
+    for (const Separators& separators : elimination.later_stages()) {
+        sum_over(separators, &Part::energy, [&](const Elimination::Separator& separator) {
+            return system_.advance(separator.rows, parts_[separator.part].search, z_, x_, p_, q_);
+        });
+    }
+    for (const std::int32_t number : active_) {
+        Part& part = parts_[number];
+        part.search.is_first = false;
+        part.search.step = part.energy > 0 ? static_cast<float>(part.square / part.energy) : 0;
+    }
+}
+
 double MeshSolver::reduction_left() const {
     double most = 1;
     for (const std::int32_t part : active_)
@@ -212,27 +267,17 @@ double MeshSolver::reduction_left() const {
 }
 
 void MeshSolver::descend() {
-    set_zero(x_, r_.cols());
-    set_zero(p_, r_.cols());
-    set_zero(q_, r_.cols());
-    for (const std::int32_t part : active_) parts_[part].keep = 0;
+    for (const std::int32_t part : active_) parts_[part].search = {};
     const double start = reduction_left();
     while (!active_.empty()) {
-        for_each_active([&](const Part& part, std::int32_t block) {
-            sums_[block] = system_.advance(system_.blocks()[block], z_, part.keep, p_, q_);
-        });
-        for (const std::int32_t number : active_) {
-            Part& part = parts_[number];
-            const double energy = sum_of(number);
-            part.step = energy > 0 ? static_cast<float>(part.square / energy) : 0;
-            part.previous = part.square;
-        }
-        keep_active([](const Part& part) { return part.step > 0; });
+        search();
+        keep_active([](const Part& part) { return part.search.step > 0; });
+        for (const std::int32_t part : active_) parts_[part].previous = parts_[part].square;
         precondition(true);
         for (const std::int32_t number : active_) {
             Part& part = parts_[number];
             ++part.iterations;
-            part.keep = static_cast<float>(part.square / part.previous);
+            part.search.beta = static_cast<float>(part.square / part.previous);
         }
         keep_active([](const Part& part) {
             return part.square > part.limit && part.iterations < part.most;
@@ -273,13 +318,13 @@ double MeshSolver::finish(std::vector<Eigen::Vector3d>& x) {
     return std::sqrt(std::accumulate(sums_.begin(), sums_.end(), 0.0));
 }
 
-void MeshSolver::solve_tiny_parts(std::vector<Eigen::Vector3d>& x) {
+void MeshSolver::solve_tiny_parts(const Field& b, std::vector<Eigen::Vector3d>& x) {
     Parts all = active_;
     keep_active([](const Part& part) { return part.is_tiny; });
-    for_each_active([&](const Part& /*part*/, std::int32_t number) {
+    for_each_active([&](const Part& part, std::int32_t number) {
         const Block& block = system_.blocks()[number];
-        system_.solve(block, b_, x);
-        system_.residual(block, b_, x, r_);
+        system_.solve(block, b, part.unit, x);
+        system_.residual(block, b, part.unit, x, r_);
     });
     precondition_positively();
     activate(std::move(all));
@@ -289,16 +334,16 @@ MeshConvergence MeshSolver::solve(const Field& b, double tolerance,
                                   std::vector<Eigen::Vector3d>& x) {
     const PartBlocks& blocks = system_.blocks();
     MeshConvergence result;
-    result.residual_before = scale(b);
-    r_.resize(4, b.cols());
-    z_.resize(4, b.cols());
+    result.residual_before = choose_units(b);
+    for (Field* const field : {&x_, &r_, &p_, &q_}) field->resize(4, b.cols());
+    set_zero(z_, b.cols());  // entries that are 0 must not meet a number that is none
     x.assign(static_cast<std::size_t>(b.cols()), Eigen::Vector3d::Zero());
     Parts all(parts_.size());
     std::iota(all.begin(), all.end(), 0);
     for (Part& part : parts_) part.iterations = 0;
     activate(std::move(all));
-    begin();
-    solve_tiny_parts(x);
+    begin(b);
+    solve_tiny_parts(b, x);
     const bool refines = tolerance < kSinglePrecision;
     const auto goal = [&](const Part& part) { return tolerance * tolerance * part.first; };
     keep_active([&](const Part& part) { return !part.is_tiny && part.square > goal(part); });
@@ -314,22 +359,24 @@ MeshConvergence MeshSolver::solve(const Field& b, double tolerance,
         }
         descend();
         activate(round);
-        for_each_active([&](const Part& /*part*/, std::int32_t block) {
-            for (std::int32_t row = blocks[block].begin; row < blocks[block].end; ++row)
-                x[row] += x_.col(row).head<3>().cast<double>();
+        for_each_active([&](const Part& part, std::int32_t block) {
+            for (std::int32_t row = blocks[block].begin; row < blocks[block].end; ++row) {
+                const Eigen::Vector4f sum = x_.col(row) + part.search.step * p_.col(row);
+                x[row] += sum.head<3>().cast<double>();
+            }
         });
         keep_active([](const Part& part) {
             return part.has_octree && !(part.square >= 0 && part.square <= part.limit);
         });
         if (!active_.empty()) {
             mend_octree(active_);
-            begin();
+            begin(b);
         }
         activate(choose(round, [&](const Part& part) {
             return part.is_mended || (refines && part.iterations < kMostMeshIterations);
         }));
-        for_each_active([&](const Part& /*part*/, std::int32_t block) {
-            system_.residual(blocks[block], b_, x, r_);
+        for_each_active([&](const Part& part, std::int32_t block) {
+            system_.residual(blocks[block], b, part.unit, x, r_);
         });
         precondition_positively();
         keep_active([&](const Part& part) {

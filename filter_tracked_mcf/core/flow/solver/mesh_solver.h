@@ -32,9 +32,8 @@ inline double worse_of(double a, double b) {
 
 /// Solves the systems of a flow on the mesh by conjugate gradients, for the three coordinates at
 /// once, which share their step lengths. The preconditioner B adds up two corrections: an
-/// incomplete Cholesky factorisation of each block of vertices, and for waves of many edges a
-/// V-cycle on the levels of the tracked octree. Both are symmetric and positive, and so is their
-/// sum.
+/// incomplete Cholesky factorisation, and for waves of many edges a V-cycle on the levels of the
+/// tracked octree. Both are symmetric and positive, and so is their sum.
 ///
 /// The parts of a surface are independent systems: A and B have no entries between them. So each
 /// has its own step lengths, unit and end of the iteration. Its solution is the same, to the bit,
@@ -69,8 +68,9 @@ public:
 private:
     using Block = PartBlocks::Block;
     using Parts = std::vector<std::int32_t>;
+    using Separators = std::vector<Elimination::Separator>;
 
-    /// The state of a part's solve, in which b is divided by `unit`.
+    /// The state of a part's solve, in which b and x are in this unit.
     struct Part {
         bool is_held = false;  ///< whether a vertex is
         bool is_tiny = false;  ///< whether MeshSystem::solve() can solve it
@@ -82,11 +82,11 @@ private:
         double square = 0;    ///< r·Br now; negative if the octree's part of it is
         double before = 0;    ///< r·Br at the start of this round,
         double previous = 0;  ///< and before this iteration
+        double energy = 0;    ///< p·Ap of the present direction
         double limit = 0;     ///< the round ends at this square,
         int most = 0;         ///< or after these iterations
         int iterations = 0;   ///< of all rounds
-        float step = 0;       ///< along p_, of this iteration
-        float keep = 0;       ///< of p_, in the next one
+        MeshSystem::Search search;
     };
 
     /// Makes these parts active, in increasing order, and no others.
@@ -100,23 +100,39 @@ private:
     /// Calls body(part, number of a block) for the blocks of active parts, in parallel.
     template <class Body>
     void for_each_active(const Body& body);
+    /// Calls body(part, number of a separator) for those of active parts, in parallel.
+    template <class Body>
+    void for_each_active(const Separators& separators, const Body& body);
+    /// Adds the results of body(separator) to a number of the separator's part, in active parts.
+    template <class Body>
+    void sum_over(const Separators& separators, double Part::*sum, const Body& body);
     /// Returns the sum of sums_ over the blocks of a part.
     double sum_of(std::int32_t part) const;
 
-    /// Sets b_ to b, divided by the units of the parts. Returns the norm of b.
-    double scale(const Field& b);
-    /// Sets r_ = b_ and `first` of active parts.
-    void begin();
-    /// Solves for the active parts that are tiny, and updates their r_, z_ and `square`.
-    void solve_tiny_parts(std::vector<Eigen::Vector3d>& x);
-    /// Makes conjugate gradients in the active parts, from x_ = 0, given z_ = B r_. A part ends at
-    /// its limit, or after as many iterations as are worth it. No part is active then.
+    /// Sets the units of the parts to about the norms of b. Returns that of the whole of b.
+    double choose_units(const Field& b);
+    /// Sets r_ to b in the units of the parts, and `first` of active parts.
+    void begin(const Field& b);
+    /// Solves for the active parts that are tiny, and updates their r_ and `square`.
+    void solve_tiny_parts(const Field& b, std::vector<Eigen::Vector3d>& x);
+    /// Makes conjugate gradients in the active parts, from x = 0, given precondition(). A part ends
+    /// at its limit, or after as many iterations as are worth it. The solution is x_ + step * p_
+    /// then, and no part is active.
     void descend();
-    /// Sets z_ = B r_ and `square` of active parts. If it moves, it adds step * p_ to x_ and takes
-    /// step * q_ from r_ before.
+    /// Takes step * q_ from r_ if it moves. Sets `square` of active parts to r·Br, and z_ to Br
+    /// where an octree is used, but where none is to what MeshSystem::solve_lower() gives:
+    /// search() completes it, if the iteration goes on.
     void precondition(bool moves);
-    /// Sets z_ = B r_ and `square` of active parts, with a B for which no square is negative.
+    /// Adds the octree's part of B to z_ and to the squares of these active parts.
+    void precondition_by_octree(const Parts& with_octree);
+    /// Does what precondition(false) does, with a B for which no square is negative.
     void precondition_positively();
+    /// Computes z_ = Br where wanted(part), given what solve_lower() has given, down to the
+    /// separators. The rows inside of blocks are left.
+    template <class Wanted>
+    void solve_upper_at_separators(const Wanted& wanted);
+    /// Makes the next direction p_, q_ = A p_, and the step along it.
+    void search();
     /// Widens the spectrum of the octree's V-cycle if it is not positive in a part. Parts go on
     /// without an octree if that is not possible, or if the V-cycle does not help.
     void mend_octree(const Parts& failed);
@@ -133,7 +149,7 @@ private:
     std::unique_ptr<VertexOctree> octree_;
     std::optional<ElementMultigrid> multigrid_;
     MatrixBlocks matrices_;
-    Field b_, x_, r_, z_, p_, q_, coarse_b_, coarse_x_;
+    Field x_, r_, z_, p_, q_, coarse_b_, coarse_x_;
 };
 
 }  // namespace tracked_mcf

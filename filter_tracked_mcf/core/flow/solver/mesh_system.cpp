@@ -3,7 +3,6 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
@@ -42,13 +41,9 @@ inline Eigen::Vector4f sum_of_groups(const float* entries, const std::int32_t* c
     return even + odd;
 }
 
-/// Where an entry of a row is stored.
-enum Place { Lower, Upper, Other };
-
-Place place_of(const PartBlocks::Block& block, std::int32_t row, std::int32_t column) {
-    if (column < block.begin || column >= block.end) return Other;
-    return column < row ? Lower : Upper;
-}
+/// The least pivot of the factorisation, relative to the diagonal. Those of an M-matrix are
+/// positive but for rounding.
+constexpr float kLeastPivot = 1e-3F;
 
 }  // namespace
 
@@ -57,6 +52,7 @@ MeshSystem::MeshSystem(const Stars& stars, const std::vector<std::uint8_t>& held
     : stars_(stars),
       held_(held),
       blocks_(parts),
+      elimination_(stars, blocks_),
       weights_(stars.neighbours.size()),
       rows_(held.size() + 1),
       masses_(held.size()),
@@ -66,116 +62,145 @@ MeshSystem::MeshSystem(const Stars& stars, const std::vector<std::uint8_t>& held
 }
 
 void MeshSystem::make_rows() {
-    const auto for_each_neighbour = [&](std::int32_t row, const auto& visit) {
-        for (auto i = stars_.neighbour_begin[row]; i < stars_.neighbour_begin[row + 1]; ++i) {
-            visit(stars_.neighbours[i]);
-        }
-    };
     // First the sizes of the rows, then their prefix sum.
-    blocks_.for_each([&](std::int32_t number) {
-        const Block& block = blocks_[number];
-        for (std::int32_t row = block.begin; row < block.end; ++row) {
-            std::array<std::uint32_t, 3> sizes = {0, 0, 0};
-            for_each_neighbour(row,
-                               [&](std::int32_t column) { ++sizes[place_of(block, row, column)]; });
-            for (std::uint32_t& size : sizes) size = (size + kGroup - 1) / kGroup;
-            rows_[row] = {sizes[Lower] + sizes[Upper] + sizes[Other], sizes[Lower],
-                          sizes[Lower] + sizes[Upper]};
-        }
-    });
     const std::int32_t count = stars_.count();
+    parallel_for_rows(count, [&](std::int32_t row) {
+        std::uint32_t lower = 0, upper = 0;
+        for_each_neighbour(stars_, row, [&](std::int32_t column) {
+            ++(elimination_.precedes(column, row) ? lower : upper);
+        });
+        const std::uint32_t groups = (lower + kGroup - 1) / kGroup;
+        rows_[row] = {groups + (upper + kGroup - 1) / kGroup, groups};
+    });
     const auto total = parallel_scan<std::uint32_t>(
         count, [&](std::int64_t row) { return rows_[row].begin; },
         [&](std::int64_t begin, std::int64_t end, std::uint32_t next) {
             for (std::int64_t row = begin; row < end; ++row) {
                 const std::uint32_t size = std::exchange(rows_[row].begin, next);
                 rows_[row].lower += next;
-                rows_[row].upper += next;
                 next += size;
             }
         });
     rows_[count].begin = total;
     columns_.resize(first_entry(total));
     entries_.resize(first_entry(total));
-    blocks_.for_each([&](std::int32_t number) {
-        const Block& block = blocks_[number];
-        for (std::int32_t row = block.begin; row < block.end; ++row) {
-            std::fill(columns_.begin() + first_entry(rows_[row].begin),
-                      columns_.begin() + first_entry(rows_[row + 1].begin), row);
-            std::array<std::size_t, 3> next = {first_entry(rows_[row].begin),
-                                               first_entry(rows_[row].lower),
-                                               first_entry(rows_[row].upper)};
-            for_each_neighbour(row, [&](std::int32_t column) {
-                columns_[next[place_of(block, row, column)]++] = column;
-            });
+    factors_.resize(first_entry(total));
+    parallel_for_rows(count, [&](std::int32_t row) {
+        const std::size_t lower = first_entry(rows_[row].lower);
+        const std::size_t end = first_entry(rows_[row + 1].begin);
+        std::size_t next_lower = first_entry(rows_[row].begin), next_upper = lower;
+        for_each_neighbour(stars_, row, [&](std::int32_t column) {
+            columns_[(elimination_.precedes(column, row) ? next_lower : next_upper)++] = column;
+        });
+        if (!elimination_.is_inside(row)) {
+            std::sort(columns_.begin() + first_entry(rows_[row].begin),
+                      columns_.begin() + next_lower,
+                      [&](std::int32_t a, std::int32_t b) { return elimination_.precedes(a, b); });
         }
+        const auto fill_up = [&](std::size_t first, std::size_t last) {
+            for (std::size_t i = first; i < last; ++i) {
+                columns_[i] = row;
+                entries_[i] = 0;
+            }
+        };
+        fill_up(next_lower, lower);
+        fill_up(next_upper, end);
     });
 }
 
 void MeshSystem::take(const TriangleElements& elements, double step_size, bool takes_stiffness) {
     step_size_ = static_cast<float>(step_size);
-    const bool is_first = least_masses_.empty();
-    if (is_first) least_masses_.resize(masses_.size());
-    const auto take_row = [&](std::vector<float>& mass_entries, const Block& block,
-                              std::int32_t row) {
-        const std::uint32_t begin = stars_.neighbour_begin[row];
-        const std::uint32_t end = stars_.neighbour_begin[row + 1];
-        mass_entries.assign(end - begin, 0.0F);
-        if (takes_stiffness) std::fill(weights_.begin() + begin, weights_.begin() + end, 0.0F);
-        float mass = 0;
-        for (std::uint32_t i = stars_.corner_begin[row]; i < stars_.corner_begin[row + 1]; ++i) {
-            const TriangleElement<float>& element = elements[stars_.corners[i] / 3];
-            const std::uint32_t corner = stars_.corners[i] % 3;
-            const auto [next, previous] = stars_.places[i];
-            mass += element.mass;
-            mass_entries[next - begin] += element.mass / 8;  // half of a quarter
-            mass_entries[previous - begin] += element.mass / 8;
-            if (!takes_stiffness) continue;
-            weights_[next] += element.weights[(corner + 2) % 3];
-            weights_[previous] += element.weights[(corner + 1) % 3];
-        }
-        std::fill(entries_.begin() + first_entry(rows_[row].begin),
-                  entries_.begin() + first_entry(rows_[row + 1].begin), 0.0F);
-        std::array<std::size_t, 3> next = {first_entry(rows_[row].begin),
-                                           first_entry(rows_[row].lower),
-                                           first_entry(rows_[row].upper)};
-        float stiffness = 0;
-        for (std::uint32_t i = begin; i < end; ++i) {
-            const float weight = step_size_ * weights_[i];
-            stiffness += weight;
-            entries_[next[place_of(block, row, stars_.neighbours[i])]++] =
-                mass_entries[i - begin] - weight;
-        }
-        if (is_first) least_masses_[row] = kLeastMass * mass;
-        masses_[row] = std::max({mass, least_masses_[row], kLeastMass * stiffness});
-        diagonal_[row] = 0.75F * mass + (masses_[row] - mass) + stiffness;
-    };
+    least_masses_.resize(masses_.size(), 0);
     blocks_.for_each([&](std::int32_t number) {
         const Block& block = blocks_[number];
-        std::vector<float> mass_entries;
-        for (std::int32_t row = block.begin; row < block.end; ++row) {
-            take_row(mass_entries, block, row);
-        }
-        factorise(block);
+        std::vector<float> entries;
+        for (std::int32_t row = block.begin; row < block.end; ++row)
+            take_row(elements, takes_stiffness, row, entries);
+        factorise(elimination_.inside(number));
     });
+    for (const auto& separators : elimination_.later_stages()) {
+        parallel_for(static_cast<std::int64_t>(separators.size()),
+                     [&](std::int64_t i) { factorise(separators[i].rows); });
+    }
+    blocks_.for_each([&](std::int32_t number) { mirror_factors(blocks_[number]); });
 }
 
-void MeshSystem::factorise(const Block& block) {
-    for (std::int32_t row = block.begin; row < block.end; ++row) {
-        float pivot = diagonal_[row];
-        // Entries that fill a group up have the row's own column.
+void MeshSystem::take_row(const TriangleElements& elements, bool takes_stiffness, std::int32_t row,
+                          std::vector<float>& mass_entries) {
+    const std::uint32_t begin = stars_.neighbour_begin[row];
+    const std::uint32_t end = stars_.neighbour_begin[row + 1];
+    mass_entries.assign(end - begin, 0.0F);
+    if (takes_stiffness) std::fill(weights_.begin() + begin, weights_.begin() + end, 0.0F);
+    float mass = 0;
+    for (std::uint32_t i = stars_.corner_begin[row]; i < stars_.corner_begin[row + 1]; ++i) {
+        const TriangleElement<float>& element = elements[stars_.corners[i] / 3];
+        const std::uint32_t corner = stars_.corners[i] % 3;
+        const auto [next, previous] = stars_.places[i];
+        mass += element.mass;
+        mass_entries[next - begin] += element.mass / 8;  // half of a quarter
+        mass_entries[previous - begin] += element.mass / 8;
+        if (!takes_stiffness) continue;
+        weights_[next] += element.weights[(corner + 2) % 3];
+        weights_[previous] += element.weights[(corner + 1) % 3];
+    }
+    float stiffness = 0;
+    const bool is_inside = elimination_.is_inside(row);
+    std::size_t next_lower = first_entry(rows_[row].begin);
+    std::size_t next_upper = first_entry(rows_[row].lower);
+    for (std::uint32_t i = begin; i < end; ++i) {
+        const float weight = step_size_ * weights_[i];
+        stiffness += weight;
+        const bool is_before = elimination_.precedes(stars_.neighbours[i], row);
+        std::size_t place = (is_before ? next_lower : next_upper)++;
+        if (!is_inside && is_before) {
+            place = first_entry(rows_[row].begin);
+            while (columns_[place] != stars_.neighbours[i]) ++place;
+        }
+        entries_[place] = mass_entries[i - begin] - weight;
+    }
+    float& least_mass = least_masses_[row];
+    if (least_mass == 0) least_mass = kLeastMass * mass;
+    masses_[row] = std::max({mass, least_mass, kLeastMass * stiffness});
+    diagonal_[row] = 0.75F * mass + (masses_[row] - mass) + stiffness;
+}
+
+float MeshSystem::lower_factor(std::int32_t row, std::int32_t column) const {
+    for (std::size_t i = first_entry(rows_[row].begin); i < first_entry(rows_[row].lower); ++i) {
+        if (columns_[i] == column) return factors_[i];
+    }
+    return 0;
+}
+
+void MeshSystem::factorise(Rows rows) {
+    for (const std::int32_t row : rows) {
+        const std::size_t begin = first_entry(rows_[row].begin);
         const std::size_t lower = first_entry(rows_[row].lower);
-        for (std::size_t i = first_entry(rows_[row].begin); i < lower && columns_[i] < row; ++i) {
-            pivot -= entries_[i] * entries_[i] * inverse_pivots_[columns_[i]];
+        float pivot = diagonal_[row];
+        for (std::size_t i = begin; i < first_entry(rows_[row + 1].begin); ++i) {
+            pivot += std::max(entries_[i], 0.0F);
+            factors_[i] = std::min(entries_[i], 0.0F);
         }
-        // Pivots of an M-matrix are as large as this. Obtuse triangles make entries positive and
-        // pivots smaller, and then solutions would grow from row to row.
-        float sum = 0;
-        for (std::size_t i = lower; i < first_entry(rows_[row].upper); ++i) {
-            sum += std::abs(entries_[i]);
+        for (std::size_t i = begin; i < lower && columns_[i] != row; ++i) {
+            const std::int32_t column = columns_[i];
+            float factor = factors_[i];
+            // Both rows may have a neighbour that is eliminated before them.
+            for (std::size_t k = begin; k < i; ++k) {
+                factor -=
+                    factors_[k] * inverse_pivots_[columns_[k]] * lower_factor(column, columns_[k]);
+            }
+            factors_[i] = factor;
+            pivot -= factor * factor * inverse_pivots_[column];
         }
-        pivot = std::max(pivot, sum + masses_[row]);
+        pivot = std::max(pivot, kLeastPivot * diagonal_[row]);
         inverse_pivots_[row] = held_[row] != 0 ? 0 : 1 / pivot;
+    }
+}
+
+void MeshSystem::mirror_factors(const Block& block) {
+    for (std::int32_t row = block.begin; row < block.end; ++row) {
+        const std::size_t end = first_entry(rows_[row + 1].begin);
+        for (std::size_t i = first_entry(rows_[row].lower); i < end && columns_[i] != row; ++i)
+            factors_[i] = lower_factor(columns_[i], row);
     }
 }
 
@@ -192,10 +217,11 @@ void MeshSystem::multiply_stiffness(const std::vector<Eigen::Vector3d>& x, doubl
     });
 }
 
-void MeshSystem::residual(const Block& block, const Field& b, const std::vector<Eigen::Vector3d>& x,
-                          Field& residual) const {
+void MeshSystem::residual(const Block& block, const Field& b, double unit,
+                          const std::vector<Eigen::Vector3d>& x, Field& residual) const {
     for (std::int32_t row = block.begin; row < block.end; ++row) {
-        Eigen::Vector3d sum = b.col(row).head<3>().cast<double>() - double{diagonal_[row]} * x[row];
+        Eigen::Vector3d sum =
+            b.col(row).head<3>().cast<double>() / unit - double{diagonal_[row]} * x[row];
         const std::size_t end = first_entry(rows_[row + 1].begin);
         for (std::size_t i = first_entry(rows_[row].begin); i < end; ++i)
             sum -= double{entries_[i]} * x[columns_[i]];
@@ -204,7 +230,8 @@ void MeshSystem::residual(const Block& block, const Field& b, const std::vector<
     }
 }
 
-void MeshSystem::solve(const Block& block, const Field& b, std::vector<Eigen::Vector3d>& x) const {
+void MeshSystem::solve(const Block& block, const Field& b, double unit,
+                       std::vector<Eigen::Vector3d>& x) const {
     using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kFewRows, kFewRows>;
     using Columns = Eigen::Matrix<double, Eigen::Dynamic, 3, 0, kFewRows, 3>;
     const std::int32_t rows = block.end - block.begin;
@@ -214,9 +241,9 @@ void MeshSystem::solve(const Block& block, const Field& b, std::vector<Eigen::Ve
         const std::int32_t row = block.begin + i;
         if (held_[row] != 0) continue;
         lower(i, i) = double{diagonal_[row]};
-        solution.row(i) = b.col(row).head<3>().cast<double>();
+        solution.row(i) = b.col(row).head<3>().cast<double>() / unit;
         const std::size_t end = first_entry(rows_[row].lower);
-        for (std::size_t k = first_entry(rows_[row].begin); k < end && columns_[k] < row; ++k) {
+        for (std::size_t k = first_entry(rows_[row].begin); k < end && columns_[k] != row; ++k) {
             if (held_[columns_[k]] == 0) lower(i, columns_[k] - block.begin) = double{entries_[k]};
         }
     }
@@ -224,43 +251,55 @@ void MeshSystem::solve(const Block& block, const Field& b, std::vector<Eigen::Ve
     for (std::int32_t i = 0; i < rows; ++i) x[block.begin + i] = solution.row(i);
 }
 
-double MeshSystem::advance(const Block& block, const Field& z, float keep, Field& p,
+double MeshSystem::advance(Rows rows, const Search& search, const Field& z, Field& x, Field& p,
                            Field& q) const {
     const float* const entries = entries_.data();
     const std::int32_t* const columns = columns_.data();
+    const auto [is_first, step, beta] = search;
     Eigen::Vector4f energy = Eigen::Vector4f::Zero();
-    for (std::int32_t row = block.begin; row < block.end; ++row) {
-        Eigen::Vector4f sum = diagonal_[row] * z.col(row);
-        sum += sum_of_groups(entries, columns, rows_[row].begin, rows_[row + 1].begin, z.data());
-        if (held_[row] != 0) sum.setZero();
-        const Eigen::Vector4f direction = z.col(row) + keep * p.col(row);
-        sum += keep * q.col(row);
+    for (const std::int32_t row : rows) {
+        Eigen::Vector4f direction = z.col(row);
+        Eigen::Vector4f product = diagonal_[row] * direction;
+        product +=
+            sum_of_groups(entries, columns, rows_[row].begin, rows_[row + 1].begin, z.data());
+        if (held_[row] != 0) product.setZero();
+        if (is_first) {
+            x.col(row).setZero();
+        } else {
+            const Eigen::Vector4f before = p.col(row);
+            x.col(row) += step * before;
+            direction += beta * before;
+            product += beta * q.col(row);
+        }
         p.col(row) = direction;
-        q.col(row) = sum;
-        energy += direction.cwiseProduct(sum);
+        q.col(row) = product;
+        energy += direction.cwiseProduct(product);
     }
     return double{energy.sum()};
 }
 
-double MeshSystem::relax(const Block& block, const Field& r, Field& z) const {
-    const float* const entries = entries_.data();
+double MeshSystem::solve_lower(Rows rows, const Field& r, Field& z) const {
+    const float* const factors = factors_.data();
     const std::int32_t* const columns = columns_.data();
-    // Entries that fill a group up are 0, but must not meet a number that is none.
-    for (std::int32_t row = block.begin; row < block.end; ++row) z.col(row).setZero();
-    for (std::int32_t row = block.begin; row < block.end; ++row) {
-        const Eigen::Vector4f sum =
-            sum_of_groups(entries, columns, rows_[row].begin, rows_[row].lower, z.data());
-        z.col(row) = inverse_pivots_[row] * (r.col(row) - sum);
+    Eigen::Vector4f product = Eigen::Vector4f::Zero();
+    for (const std::int32_t row : rows) {
+        const Eigen::Vector4f rest = r.col(row) - sum_of_groups(factors, columns, rows_[row].begin,
+                                                                rows_[row].lower, z.data());
+        const Eigen::Vector4f solved = inverse_pivots_[row] * rest;
+        z.col(row) = solved;
+        product += solved.cwiseProduct(rest);
     }
-    Eigen::Vector4f product_with_r = Eigen::Vector4f::Zero();
-    for (std::int32_t row = block.end; row-- > block.begin;) {
+    return double{product.sum()};
+}
+
+void MeshSystem::solve_upper(Rows rows, Field& z) const {
+    const float* const factors = factors_.data();
+    const std::int32_t* const columns = columns_.data();
+    for (const std::int32_t* row = rows.last; row-- != rows.first;) {
         const Eigen::Vector4f sum =
-            sum_of_groups(entries, columns, rows_[row].lower, rows_[row].upper, z.data());
-        const Eigen::Vector4f relaxed = z.col(row) - inverse_pivots_[row] * sum;
-        z.col(row) = relaxed;
-        product_with_r += relaxed.cwiseProduct(r.col(row));
+            sum_of_groups(factors, columns, rows_[*row].lower, rows_[*row + 1].begin, z.data());
+        z.col(*row) -= inverse_pivots_[*row] * sum;
     }
-    return double{product_with_r.sum()};
 }
 
 }  // namespace tracked_mcf

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "filter_tracked_mcf/core/flow/solver/elimination.h"
 #include "filter_tracked_mcf/core/flow/solver/field.h"
 #include "filter_tracked_mcf/core/flow/solver/part_blocks.h"
 #include "filter_tracked_mcf/core/mesh/stars.h"
@@ -36,30 +37,46 @@ public:
                             Field& product) const;
     using Block = PartBlocks::Block;
 
-    /// Computes the rows of a block of residual = b - A x in double precision; 0 at held vertices.
-    void residual(const Block& block, const Field& b, const std::vector<Eigen::Vector3d>& x,
-                  Field& residual) const;
+    /// Computes the rows of a block of residual = b / unit - A x in double precision; 0 at held
+    /// vertices. The unit is a power of two.
+    void residual(const Block& block, const Field& b, double unit,
+                  const std::vector<Eigen::Vector3d>& x, Field& residual) const;
 
-    /// Sets the rows of a block of p = z + keep * p and q = A p, given q = A p before. Returns the
-    /// product p · q of these rows.
-    double advance(const Block& block, const Field& z, float keep, Field& p, Field& q) const;
+    using Rows = Elimination::Rows;
 
-    /// Computes the rows of a block of z = B r by an incomplete Cholesky factorisation of this
-    /// block of A: B⁻¹ = (E + U)ᵀ E⁻¹ (E + U), where U is the block's upper triangle above the
-    /// diagonal. The diagonal E makes that of B⁻¹ equal to that of A, or larger where E would
-    /// otherwise not dominate U (Meijerink and van der Vorst, "An Iterative Solution Method for
-    /// Linear Systems of Which the Coefficient Matrix is a Symmetric M-Matrix", 1977). Returns the
-    /// product r · z of these rows.
-    double relax(const Block& block, const Field& r, Field& z) const;
+    /// Solves (E + U)ᵀ z = r for these rows, given those that are eliminated before. Returns what
+    /// they add to r · B r.
+    ///
+    /// B⁻¹ = (E + U)ᵀ E⁻¹ (E + U) is the incomplete Cholesky factorisation without fill, in the
+    /// order of elimination(), of A with its positive entries moved to the diagonal. That is an
+    /// M-matrix, for which E is positive (Meijerink and van der Vorst, "An Iterative Solution
+    /// Method for Linear Systems of Which the Coefficient Matrix is a Symmetric M-Matrix", 1977).
+    double solve_lower(Rows rows, const Field& r, Field& z) const;
+    /// Computes these rows of z = B r from what solve_lower() gives, and from the rows that are
+    /// eliminated after them.
+    void solve_upper(Rows rows, Field& z) const;
+
+    /// Where conjugate gradients are.
+    struct Search {
+        bool is_first = true;  ///< then x, p and q count as 0
+        float step = 0;        ///< along the last direction
+        float beta = 0;        ///< how much of the last direction is in the next one
+    };
+    /// Computes these rows of x += step * p, p = z + beta * p and q = A p, given q = A p before.
+    /// Returns the product p · q of these rows.
+    double advance(Rows rows, const Search& search, const Field& z, Field& x, Field& p,
+                   Field& q) const;
 
     /// A part of at most as many rows can be solved by solve().
     static constexpr std::int32_t kFewRows = 16;
 
-    /// Solves A x = b for the rows of a block that is a whole part of a few rows, by a Cholesky
-    /// factorisation in double precision; 0 at held vertices.
-    void solve(const Block& block, const Field& b, std::vector<Eigen::Vector3d>& x) const;
+    /// Solves A x = b / unit for the rows of a block that is a whole part of a few rows, by a
+    /// Cholesky factorisation in double precision; 0 at held vertices.
+    void solve(const Block& block, const Field& b, double unit,
+               std::vector<Eigen::Vector3d>& x) const;
 
     const PartBlocks& blocks() const { return blocks_; }
+    const Elimination& elimination() const { return elimination_; }
 
     const Stars& stars() const { return stars_; }
     bool is_held(std::int32_t vertex) const { return held_[vertex] != 0; }
@@ -68,32 +85,40 @@ public:
     float step_size() const { return step_size_; }
 
 private:
-    /// A row of A, cut into groups of four entries: those of the row's block before the diagonal,
-    /// those after it, and those of other blocks. Entries that fill a group up are 0. Groups are
-    /// numbered, because a row never has more groups than neighbours, and Stars has fewer than 2^32
-    /// of these.
+    /// A row of A, cut into groups of four entries: those of neighbours that are eliminated before
+    /// it, and the others. Entries that fill a group up are 0, and have the row's
+    /// own column. Groups are numbered, because a row never has more groups than neighbours, and
+    /// Stars has fewer than 2^32 of these.
     struct Row {
         std::uint32_t begin;  ///< the first group
-        std::uint32_t lower;  ///< end of the groups before the diagonal
-        std::uint32_t upper;  ///< end of the groups after it
+        std::uint32_t lower;  ///< end of the groups of those before
     };
 
     void make_rows();
-    /// Computes the pivots E, see relax(), of a block.
-    void factorise(const Block& block);
+    /// Takes a row of A. `mass_entries` is workspace.
+    void take_row(const TriangleElements& elements, bool takes_stiffness, std::int32_t row,
+                  std::vector<float>& mass_entries);
+    /// Returns an entry of U of a row with one that is eliminated before it, or 0.
+    float lower_factor(std::int32_t row, std::int32_t column) const;
+    /// Computes E of these rows, and their entries of U before the diagonal.
+    void factorise(Rows rows);
+    /// Copies a block's other entries of U from where factorise() has computed them.
+    void mirror_factors(const Block& block);
 
     const Stars& stars_;
     const std::vector<std::uint8_t>& held_;
     const PartBlocks blocks_;
+    const Elimination elimination_;
     float step_size_ = 0;
     RawVector<float> weights_;         ///< per entry of Stars::neighbours: -L
     RawVector<Row> rows_;              ///< per vertex, and one more, for its begin
     RawVector<std::int32_t> columns_;  ///< of the groups
     RawVector<float> entries_;         ///< of A, likewise
+    RawVector<float> factors_;         ///< of U, see solve_lower(), likewise
     RawVector<float> masses_;          ///< per vertex, lumped
     std::vector<float> least_masses_;  ///< per vertex
     RawVector<float> diagonal_;        ///< of A
-    RawVector<float> inverse_pivots_;  ///< of E, see relax(); 0 for held vertices
+    RawVector<float> inverse_pivots_;  ///< of E; 0 for held vertices
 };
 
 }  // namespace tracked_mcf

@@ -34,12 +34,7 @@ struct SystemOfMesh {
                kStepOfSystem * dense_stiffness(surface.stars, elements);
     }
     Field zero() const { return Field::Zero(4, surface.stars.count()); }
-    /// Returns A x.
-    Field product(const Field& x) const {
-        Field p = zero(), q = zero();
-        advance(system, x, 0, p, q);
-        return q;
-    }
+    Field product(const Field& x) const { return product_of(system, x); }
 
     Surface surface;
     TriangleElements elements;
@@ -55,6 +50,15 @@ void expect_close(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b,
     EXPECT_LE((a - b).norm(), tolerance * b.norm());
 }
 
+/// Computes z = B r. Returns r · z.
+double precondition(const MeshSystem& system, const Field& r, Field& z) {
+    const std::vector<Elimination::Rows> rows = rows_in_order(system);
+    double product = 0;
+    for (const Elimination::Rows& some : rows) product += system.solve_lower(some, r, z);
+    for (auto some = rows.rbegin(); some != rows.rend(); ++some) system.solve_upper(*some, z);
+    return product;
+}
+
 /// Returns a surface of the same triangles, squeezed.
 Surface squeezed(Surface surface) {
     for (Eigen::Vector3d& position : surface.positions) {
@@ -63,24 +67,27 @@ Surface squeezed(Surface surface) {
     return surface;
 }
 
-TEST(MeshSystem, MultipliesLikeADenseMatrix) {
+TEST(MeshSystem, AdvancesLikeADenseMatrix) {
     const SystemOfMesh of(closed_mesh());
     const Eigen::MatrixXd a = of.dense();
-    const Field first = random_at_vertices(of.surface, 1),
-                second = random_at_vertices(of.surface, 2);
-    Field p = of.zero(), q = of.zero();
-    double energy = advance(of.system, first, 0, p, q);
-    EXPECT_EQ(p, first);
-    expect_close(rows_of(q), a * rows_of(first));
-    EXPECT_NEAR(energy, rows_of(first).cwiseProduct(a * rows_of(first)).sum(),
-                kSingleRounding * energy);
-
-    energy = advance(of.system, second, 0.5F, p, q);
-    const Field sum = second + 0.5F * first;
-    EXPECT_EQ(p, sum);
-    expect_close(rows_of(q), a * rows_of(sum));
-    EXPECT_NEAR(energy, rows_of(sum).cwiseProduct(a * rows_of(sum)).sum(),
-                kSingleRounding * energy);
+    // What is there before the first direction must not matter.
+    Field x = Field::Constant(4, of.surface.stars.count(), std::numeric_limits<float>::quiet_NaN());
+    Field p = x, q = x, sum = of.zero(), direction = of.zero();
+    for (const MeshSystem::Search& search :
+         {MeshSystem::Search{}, MeshSystem::Search{false, 0.3F, 0.5F},
+          MeshSystem::Search{false, -2, 0.1F}}) {
+        const Field z = random_at_vertices(of.surface, 1);
+        double energy = 0;
+        for (const Elimination::Rows& rows : rows_in_order(of.system))
+            energy += of.system.advance(rows, search, z, x, p, q);
+        if (!search.is_first) sum += search.step * direction;
+        direction = z + search.beta * direction;
+        EXPECT_EQ(x, sum);
+        EXPECT_EQ(p, direction);
+        expect_close(rows_of(q), a * rows_of(p));
+        EXPECT_NEAR(energy, rows_of(p).cwiseProduct(a * rows_of(p)).sum(),
+                    kSingleRounding * energy);
+    }
 }
 
 TEST(MeshSystem, MultipliesConstantsByTheLumpedMass) {
@@ -131,6 +138,8 @@ TEST(MeshSystem, ResidualIsThatOfADenseMatrix) {
         x[i] = solution.row(static_cast<Eigen::Index>(i)).transpose();
     }
     EXPECT_LT(norm(residual_of(of.system, b, x)), kSingleRounding * norm(b));
+    const Field scaled = 1024 * b;
+    EXPECT_EQ(residual_of(of.system, scaled, x, 1024), residual_of(of.system, b, x));
 }
 
 TEST(MeshSystem, KeepsZeroRowsAtVerticesThatStay) {
@@ -143,7 +152,7 @@ TEST(MeshSystem, KeepsZeroRowsAtVerticesThatStay) {
     Field product, z = of.zero();
     of.system.multiply_stiffness(of.surface.positions, 1, product);
     const Field residual = residual_of(of.system, everywhere, of.surface.positions);
-    of.system.relax(of.system.blocks()[0], everywhere, z);
+    precondition(of.system, everywhere, z);
     const Field multiplied = of.product(x);
     for (std::int32_t vertex = 0; vertex < of.surface.stars.count(); ++vertex) {
         if (of.surface.held[vertex] == 0) continue;
@@ -164,76 +173,84 @@ TEST(MeshSystem, SolvesAPartOfAFewRows) {
         ASSERT_EQ(of.surface.stars.count(), MeshSystem::kFewRows);
         const Field b = random_at_vertices(of.surface, 1);
         std::vector<Eigen::Vector3d> x(of.surface.positions.size());
-        of.system.solve(of.system.blocks()[0], b, x);
+        of.system.solve(of.system.blocks()[0], b, 1, x);
         EXPECT_LT(norm(residual_of(of.system, b, x)), kSingleRounding * norm(b));
         for (std::size_t i = 0; i < x.size(); ++i)
             EXPECT_EQ(x[i].isZero(0), of.surface.held[i] != 0);
     }
 }
 
-/// Returns E such that (E + U)ᵀ E⁻¹ (E + U) has the diagonal of a block, but no less than `least`.
-Eigen::VectorXd pivots_of(const Eigen::MatrixXd& block, const Eigen::VectorXd& least) {
-    Eigen::VectorXd pivots = block.diagonal();
-    for (Eigen::Index row = 0; row < block.rows(); ++row) {
-        for (Eigen::Index i = 0; i < row; ++i) {
-            pivots[row] -= block(i, row) * block(i, row) / pivots[i];
+/// Returns (E + U)ᵀ E⁻¹ (E + U) x for the incomplete factorisation of a matrix, without entries
+/// where `pattern` is 0, given the order in which its rows are eliminated.
+Eigen::MatrixXd multiply_factors(const Eigen::MatrixXd& matrix, const Eigen::MatrixXd& pattern,
+                                 const std::vector<std::int32_t>& order, const Eigen::MatrixXd& x) {
+    Eigen::MatrixXd rest = matrix, product = Eigen::MatrixXd::Zero(x.rows(), x.cols());
+    for (std::size_t k = 0; k < order.size(); ++k) {
+        const std::int32_t row = order[k];
+        const double pivot = rest(row, row);
+        std::vector<std::int32_t> later;
+        for (std::size_t i = k + 1; i < order.size(); ++i) {
+            if (pattern(order[i], row) != 0) later.push_back(order[i]);
         }
-        pivots[row] = std::max(pivots[row], least[row]);
+        Eigen::RowVectorXd sum = pivot * x.row(row);
+        for (const std::int32_t i : later) sum += rest(i, row) * x.row(i);
+        product.row(row) += sum;
+        for (const std::int32_t i : later) {
+            product.row(i) += rest(i, row) / pivot * sum;
+            for (const std::int32_t j : later) {
+                if (pattern(i, j) != 0) rest(i, j) -= rest(i, row) * rest(j, row) / pivot;
+            }
+        }
     }
-    return pivots;
+    return product;
 }
 
-/// Expects that each block of rows is solved by (E + U)ᵀ E⁻¹ (E + U), which is symmetric and
-/// positive. Returns the number of pivots that are limited.
-int expect_factorised_blocks(const SystemOfMesh& of) {
-    const Eigen::MatrixXd a = of.dense();
+/// Returns the matrix with its positive entries moved to the diagonal.
+Eigen::MatrixXd with_positive_entries_on_diagonal(Eigen::MatrixXd matrix) {
+    Eigen::MatrixXd positive = matrix.cwiseMax(0);
+    positive.diagonal().setZero();
+    matrix -= positive;
+    matrix += Eigen::MatrixXd(positive.rowwise().sum().asDiagonal());
+    return matrix;
+}
+
+/// Expects that B is the inverse of the incomplete factorisation of the M-matrix, in the order of
+/// elimination. Returns the number of positive entries.
+std::int64_t expect_factorised(const SystemOfMesh& of) {
+    Eigen::MatrixXd pattern = of.dense();
+    const std::int64_t positive = (pattern.array() > 0).count() - pattern.rows();
+    Eigen::MatrixXd a = with_positive_entries_on_diagonal(pattern);
+    std::vector<std::int32_t> order;
+    for (const Elimination::Rows& rows : rows_in_order(of.system))
+        order.insert(order.end(), rows.begin(), rows.end());
+    for (std::int32_t row = 0; row < of.surface.stars.count(); ++row) {
+        if (of.surface.held[row] == 0) continue;
+        a.row(row).setZero();
+        a.col(row).setZero();
+        a(row, row) = 1;
+    }
     const Field r = random_at_vertices(of.surface, 1);
-    // Rows of another block must not matter.
-    Field z = Field::Constant(4, of.surface.stars.count(), std::numeric_limits<float>::quiet_NaN());
-    int limited = 0;
-    for (std::int32_t number = of.system.blocks().count(); number-- > 0;) {
-        const PartBlocks::Block& rows_of_block = of.system.blocks()[number];
-        const std::int32_t begin = rows_of_block.begin, end = rows_of_block.end;
-        const double product = of.system.relax(rows_of_block, r, z);
-        Eigen::MatrixXd block = a.block(begin, begin, end - begin, end - begin);
-        Eigen::MatrixXd upper = block.triangularView<Eigen::StrictlyUpper>();
-        Eigen::VectorXd least = upper.cwiseAbs().rowwise().sum();
-        for (std::int32_t row = begin; row < end; ++row) {
-            least[row - begin] += double{of.system.mass(row)};
-            if (of.surface.held[row] == 0) continue;
-            block.row(row - begin).setZero();
-            block.col(row - begin).setZero();
-            block(row - begin, row - begin) = 1;
-        }
-        const Eigen::VectorXd pivots = pivots_of(block, least);
-        upper = block.triangularView<Eigen::StrictlyUpper>();
-        upper += pivots.asDiagonal();
-        const Eigen::MatrixXd product_of_factors =
-            upper.transpose() * (pivots.cwiseInverse().asDiagonal() * upper);
-        const Eigen::ArrayXd added = (product_of_factors - block).diagonal();
-        EXPECT_GT(added.minCoeff(), -kSingleRounding * block.diagonal().maxCoeff());
-        limited += static_cast<int>((added > 1e-3 * block.diagonal().array()).count());
-        const Eigen::MatrixXd rows = rows_of(z).middleRows(begin, end - begin);
-        const Eigen::MatrixXd right_side = rows_of(r).middleRows(begin, end - begin);
-        expect_close(product_of_factors * rows, right_side);
-        EXPECT_NEAR(product, rows.cwiseProduct(right_side).sum(), kSingleRounding * product);
-        EXPECT_GT(product, 0);
-    }
-    return limited;
+    Field z = of.zero();
+    const double product = precondition(of.system, r, z);
+    expect_close(multiply_factors(a, pattern, order, rows_of(z)), rows_of(r));
+    EXPECT_NEAR(product, rows_of(z).cwiseProduct(rows_of(r)).sum(), kSingleRounding * product);
+    EXPECT_GT(product, 0);
+    return positive;
 }
 
-TEST(MeshSystem, RelaxesByAnIncompleteFactorisationOfEachBlock) {
+TEST(MeshSystem, PreconditionsByAnIncompleteFactorisationOfAllBlocks) {
     for (const auto boundary : {BoundaryCondition::Free, BoundaryCondition::Locked}) {
         const SystemOfMesh of(noisy(bumpy_cap(20), 0.005), boundary);
-        ASSERT_GT(of.surface.stars.count(), 1200);
-        expect_factorised_blocks(of);
+        ASSERT_GT(of.system.blocks().count(), 1);
+        ASSERT_EQ(of.system.elimination().later_stages().size(), 1);
+        EXPECT_EQ(expect_factorised(of), 0);
     }
 }
 
-TEST(MeshSystem, PivotsDominateTheirRowsWhereTrianglesAreObtuse) {
+TEST(MeshSystem, PreconditionsByAnMMatrixWhereTrianglesAreObtuse) {
     const SystemOfMesh of(shapes::transformed(noisy(bumpy_cap(20), 0.02),
                                               Eigen::Affine3d(Eigen::Scaling(1.0, 0.2, 1.0))));
-    EXPECT_GT(expect_factorised_blocks(of), 10);
+    EXPECT_GT(expect_factorised(of), 100);
 }
 
 TEST(MeshSystem, KeepsTheStiffnessOfTheCallBefore) {

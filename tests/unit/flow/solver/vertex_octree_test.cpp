@@ -64,8 +64,7 @@ struct OctreeOfMesh {
     }
     /// Returns x · A x.
     double energy(const Field& x) const {
-        Field p = Field::Zero(4, x.cols()), q = p;
-        return advance(system, x, 0, p, q);
+        return x.cast<double>().cwiseProduct(product_of(system, x).cast<double>()).sum();
     }
     /// Returns c · (sum of the elements' matrices) c.
     double assembled_energy(const Field& c) {
