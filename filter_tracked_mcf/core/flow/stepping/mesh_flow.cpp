@@ -245,8 +245,10 @@ Stop MeshFlow::advance(Positions& to, StepReport& report) {
     const double area_before = std::exchange(area_, area_of(to));
     if (preserver_) return restored;
     // A step lowers the energy of the metric that it takes, which bounds the area. Only triangles
-    // that are longer in that metric can make it larger. A conformalized flow keeps its metric.
-    const double most = steps_.flow == FlowKind::MeanCurvature ? area_before : first_area_;
+    // that are longer in that metric can make it larger, also little by little. A conformalized
+    // flow keeps its metric.
+    const double most =
+        steps_.flow == FlowKind::MeanCurvature ? std::min(area_before, first_area_) : first_area_;
     const auto triangles = static_cast<double>(surface_.stars.triangles.size());
     const bool grew = area_ > kMostGrowth * most + kRoundedArea * triangles;
     return grew ? Stop::Grew : Stop::None;
