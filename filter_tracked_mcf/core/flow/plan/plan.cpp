@@ -80,8 +80,10 @@ void check_preservable(const Surface& surface, Preserve preserve, FlowKind flow)
 /// a closed surface. In squared mean edge lengths, and in squared sides of the paper's cells.
 constexpr double kLargestStepSizeInEdges = 5e4, kLargestStepSizeInCells = 1e5;
 
-/// Bytes for each vertex and each triangle of a flow on the mesh's own elements, besides the mesh.
-constexpr double kBytesPerVertex = 370, kBytesPerTriangle = 120;
+/// Bytes besides the mesh to make a surface of it, and those of a flow on the elements of the
+/// surface besides these: for each vertex and each triangle.
+constexpr double kBytesPerMeshVertex = 120, kBytesPerMeshTriangle = 30, kBytesPerVertex = 250,
+                 kBytesPerTriangle = 90;
 
 /// The side of a cell of the paper's octree, in mean edge lengths, if its depth is automatic. A
 /// surface has about 3 unknowns for each squared side of a cell, and 1.15 vertices for each squared
@@ -107,12 +109,23 @@ int depth_of(const FlowParameters& parameters, double mean_edge, const Grid& cub
     return std::max(1, static_cast<int>(std::lround(std::log2(cells))));
 }
 
+/// Returns the bytes that a flow on the mesh's own elements takes. The surface has the share of the
+/// vertices that it has of the triangles.
+double mesh_flow_bytes(const TriangleMesh& mesh, const Selection& selection) {
+    const auto vertices = static_cast<double>(mesh.positions.size());
+    const auto triangles = static_cast<double>(mesh.triangles.size());
+    const auto unselected = static_cast<double>(
+        std::count(selection.begin(), selection.end(), Selection::value_type{0}));
+    const double share = triangles > 0 ? 1 - unselected / triangles : 0;
+    return kBytesPerMeshVertex * vertices + kBytesPerMeshTriangle * triangles +
+           share * (kBytesPerVertex * vertices + kBytesPerTriangle * triangles);
+}
+
 }  // namespace
 
 MeshPlan mesh_plan_of(const TriangleMesh& mesh, const Inputs& inputs,
                       const FlowParameters& parameters) {
-    const double bytes = kBytesPerVertex * static_cast<double>(mesh.positions.size()) +
-                         kBytesPerTriangle * static_cast<double>(mesh.triangles.size());
+    const double bytes = mesh_flow_bytes(mesh, inputs.selection);
     check_free_memory(bytes, "The flow", "Simplify the mesh, or take a part of it.");
     enter_setup_phase(kFindEdges);
     Surface surface = surface_of(mesh, inputs, parameters.boundary);

@@ -64,22 +64,16 @@ constexpr std::int32_t kFewestForOctree = 64;
 /// The octree has at most this share of the vertices as elements.
 constexpr double kMostElements = 0.25;
 
-using Boxes = std::vector<Eigen::AlignedBox3d>;
-
 /// Returns the box of each part.
-Boxes boxes_of(const Surface& surface, const Positions& positions) {
-    Boxes boxes(static_cast<std::size_t>(surface.part_count));
-    for (std::size_t i = 0; i < positions.size(); ++i) {
-        boxes[surface.parts[i]].extend(positions[i]);
-    }
+std::vector<Eigen::AlignedBox3d> boxes_of(const Surface& surface, const Positions& positions) {
+    std::vector<Eigen::AlignedBox3d> boxes(static_cast<std::size_t>(surface.part_count));
+    for (std::size_t i = 0; i < positions.size(); ++i) boxes[surface.parts[i]].extend(positions[i]);
     return boxes;
 }
 
-/// Returns the box of all parts.
-Eigen::AlignedBox3d box_of(const Boxes& boxes) {
-    Eigen::AlignedBox3d all;
-    for (const Eigen::AlignedBox3d& box : boxes) all.extend(box);
-    return all;
+/// Returns a box that is larger on all sides.
+Eigen::AlignedBox3d widened(const Eigen::AlignedBox3d& box, double margin) {
+    return {box.min().array() - margin, box.max().array() + margin};
 }
 
 /// Returns an octree for the parts at these positions that have enough vertices; none if there are
@@ -128,7 +122,9 @@ MeshFlow::MeshFlow(MeshPlan plan)
         use_octree();
     }
     enter_setup_phase(kPrepareSolver);
-    const double diagonal = box_of(boxes_of(surface_, positions_)).diagonal().norm();
+    Eigen::AlignedBox3d box;
+    for (const Eigen::AlignedBox3d& of_part : boxes_of(surface_, positions_)) box.extend(of_part);
+    const double diagonal = box.diagonal().norm();
     const double halved = detail_size_for(step_size_, 1, steps_.order);
     margin_ = kOvershootInDetail * std::min(halved, diagonal) + kOvershootInDiagonals * diagonal;
     if (plan.preserve != Preserve::None)
@@ -139,7 +135,10 @@ MeshFlow::MeshFlow(MeshPlan plan)
 
 void MeshFlow::use_octree() {
     std::unique_ptr<VertexOctree> octree = octree_of(surface_, positions_, depth_);
-    if (!octree) return;
+    if (!octree) {
+        octree_harms_ = true;
+        return;
+    }
     const auto elements = octree->finest().element_count();
     if (!solver_.octree()) {
         report_.depth = octree->finest().depth;
@@ -202,18 +201,19 @@ void MeshFlow::solve(StepReport& report, Positions* response) {
     octree_harms_ = octree_harms_ || (had_octree && !solver_.octree());
 }
 
-void MeshFlow::displace(Positions& to) const {
+bool MeshFlow::displace(Positions& to) const {
+    const std::vector<Eigen::AlignedBox3d> boxes = boxes_of(surface_, positions_);
     to.resize(positions_.size());
-    parallel_for_rows(static_cast<std::int64_t>(to.size()),
-                      [&](std::int32_t i) { to[i] = positions_[i] + d_[i]; });
-    if (steps_.order > 1) return;
     // Order 1 obeys a maximum principle for each coordinate, but for the tolerance.
-    const Boxes boxes = boxes_of(surface_, positions_);
-    parallel_for_rows(static_cast<std::int64_t>(to.size()), [&](std::int32_t i) {
+    const bool is_bounded = steps_.order == 1;
+    const auto moves_outside = [&](std::int64_t i) {
         const Eigen::AlignedBox3d& box = boxes[surface_.parts[i]];
-        Eigen::AlignedBox3d wide(box.min().array() - margin_, box.max().array() + margin_);
-        if (wide.contains(to[i])) to[i] = to[i].cwiseMax(box.min()).cwiseMin(box.max());
-    });
+        to[i] = positions_[i] + d_[i];
+        if (!widened(box, margin_).contains(to[i])) return true;
+        if (is_bounded) to[i] = to[i].cwiseMax(box.min()).cwiseMin(box.max());
+        return false;
+    };
+    return parallel_count(static_cast<std::int64_t>(to.size()), moves_outside) == 0;
 }
 
 Stop MeshFlow::advance(Positions& to, StepReport& report) {
@@ -232,15 +232,7 @@ Stop MeshFlow::advance(Positions& to, StepReport& report) {
     poll_progress();
     report.solve_seconds = stopwatch.seconds();
     if (!report.reached_tolerance && !(report.error_estimate <= kUseless)) return Stop::StepFailed;
-    displace(to);
-    const Boxes boxes = boxes_of(surface_, positions_);
-    const auto is_outside = [&](std::int64_t i) {
-        const Eigen::AlignedBox3d& box = boxes[surface_.parts[i]];
-        return !Eigen::AlignedBox3d(box.min().array() - margin_, box.max().array() + margin_)
-                    .contains(to[i]);
-    };
-    if (parallel_count(static_cast<std::int64_t>(to.size()), is_outside) > 0)
-        return Stop::StepFailed;
+    if (!displace(to)) return Stop::StepFailed;
     const Stop restored = preserver_ ? preserver_->restore(response, to) : Stop::None;
     const double area_before = std::exchange(area_, area_of(to));
     if (preserver_) return restored;

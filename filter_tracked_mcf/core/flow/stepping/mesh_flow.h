@@ -39,7 +39,8 @@ private:
     /// not null.
     void solve(StepReport& report, Positions* response);
     /// Sets the positions to those after the displacement d_, where a step of order 1 can lead.
-    void displace(Positions& to) const;
+    /// Returns whether no vertex leaves the box of its part by more than the margin.
+    bool displace(Positions& to) const;
     /// Sets `to` to the positions after one step.
     Stop advance(Positions& to, StepReport& report);
 

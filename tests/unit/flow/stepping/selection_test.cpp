@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "filter_tracked_mcf/core/flow/plan/plan.h"
 #include "tests/support/shapes.h"
 #include "tests/unit/flows.h"
 
@@ -105,6 +106,20 @@ TEST(Selection, SurfaceIsContinuousAtTheSeam) {
     }
     EXPECT_GT(anywhere, 0.2);
     EXPECT_LT(beside, 0.2 * anywhere);
+}
+
+TEST(Selection, AsksForTheMemoryOfItsShare) {
+    const TriangleMesh mesh = shapes::bumpy_sphere(20);
+    const auto bytes = [&](const Selection& selection) {
+        return mesh_plan_of(mesh, Inputs(selection), {}).expected_bytes;
+    };
+    Selection one(mesh.triangles.size(), 0), half = one;
+    one[0] = 1;
+    std::fill(half.begin(), half.begin() + static_cast<std::ptrdiff_t>(half.size() / 2), 1);
+    const double all = bytes({});
+    EXPECT_EQ(bytes(Selection(half.size(), 1)), all);
+    EXPECT_LT(bytes(one), 0.35 * all) << "the surface is made of the whole mesh";
+    EXPECT_NEAR(bytes(half), (all + bytes(one)) / 2, 0.01 * all);
 }
 
 }  // namespace
