@@ -59,6 +59,7 @@ inline Eigen::MatrixXd dense_stiffness(const Stars& stars, const TriangleElement
 inline std::vector<Elimination::Rows> rows_in_order(const MeshSystem& system) {
     const Elimination& elimination = system.elimination();
     std::vector<Elimination::Rows> rows;
+    rows.reserve(static_cast<std::size_t>(system.blocks().count()));
     for (std::int32_t block = 0; block < system.blocks().count(); ++block)
         rows.push_back(elimination.inside(block));
     for (const auto& separators : elimination.later_stages()) {
