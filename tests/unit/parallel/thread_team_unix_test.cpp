@@ -7,6 +7,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <chrono>
 #include <cstdlib>
 #include <ctime>
@@ -52,15 +53,18 @@ TEST(ForkedProcess, RunsLoops) {
 }
 
 TEST(ForkedProcess, RunsLoopsIfAnotherThreadWasInALoop) {
-    std::atomic<bool> begun{false}, forked{false};
+    std::atomic<int> begun{0};
+    std::atomic<bool> forked{false};
     std::thread other([&] {
         const ThreadTeam team(3);
         parallel_for(3, [&](std::int64_t /*i*/) {
-            begun = true;
+            ++begun;
             while (!forked) std::this_thread::yield();
         });
     });
-    while (!begun) std::this_thread::yield();
+    // Until all threads have started: in the child, nobody would release a sanitizer's lock that a
+    // starting thread holds.
+    while (begun < 3) std::this_thread::yield();
     expect_sum_of_child();
     forked = true;
     other.join();
