@@ -41,6 +41,9 @@ inline Eigen::Vector4f sum_of_groups(const float* entries, const std::int32_t* c
     return even + odd;
 }
 
+/// A search through so many entries is no slower than a binary one.
+constexpr std::size_t kShortRow = 8;
+
 /// The least pivot of the factorisation, relative to the diagonal. Those of an M-matrix are
 /// positive but for rounding.
 constexpr float kLeastPivot = 1e-3F;
@@ -151,12 +154,10 @@ void MeshSystem::take_row(const TriangleElements& elements, bool takes_stiffness
         const float weight = step_size_ * weights_[i];
         stiffness += weight;
         const bool is_before = elimination_.precedes(stars_.neighbours[i], row);
-        std::size_t place = (is_before ? next_lower : next_upper)++;
-        if (!is_inside && is_before) {
-            place = first_entry(rows_[row].begin);
-            while (columns_[place] != stars_.neighbours[i]) ++place;
-        }
-        entries_[place] = mass_entries[i - begin] - weight;
+        const std::size_t next = (is_before ? next_lower : next_upper)++;
+        const bool is_sorted = is_inside || !is_before;
+        entries_[is_sorted ? next : lower_entry(row, stars_.neighbours[i])] =
+            mass_entries[i - begin] - weight;
     }
     float& least_mass = least_masses_[row];
     if (least_mass == 0) least_mass = kLeastMass * mass;
@@ -164,11 +165,19 @@ void MeshSystem::take_row(const TriangleElements& elements, bool takes_stiffness
     diagonal_[row] = 0.75F * mass + (masses_[row] - mass) + stiffness;
 }
 
-float MeshSystem::lower_factor(std::int32_t row, std::int32_t column) const {
-    for (std::size_t i = first_entry(rows_[row].begin); i < first_entry(rows_[row].lower); ++i) {
-        if (columns_[i] == column) return factors_[i];
+std::size_t MeshSystem::lower_entry(std::int32_t row, std::int32_t column) const {
+    const std::size_t begin = first_entry(rows_[row].begin), end = first_entry(rows_[row].lower);
+    if (end - begin <= kShortRow) {
+        for (std::size_t i = begin; i < end; ++i) {
+            if (columns_[i] == column) return i;
+        }
+        return end;
     }
-    return 0;
+    const auto found = std::lower_bound(
+        columns_.begin() + begin, columns_.begin() + end, column,
+        [&](std::int32_t a, std::int32_t b) { return elimination_.precedes(a, b); });
+    const auto i = static_cast<std::size_t>(found - columns_.begin());
+    return i < end && columns_[i] == column ? i : end;
 }
 
 void MeshSystem::factorise(Rows rows) {
@@ -182,11 +191,24 @@ void MeshSystem::factorise(Rows rows) {
         }
         for (std::size_t i = begin; i < lower && columns_[i] != row; ++i) {
             const std::int32_t column = columns_[i];
+            const std::size_t other_begin = first_entry(rows_[column].begin);
+            const std::size_t other_end = first_entry(rows_[column].lower);
             float factor = factors_[i];
-            // Both rows may have a neighbour that is eliminated before them.
-            for (std::size_t k = begin; k < i; ++k) {
-                factor -=
-                    factors_[k] * inverse_pivots_[columns_[k]] * lower_factor(column, columns_[k]);
+            const auto eliminate = [&](std::size_t own, std::size_t other) {
+                factor -= factors_[own] * inverse_pivots_[columns_[own]] * factors_[other];
+            };
+            // Both rows may have neighbours that are eliminated before them. One row may be that of
+            // a hub with thousands of neighbours: the shorter one is gone through.
+            if (i - begin <= other_end - other_begin) {
+                for (std::size_t own = begin; own < i; ++own) {
+                    const std::size_t other = lower_entry(column, columns_[own]);
+                    if (other < other_end) eliminate(own, other);
+                }
+            } else {
+                for (std::size_t other = other_begin; other < other_end; ++other) {
+                    const std::size_t own = lower_entry(row, columns_[other]);
+                    if (own < i) eliminate(own, other);
+                }
             }
             factors_[i] = factor;
             pivot -= factor * factor * inverse_pivots_[column];
@@ -200,7 +222,7 @@ void MeshSystem::mirror_factors(const Block& block) {
     for (std::int32_t row = block.begin; row < block.end; ++row) {
         const std::size_t end = first_entry(rows_[row + 1].begin);
         for (std::size_t i = first_entry(rows_[row].lower); i < end && columns_[i] != row; ++i)
-            factors_[i] = lower_factor(columns_[i], row);
+            factors_[i] = factors_[lower_entry(columns_[i], row)];
     }
 }
 

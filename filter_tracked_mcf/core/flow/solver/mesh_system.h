@@ -86,7 +86,7 @@ public:
 
 private:
     /// A row of A, cut into groups of four entries: those of neighbours that are eliminated before
-    /// it, and the others. Entries that fill a group up are 0, and have the row's
+    /// it, in their order, and the others. Entries that fill a group up are 0, and have the row's
     /// own column. Groups are numbered, because a row never has more groups than neighbours, and
     /// Stars has fewer than 2^32 of these.
     struct Row {
@@ -98,8 +98,9 @@ private:
     /// Takes a row of A. `mass_entries` is workspace.
     void take_row(const TriangleElements& elements, bool takes_stiffness, std::int32_t row,
                   std::vector<float>& mass_entries);
-    /// Returns an entry of U of a row with one that is eliminated before it, or 0.
-    float lower_factor(std::int32_t row, std::int32_t column) const;
+    /// Returns the entry of a row with one that is eliminated before it, or the end of these
+    /// entries.
+    std::size_t lower_entry(std::int32_t row, std::int32_t column) const;
     /// Computes E of these rows, and their entries of U before the diagonal.
     void factorise(Rows rows);
     /// Copies a block's other entries of U from where factorise() has computed them.
