@@ -45,10 +45,10 @@ public:
     /// The separators of each later stage, in the order of their parts.
     const std::vector<std::vector<Separator>>& later_stages() const { return later_stages_; }
 
-    /// Returns whether stage 0 eliminates a row. Then it does so with all those before it, too.
+    /// Returns whether stage 0 eliminates a row. Then it does so with all neighbours that are
+    /// eliminated before it.
     bool is_inside(std::int32_t row) const { return stages_[row] == 0; }
-    /// Returns whether a row is eliminated before another one. They must be neighbours, or
-    /// neighbours of the same row.
+    /// Returns whether a row comes before another one in the order of their part.
     bool precedes(std::int32_t row, std::int32_t other) const {
         return stages_[row] != stages_[other] ? stages_[row] < stages_[other] : row < other;
     }

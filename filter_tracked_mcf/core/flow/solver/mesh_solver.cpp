@@ -178,6 +178,8 @@ void MeshSolver::mend_octree(const Parts& failed) {
         parts_[part].is_mended = true;
         if (!widened || !is_negative(part)) parts_[part].has_octree = false;
     }
+    // What the V-cycle has given may be no number, which entries that are 0 must not meet.
+    set_zero(z_, z_.cols());
     if (std::any_of(parts_.begin(), parts_.end(), [](const Part& part) { return part.has_octree; }))
         return;
     multigrid_.reset();

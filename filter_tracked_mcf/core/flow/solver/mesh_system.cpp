@@ -45,7 +45,7 @@ inline Eigen::Vector4f sum_of_groups(const float* entries, const std::int32_t* c
 constexpr std::size_t kShortRow = 8;
 
 /// The least pivot of the factorisation, relative to the diagonal. Those of an M-matrix are
-/// positive but for rounding.
+/// positive but for rounding; only last rows of small parts may have smaller ones.
 constexpr float kLeastPivot = 1e-3F;
 
 }  // namespace
