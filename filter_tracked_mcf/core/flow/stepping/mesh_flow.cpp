@@ -42,7 +42,7 @@ constexpr double kOvershootInDetail = 0.1, kOvershootInDiagonals = 0.02;
 
 /// Where waves are shorter than this, in edges, coarser functions than the mesh's cost more than
 /// they save.
-constexpr double kShortWaves = 24;
+constexpr double kShortWaves = 16;
 
 /// An octree is used from a step on whose solves take more iterations than this.
 constexpr int kManyIterations = 40;

@@ -206,11 +206,13 @@ TEST(MeshFlow, PagesMoveTheirCommonEdgeUnlessTheirPullsAreInBalance) {
 }
 
 TEST(MeshFlow, TakesAnOctreeOnceSolvesAreLong) {
-    const TriangleMesh sphere = shapes::bumpy_sphere(30);
+    // Long triangles at the rim of a lens need more iterations than others.
+    const TriangleMesh lens = shapes::transformed(shapes::bumpy_sphere(30),
+                                                  Eigen::Affine3d(Eigen::Scaling(1.0, 1.0, 0.1)));
     FlowParameters p;
-    p.step_size = 12 * std::pow(mean_edge_length(sphere), 2);  // a step halves waves of 22 edges
+    p.step_size = 6 * std::pow(mean_edge_length(lens), 2);  // a step halves waves of 15 edges
     p.iterations = 2;
-    TriangleMesh usual = sphere, close = sphere;
+    TriangleMesh usual = lens, close = lens;
     EXPECT_EQ(evolve(usual, p).depth, 0);
     p.tolerance = 1e-12;
     const FlowReport report = evolve(close, p);
