@@ -45,7 +45,7 @@ constexpr double kOvershootInDetail = 0.1, kOvershootInDiagonals = 0.02;
 constexpr double kShortWaves = 16;
 
 /// An octree is used from a step on whose solves take more iterations than this.
-constexpr int kManyIterations = 40;
+constexpr int kManyIterations = 30;
 
 /// The side of the octree's cells is at least this, in edges.
 constexpr double kSmallestCell = 3;
