@@ -158,7 +158,7 @@ TEST(MeshSolver, WidensTheSpectrumWhereSheetsShareFunctions) {
 
 TEST(MeshSolver, GoesOnWithoutAnOctreeThatDoesNotHelp) {
     // The functions of an octree of other places jump from vertex to vertex.
-    SolverOfMesh with(shapes::bumpy_sphere(30), 3, 1e4), without(shapes::bumpy_sphere(30), 0, 1e4);
+    SolverOfMesh with(shapes::bumpy_sphere(14), 3, 1e4), without(shapes::bumpy_sphere(14), 0, 1e4);
     Vertices shuffled = with.surface.positions;
     std::shuffle(shuffled.begin(), shuffled.end(), std::mt19937(1));
     with.solver.use(
