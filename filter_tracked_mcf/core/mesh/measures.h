@@ -58,7 +58,13 @@ double swept_volume_rate(const std::array<Eigen::Vector3d, 3>& initial,
 /// Returns the positions of a triangle's corners.
 inline std::array<Eigen::Vector3d, 3> corners_of(const std::vector<Eigen::Vector3d>& positions,
                                                  const Triangle& triangle) {
-    return {positions[triangle[0]], positions[triangle[1]], positions[triangle[2]]};
+    // Coordinate by coordinate: compilers write a copied vector in other pieces than they read it
+    // in, for which processors wait, up to four times as long as an area takes.
+    const auto corner = [&](int i) {
+        const Eigen::Vector3d& x = positions[triangle[i]];
+        return Eigen::Vector3d(x.x(), x.y(), x.z());
+    };
+    return {corner(0), corner(1), corner(2)};
 }
 
 }  // namespace tracked_mcf

@@ -29,12 +29,15 @@ constexpr double kWorthRefining = 0.5;
 /// A negative product is rounding if it is less than this, relative to the whole.
 constexpr double kRoundedProduct = 1e-5;
 
-/// Returns the power of two by which a right-hand side of this norm is divided: conjugate gradients
-/// square numbers, and single precision loses the squares of very small and large ones.
-double power_of_two_of(double norm) {
+/// Returns the power of two by which a right-hand side of this norm is divided, so that its norm is
+/// about a million. Conjugate gradients square numbers: single precision loses the squares of very
+/// small and large ones, and processors take a hundred times as long for numbers that are almost
+/// lost. Rounding leaves such ones, 1e-20 of the norm, wherever most of a surface is smooth.
+double unit_of(double norm) {
     constexpr int most = 126;  // so that the inverse is a float, too
-    return norm > 0 && std::isfinite(norm) ? std::exp2(std::clamp(std::ilogb(norm), -most, most))
-                                           : 1;
+    constexpr int millions = 20;
+    if (!(norm > 0) || !std::isfinite(norm)) return 1;
+    return std::exp2(std::clamp(std::ilogb(norm) - millions, -most, most));
 }
 
 double squared_norm(const PartBlocks::Block& block, const Field& field) {
@@ -145,7 +148,7 @@ double MeshSolver::choose_units(const Field& b) {
     const PartBlocks& blocks = system_.blocks();
     blocks.for_each([&](std::int32_t block) { sums_[block] = squared_norm(blocks[block], b); });
     for (std::int32_t part = 0; part < blocks.part_count(); ++part)
-        parts_[part].unit = power_of_two_of(std::sqrt(sum_of(part)));
+        parts_[part].unit = unit_of(std::sqrt(sum_of(part)));
     return std::sqrt(std::accumulate(sums_.begin(), sums_.end(), 0.0));
 }
 

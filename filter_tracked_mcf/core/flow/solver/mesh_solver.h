@@ -109,7 +109,7 @@ private:
     /// Returns the sum of sums_ over the blocks of a part.
     double sum_of(std::int32_t part) const;
 
-    /// Sets the units of the parts to about the norms of b. Returns that of the whole of b.
+    /// Sets the units of the parts by the norms of b. Returns that of the whole of b.
     double choose_units(const Field& b);
     /// Sets r_ to b in the units of the parts, and `first` of active parts.
     void begin(const Field& b);
