@@ -30,7 +30,7 @@ packages_of() {
         tests) echo "$(packages_of package) $(packages_of python)" libgtest-dev libgmock-dev \
             xvfb xauth xdotool imagemagick debootstrap python3-numpy python3-matplotlib python3-nbclient \
             python3-ipykernel python3-cloudpickle python3-joblib python3-distributed ;;
-        research) echo "$(packages_of program)" libcgal-dev meshlab "$(libraries_recommended_by meshlab)" \
+        research) echo "$(packages_of program)" libcgal-dev libsuitesparse-dev meshlab "$(libraries_recommended_by meshlab)" \
             python3-matplotlib python3-scipy python3-vtk9 python3-numpy xvfb xauth ;;
         pymeshlab) echo python3-venv python3-numpy python3-matplotlib ;;
         windows) echo "$(packages_of program)" g++-mingw-w64-x86-64-posix googletest python3 wine wine64 ;;

@@ -13,6 +13,7 @@ int main(int argc, char** argv) {
     app.require_subcommand(1);
     add_flow(app);
     add_incomplete_cholesky(app);
+    add_solvers(app);
     add_cgal(app);
     try {
         app.parse(argc, argv);

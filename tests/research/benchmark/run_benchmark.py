@@ -15,7 +15,7 @@ import sys
 
 import numpy
 
-from measurements import CGAL, IC, JOBS_BY_SIZE, OURS, RELIEF, WHOLE_JOBS, Case, Measurements, has_cgal
+from measurements import CGAL, JOBS_BY_SIZE, OURS, RELIEF, SOLVERS, WHOLE_JOBS, Case, Measurements, has_cgal
 from results_page import Page
 
 TOP = pathlib.Path(__file__).resolve().parents[3]
@@ -79,8 +79,8 @@ def ours(mesh, name, step_size, threads=1, steps=STEPS):
                 ("flow", mesh, "--step-size", step_size, "--threads", threads, "--steps", steps))
 
 
-def incomplete_cholesky(mesh, name, step_size, steps=STEPS):
-    return Case(IC, name, step_size, 1, ("incomplete-cholesky", mesh, "--step-size", step_size, "--steps", steps))
+def solvers(mesh, name, step_size):
+    return [Case(solver, name, step_size, 1, ("solvers", mesh, solver, "--step-size", step_size)) for solver in SOLVERS]
 
 
 def cgal(mesh, name, step_size):
@@ -102,14 +102,12 @@ class Benchmark:
             measurements.run(self._whole_jobs(), self._repetitions)
             measurements.run(self._sizes(), self._repetitions)
             return
-        measurements.run(self._compared(), self._repetitions)
-        measurements.run(self._cgal(), 1)
-        measurements.run(self._other_meshes() + self._scale(), 1)
+        measurements.run(self._flows() + self._solvers(), self._repetitions)
+        measurements.run(self._cgal() + self._scale(), 1)
 
-    def _compared(self):
+    def _flows(self):
         mesh = sphere(self._frequency)
-        return [make(mesh, self.main, step_size) for step_size in STEP_SIZES for make in (ours, incomplete_cholesky)] + [
-            ours(mesh, self.main, MIDDLE, threads=2)]
+        return [ours(mesh, self.main, step_size) for step_size in STEP_SIZES] + [ours(mesh, self.main, MIDDLE, threads=2)]
 
     def _cgal(self):
         if not has_cgal(self._arguments.build / "tracked_mcf_benchmark"):
@@ -125,13 +123,10 @@ class Benchmark:
         return [ours(sphere(f), f"{label(f)}, scaled", MIDDLE * (256 / f)**2, steps=4)
                 for f in frequencies]
 
-    def _other_meshes(self):
-        cases = []
-        for mesh, name in self._files():
-            step_sizes = [MIDDLE] if self._arguments.quick else STEP_SIZES
-            for step_size in step_sizes:
-                cases += [make(mesh, name, step_size, steps=2) for make in (ours, incomplete_cholesky)]
-        return cases
+    def _solvers(self):
+        step_sizes = [MIDDLE] if self._arguments.quick else STEP_SIZES
+        return [case for mesh, name in [(sphere(self._frequency), self.main), *self._files()]
+                for step_size in step_sizes for case in solvers(mesh, name, step_size)]
 
     def _whole_jobs(self):
         """Returns jobs from file to file, on an idle machine and beside endless loops."""

@@ -16,6 +16,9 @@ void add_flow(CLI::App& app);
 /// Measures the cotangent flow by Eigen's conjugate gradients with incomplete Cholesky factors.
 void add_incomplete_cholesky(CLI::App& app);
 
+/// Measures one linear system, solved to the same error by several solvers.
+void add_solvers(CLI::App& app);
+
 /// Measures CGAL's smooth_shape. Adds nothing if CGAL is not enabled.
 void add_cgal(CLI::App& app);
 
