@@ -72,10 +72,11 @@ class Folder(unittest.TestCase):
                 yield [sys.executable, SCRIPT, cluster.scheduler_address]
 
     def smooth(self, *options, command=(), program=None, megabytes=2000, output=None):
-        """Returns the exit code and the messages."""
+        """Returns the exit code and the messages. `self.counts` is what the command says at its end."""
         with self.workers(program or PROGRAM, megabytes) as script:
             done = subprocess.run([*script, self.meshes, output or self.output, *command, *OPTIONS, *options],
-                                  stderr=subprocess.PIPE, text=True, timeout=100)
+                                  stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=100)
+        self.counts = done.stdout
         return done.returncode, done.stderr
 
     def outputs(self):
@@ -98,12 +99,14 @@ class Folder(unittest.TestCase):
         self.assertRegex(messages, r"(?m)^killed.off:  \(failed, exit code (137|-9)\)$")
         first = self.outputs()
         self.assertEqual(set(first), {"1.off", "sub/two words.OFF"}, messages)
+        self.assertEqual(self.counts, "2 done, 0 there already, 2 failed\n")
 
         (self.meshes / "broken.off").write_text(MESH.format(height=4), encoding="ascii")
         code, messages = self.smooth()
         self.assertEqual(code, 0, messages)
         second = self.outputs()
         self.assertEqual(set(second), {*first, "broken.off", "killed.off"})
+        self.assertEqual(self.counts, "2 done, 2 there already, 0 failed\n")
         self.assertEqual({name: second[name] for name in first}, first)
         for name, (_, data) in second.items():
             subprocess.run([PROGRAM, self.meshes / name, self.folder / "expected.off", "--quiet", *OPTIONS], check=True)
@@ -131,6 +134,28 @@ class Folder(unittest.TestCase):
         self.assertEqual(code, 1, messages)
         self.assertEqual(len(re.findall("(?m)^.*: tracked_mcf: Depth 10 of the paper's method would need .* Choose a smaller depth", messages)), 3)
         self.assertEqual(self.outputs(), {})
+
+    def test_a_folder_without_meshes_is_an_error(self):
+        self.meshes = self.folder / "none"
+        self.meshes.mkdir()
+        self.assertEqual(self.smooth()[0], 1)
+        self.assertIn("there is no mesh in", self.smooth()[1])
+        self.meshes = self.folder / "all scans" / "1.off"
+        code, messages = self.smooth()
+        self.assertEqual(code, 1)
+        self.assertIn("is no folder", messages)
+
+    def test_takes_any_name_and_what_links_lead_to(self):
+        self.meshes = self.meshes.rename(self.folder / "{} $x")
+        (self.meshes / "2.off").symlink_to(self.meshes / "1.off")
+        code, messages = self.smooth()
+        self.assertEqual(code, 0, messages)
+        self.assertEqual(set(self.outputs()), {"1.off", "2.off", "sub/two words.OFF", "killed.off"})
+
+    def test_an_unknown_option_is_named_once(self):
+        code, messages = self.smooth("--detial", "3")
+        self.assertNotEqual(code, 0)
+        self.assertEqual(messages.count("--detial"), 1 if SCRIPT.suffix != ".py" else 3)
 
     def test_refuses_to_write_into_the_folder_of_the_meshes(self):
         code, messages = self.smooth(output=self.meshes)

@@ -53,6 +53,24 @@ TEST_F(Program, TakesTheFlowWithAndWithoutItsCommand) {
         EXPECT_THAT(run("--help").output, HasSubstr("\n  " + std::string(command) + " "));
 }
 
+TEST_F(Program, ReplacesNoOtherMeshUnlessAskedTo) {
+    write_file(folder_ / "b.off", grid(3));
+    const ProgramRun refused = run("a.off b.off");
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_THAT(refused.errors,
+                AllOf(HasSubstr("b.off exists and is another mesh, of 9 vertices and 4 faces where "
+                                "INPUT has 4 vertices and 4 faces"),
+                      HasSubstr("--overwrite")));
+    EXPECT_EQ(read_file(folder_ / "b.off"), grid(3));
+    EXPECT_EQ(run("a.off b.off --overwrite --quiet").exit_code, 0);
+    EXPECT_EQ(run("a.off b.off --quiet").exit_code, 0) << "a version of INPUT";
+    EXPECT_EQ(run("a.off b.stl --quiet").exit_code, 0);
+    EXPECT_EQ(run("a.off b.stl --quiet").exit_code, 0) << "STL has the vertices of each triangle";
+    write_file(folder_ / "c.off", "no mesh");
+    EXPECT_EQ(run("a.off c.off --quiet").exit_code, 0);
+    EXPECT_THAT(run("a.off b.off c.off").errors, HasSubstr("tracked_mcf_folder"));
+}
+
 TEST_F(Program, AMisspeltCommandIsNamed) {
     for (const auto& [typed, meant] :
          {std::pair{"remove_noise", "remove-noise"}, std::pair{"RemoveNoise", "remove-noise"},

@@ -41,9 +41,9 @@ TEST_F(ProgramOnUnix, PipesAreReadInEveryFormat) {
             ASSERT_EQ(run("a.off " + file + " --depth 3").exit_code, 0);
         }
         std::filesystem::create_symlink("/dev/stdin", folder_ / pipe);
-        ASSERT_EQ(run(file + " b.ply --depth 3").exit_code, 0);
-        const ProgramRun result =
-            run_program(folder_, pipe + " c.ply --depth 3", "cat " + file + " | timeout 60");
+        ASSERT_EQ(run(file + " b.ply --depth 3 --overwrite").exit_code, 0);
+        const ProgramRun result = run_program(folder_, pipe + " c.ply --depth 3 --overwrite",
+                                              "cat " + file + " | timeout 60");
         EXPECT_EQ(result.exit_code, 0) << result.errors;
         EXPECT_EQ(read_file(folder_ / "c.ply"), read_file(folder_ / "b.ply")) << extension;
     }

@@ -109,8 +109,7 @@ TEST(Selection, SelectingNothingIsAnError) {
                 HasSubstr("No face of a.ply is selected by 'z' of its vertices; "))
         << "the apex alone is no face";
     EXPECT_EQ(complaint<InvalidMesh>(kPyramid, "zero"),
-              "No face of a.ply is selected by 'zero' of its faces; select some, or leave "
-              "--selected out to smooth the whole mesh.");
+              "No face of a.ply is selected by 'zero' of its faces; select some.");
 }
 
 TEST(Strength, RefusesOtherNumbersAndFiles) {

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::size_t kNameColumns = 26, kTextColumns = 70;
+constexpr std::size_t kNameColumns = 26, kTextColumns = 54;
 
 const std::string kLength = "X in units of the mesh, or X% of its bounding box's diagonal. ";
 
@@ -39,7 +39,7 @@ struct ProgramTexts;
 
 template <>
 struct ProgramTexts<FlowParameters> {
-    static constexpr const char* kCommand = "tracked_mcf";
+    static constexpr const char *kCommand = "tracked_mcf", *kUsage = "tracked_mcf [smooth]";
     static constexpr const char* kDescription =
         "Smooths a triangle mesh by mean-curvature flow: every point moves along the normal with "
         "the speed of the mean curvature, so that noise and small detail vanish first and large "
@@ -55,14 +55,17 @@ struct ProgramTexts<FlowParameters> {
         "  tracked_mcf scan.ply smooth.ply --preserve volume\n"
         "      smooths a scan without shrinking it\n"
         "  tracked_mcf scan.ply smooth.ply --selected flags\n"
-        "      smooths only the faces that were selected in MeshLab and saved with their flags\n"
+        "      smooths only the faces that were selected in MeshLab and saved with flags\n"
         "  tracked_mcf scan.ply smooth.stl --quiet --report smooth.json\n"
-        "      in a script: converts, prints no summary, and writes a report\n";
+        "      in a script: converts, prints no summary, and writes a report\n"
+        "\n"
+        "The method is that of M. Chuang and M. Kazhdan, Fast Mean-Curvature Flow via\n"
+        "Finite-Elements Tracking, 2011.\n";
 };
 
 template <>
 struct ProgramTexts<NoiseParameters> {
-    static constexpr const char* kCommand = "tracked_mcf remove-noise";
+    static constexpr const char *kCommand = "tracked_mcf remove-noise", *kUsage = kCommand;
     static constexpr const char* kDescription =
         "Removes noise from a triangle mesh, and keeps creases and larger detail. Noise is what "
         "single vertices do independently of their neighbours. The program measures it, so the "
@@ -79,7 +82,7 @@ struct ProgramTexts<NoiseParameters> {
 
 template <>
 struct ProgramTexts<FairParameters> {
-    static constexpr const char* kCommand = "tracked_mcf fair";
+    static constexpr const char *kCommand = "tracked_mcf fair", *kUsage = kCommand;
     static constexpr const char* kDescription =
         "Makes the selected faces of a triangle mesh continue the surface around them, such as "
         "those that fill a hole. Only vertices of which all faces are selected move, and none on "
@@ -88,29 +91,25 @@ struct ProgramTexts<FairParameters> {
     static constexpr const char* kExamples =
         "Examples:\n"
         "  tracked_mcf fair closed.ply fair.ply --selected flags\n"
-        "      after Close Holes in MeshLab, refining the new faces, and saving with their flags\n"
+        "      after Close Holes in MeshLab, refining the new faces, saving with flags\n"
         "  tracked_mcf fair closed.ply fair.ply --selected flags --continuity curvature\n"
         "      in a smooth surface\n";
 };
 
 const char* const kFooter =
     "\n"
-    "Files: PLY, OBJ, OFF and STL, by extension. If OUTPUT has the format of INPUT, only the\n"
-    "positions and the normals around them change: text stays text, and binary stays binary.\n"
-    "Another format, PLY or STL in binary, gets only the positions and the faces, and a warning\n"
-    "names everything that is left out.\n"
-    "Only a PLY file can hold a quality: the property quality of its vertices. INPUT and OUTPUT\n"
-    "may be the same file: it is replaced only after everything has succeeded.\n"
+    "Files: PLY, OBJ, OFF and STL, by extension. If OUTPUT has the format of INPUT,\n"
+    "only the positions and the normals around them change: text stays text, and\n"
+    "binary stays binary. Another format, PLY or STL in binary, gets only the\n"
+    "positions and the faces, and a warning names everything that is left out. Only a\n"
+    "PLY file can hold a quality: the property quality of its vertices. INPUT and\n"
+    "OUTPUT may be the same file: it is replaced only after everything has succeeded.\n"
     "\n"
-    "Exit codes: 0 done; 1 the mesh cannot be read or smoothed; 2 wrong use of options; 3 a\n"
-    "result cannot be written; 4 too little memory; 5 an unexpected error. An interrupt ends the\n"
-    "program by its signal, which a shell shows as 129, 130 or 143. An error is one line on the\n"
-    "error output. So is a warning, also with --quiet: the flow stopped before its last step, the\n"
-    "solver stopped before its tolerance, or OUTPUT does not keep everything of INPUT. Warnings\n"
-    "leave the exit code 0.\n"
-    "\n"
-    "The method is that of M. Chuang and M. Kazhdan, Fast Mean-Curvature Flow via\n"
-    "Finite-Elements Tracking, 2011.\n";
+    "Exit codes: 0 done; 1 the mesh cannot be read or smoothed; 2 wrong use of\n"
+    "options; 3 a result cannot be written; 4 too little memory; 5 an unexpected\n"
+    "error. An interrupt ends the program by its signal, which a shell shows as 129,\n"
+    "130 or 143. An error is one line on the error output. So is a warning, also with\n"
+    "--quiet: it leaves the exit code 0.\n";
 
 std::string wrapped(const std::string& text, std::size_t columns) {
     std::istringstream words(text);
@@ -253,6 +252,9 @@ void add_files(CLI::App& app, CommandLine& line) {
     app.add_flag("--double", line.doubles,
                  help_of("Write a PLY file's coordinates and normals as doubles. Without this "
                          "option they keep their type."));
+    app.add_flag("--overwrite", line.overwrites,
+                 help_of("Replace OUTPUT even if it is a mesh of other numbers of vertices or "
+                         "faces than INPUT."));
     app.add_flag("--quiet", line.quiet,
                  help_of("No summary and no progress bar; errors and warnings only."));
     app.add_flag("--verbose", line.verbose,
@@ -323,12 +325,14 @@ std::size_t distance(const std::string& a, const std::string& b) {
     return row.back();
 }
 
-/// Returns a question for the option that is nearest to the first unknown one; empty if none is
-/// near.
-std::string suggestion(const CLI::App& app) {
+/// Returns what is probably meant by the unexpected words: the option that is nearest to the first
+/// unknown one, or many meshes; empty if neither is near.
+std::string hint(const CLI::App& app) {
     std::vector<std::string> names;
     for (const CLI::Option* const option : app.get_options()) names.push_back(option->get_name());
     for (const std::string& word : app.remaining()) {
+        if (format_of(fs::u8path(word)))
+            return " For all meshes of a folder, run tracked_mcf_folder.";
         if (word.rfind("--", 0) != 0) continue;
         const std::string nearest = nearest_name(word.substr(0, word.find('=')), names);
         return nearest.empty() ? "" : " Do you mean " + nearest + "?";
@@ -366,7 +370,7 @@ CommandLineOf<Parameters> parse_command_line(std::vector<std::string> arguments)
     using Texts = ProgramTexts<Parameters>;
     CLI::App app(list_of_commands<Parameters>() +
                      wrapped(Texts::kDescription, kNameColumns + kTextColumns) + "\n",
-                 Texts::kCommand);
+                 Texts::kUsage);
     app.allow_windows_style_options(false);  // on Windows, "/scan.ply" would be an option
     app.get_formatter()->column_width(kNameColumns);
     app.footer(std::string(Texts::kExamples) + kFooter);
@@ -389,8 +393,7 @@ CommandLineOf<Parameters> parse_command_line(std::vector<std::string> arguments)
             error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError);
         const std::string what =
             has_extras ? "not expected: " + CLI::detail::join(app.remaining(), " ") : error.what();
-        throw InvalidParameter(what + "." + suggestion(app) + " Run " + Texts::kCommand +
-                               " --help.");
+        throw InvalidParameter(what + "." + hint(app) + " Run " + Texts::kCommand + " --help.");
     }
     check_paths(line, line.parameters.quality != Quality::None);
     return line;

@@ -20,7 +20,7 @@ struct Command {
 /// Without a command, the program takes the first one.
 inline constexpr std::array<Command, 3> kCommands = {
     {{"smooth", "smooths by mean-curvature flow, also without this word"},
-     {"remove-noise", "removes the noise of scans and parts, and keeps their creases"},
+     {"remove-noise", "removes noise of scans and parts, and keeps creases"},
      {"fair", "makes filled holes continue the surface around them"}}};
 
 /// Returns the name that is nearest to a misspelt word, whatever the case; empty if none is near.
@@ -33,8 +33,9 @@ struct CommandLine {
     std::map<std::string, Length> lengths;  ///< those that were given, by the parameter's name
     /// The properties of INPUT for inputs, by the input's name; empty for none.
     std::map<std::string, std::string> properties;
-    int every = 0;         ///< every how many steps the surface is written, too; 0 for never
-    bool doubles = false;  ///< whether PLY files get doubles, whatever INPUT has
+    int every = 0;            ///< every how many steps the surface is written, too; 0 for never
+    bool doubles = false;     ///< whether PLY files get doubles, whatever INPUT has
+    bool overwrites = false;  ///< whether OUTPUT may have been another mesh
     bool quiet = false;
     bool verbose = false;  ///< whether the numbers of grid and solver are printed, too
 

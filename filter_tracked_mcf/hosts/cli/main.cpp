@@ -74,6 +74,23 @@ void set_lengths(CommandLineOf<Parameters>& line, const TriangleMesh* mesh) {
     }
 }
 
+/// Throws InvalidParameter if OUTPUT is a mesh that INPUT, smoothed, cannot be a new version of: it
+/// was probably meant as a second input, as in `tracked_mcf *.ply`.
+void refuse_another_mesh(const std::filesystem::path& output, const MeshFile& input) {
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(output, ignored)) return;
+    std::optional<MeshFile> old;
+    try {
+        old.emplace(output);
+    } catch (const UnreadableFile&) {
+        return;
+    }
+    if (input.is_as_large_as(*old)) return;
+    throw InvalidParameter(output.u8string() + " exists and is another mesh, of " + old->size() +
+                           " where INPUT has " + input.size() +
+                           "; give OUTPUT another name, or --overwrite.");
+}
+
 /// Reads the mesh, runs the filter, and writes what the command line asks for.
 template <class Parameters>
 void filter_file(CommandLineOf<Parameters> line) {
@@ -85,6 +102,7 @@ void filter_file(CommandLineOf<Parameters> line) {
     if (!line.report.empty()) report_file.emplace(line.report);
 
     MeshFile file(line.input);
+    if (!line.overwrites) refuse_another_mesh(line.output, file);
     TriangleMesh mesh = file.triangle_mesh();
     if (line.doubles) file.write_doubles();
     mesh.single_precision = file.writes_floats(line.output);

@@ -40,6 +40,19 @@ TriangleMesh MeshFile::triangle_mesh() const {
     return {document_->positions(), fans(document_->polygons())};
 }
 
+bool MeshFile::is_as_large_as(const MeshFile& other) const {
+    const bool is_stl = format_of(path_)->convert == convert_to_stl;
+    if (is_stl != (format_of(other.path_)->convert == convert_to_stl))
+        return triangle_mesh().triangles.size() == other.triangle_mesh().triangles.size();
+    return document_->positions().size() == other.document_->positions().size() &&
+           document_->polygons().size() == other.document_->polygons().size();
+}
+
+std::string MeshFile::size() const {
+    return std::to_string(document_->positions().size()) + " vertices and " +
+           std::to_string(document_->polygons().size()) + " faces";
+}
+
 Selection MeshFile::selection_by(const std::string& name) const {
     const Polygons& polygons = document_->polygons();
     const std::vector<double> of_faces = document_->numbers(NumbersOf::Faces, name);
@@ -64,7 +77,7 @@ Selection MeshFile::selection_by(const std::string& name) const {
     if (std::count(selection.begin(), selection.end(), 1) == 0) {
         throw InvalidMesh("No face of " + path_.u8string() + " is selected by '" + name +
                           "' of its " + (of_faces.empty() ? "vertices" : "faces") +
-                          "; select some, or leave --selected out to smooth the whole mesh.");
+                          "; select some.");
     }
     return selection;
 }

@@ -26,6 +26,12 @@ public:
     /// Returns the vertices and the triangles of the faces, in the order of the file.
     TriangleMesh triangle_mesh() const;
 
+    /// Returns whether another file has as many vertices and faces; triangles, if one of the two is
+    /// an STL file, which has the vertices of each.
+    bool is_as_large_as(const MeshFile& other) const;
+    /// Returns the numbers of vertices and faces, for messages.
+    std::string size() const;
+
     /// Returns which of these triangles the property `name` selects: a number of the
     /// faces, or else of the vertices. A face is selected if its number is not zero, or if the
     /// numbers of all its vertices are not. In `flags`, where MeshLab keeps a selection, only the

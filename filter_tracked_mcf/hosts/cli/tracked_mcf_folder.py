@@ -27,18 +27,24 @@ def smooth(mesh, target, *options):
 
 def main(scheduler, source, target, *options):
     source, target = pathlib.Path(source).resolve(), pathlib.Path(target).resolve()
+    if not source.is_dir():
+        return f"tracked_mcf_folder.py: {source} is no folder."
     if source == target:
         return "tracked_mcf_folder.py: INPUT and OUTPUT are the same folder."
     target.mkdir(parents=True, exist_ok=True)
     with distributed.Client(scheduler) as client:
         names = [mesh.relative_to(source) for mesh in source.rglob("*") if target not in mesh.parents
                  and mesh.suffix.lower() in (".ply", ".obj", ".off", ".stl")]
+        if not names:
+            return f"tracked_mcf_folder.py: there is no mesh in {source}: no .ply, .obj, .off or .stl."
         jobs = {client.submit(smooth, source / name, target / name, *options, pure=False): name for name in names
                 if not (target / name).exists()}
         for job in distributed.as_completed(jobs):
             if message := job.exception() or job.result():
                 print(f"{jobs[job]}: {message}", file=sys.stderr)
-        return int(any(job.status == "error" for job in jobs))
+        failed = sum(job.status == "error" for job in jobs)
+        print(f"{len(jobs) - failed} done, {len(names) - len(jobs)} there already, {failed} failed")
+        return int(failed > 0)
 
 
 if __name__ == "__main__":
