@@ -62,7 +62,7 @@ struct System : FirstStep {
     System(const TriangleMesh& mesh, int depth, double step, bool lock = false)
         : FirstStep(mesh, depth, step, lock), multigrid(elements, constrained) {
         multigrid.refresh(systems.matrices);
-        multigrid.finest().assemble(systems.right_sides, right_side);
+        sum_at_unknowns(elements.finest(), systems.right_sides, right_side);
     }
 
     double residual(const Field& x) const {
@@ -89,7 +89,7 @@ inline Field times(const LevelSystem& system, const Field& x) {
         for (int i = 0; i < 8; ++i) {
             for (int j = 0; j < 8; ++j) {
                 sum.col(unknowns[i]) +=
-                    system.matrices.at(element, i, j) * x.col(unknowns[j]).cast<double>();
+                    system.matrices[element](i, j) * x.col(unknowns[j]).cast<double>();
             }
         }
     }
@@ -115,7 +115,7 @@ inline Dense assembled(const Level& level, const MatrixBlocks& matrices) {
         const auto& unknowns = level.unknowns[element];
         for (int i = 0; i < 8; ++i) {
             for (int j = 0; j < 8; ++j) {
-                sum(unknowns[i], unknowns[j]) += matrices.at(element, i, j);
+                sum(unknowns[i], unknowns[j]) += matrices[element](i, j);
             }
         }
     }

@@ -51,6 +51,11 @@ void number_classes_of_corners(Level& level, const First& first) {
     level.number_of_unknowns = number_classes(
         8 * std::int64_t{level.element_count()},
         first, [&](std::int64_t index) -> auto& { return level.unknowns[index / 8][index % 8]; });
+    std::vector<std::int32_t> unknowns;
+    unknowns.reserve(8 * level.unknowns.size());
+    for (const auto& of_element : level.unknowns)
+        unknowns.insert(unknowns.end(), of_element.begin(), of_element.end());
+    level.corners = Groups(unknowns, level.number_of_unknowns);
 }
 
 /// Gives each distinct corner of the occupied cells one unknown.

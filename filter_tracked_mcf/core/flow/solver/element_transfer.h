@@ -40,27 +40,21 @@ public:
     void add_prolongated(const Field& correction, const std::vector<std::uint8_t>& free_unknowns,
                          Field& x) const;
 
-    /// Computes coarse_residual = Pᵀ residual; `coarse_partition` is the partition of the coarse
-    /// level.
+    /// Computes coarse_residual = Pᵀ residual; `coarse_partition` is that of the coarse level.
     void restrict(const Field& residual, const ElementPartition& coarse_partition,
                   Field& coarse_residual) const;
 
-    /// Returns the fine elements, grouped by parent.
-    const Groups& children() const { return children_; }
+    /// Computes the element matrices of the coarser level: each parent's is Σ P_cᵀ K_c P_c over its
+    /// children c, with the refinement weights P_c of the child's octant. Assembled, they are the
+    /// Galerkin product PᵀAP, at a fraction of its cost.
+    void coarsen(const MatrixBlocks& fine, MatrixBlocks& coarse) const;
 
 private:
     const Level* fine_ = nullptr;
     const Level* coarse_ = nullptr;
-    Groups children_;
+    Groups children_;  ///< fine elements, by parent
     /// For each fine element a mask of corners whose unknowns are interpolated in this element.
     std::vector<std::uint8_t> owned_;
 };
-
-/// Computes the element matrices of the next coarser level: each parent's is Σ P_cᵀ K_c P_c over
-/// its children c, with the refinement weights P_c of the child's octant. Assembled, they are the
-/// Galerkin product PᵀAP, at a fraction of its cost. `children` are the elements of the fine level,
-/// grouped by parent.
-void coarsen_element_matrices(const Level& fine, const Groups& children,
-                              const MatrixBlocks& fine_matrices, MatrixBlocks& coarse_matrices);
 
 }  // namespace tracked_mcf

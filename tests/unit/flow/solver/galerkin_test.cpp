@@ -16,10 +16,9 @@ namespace {
 
 /// Returns the element matrices of the level below the finest one.
 MatrixBlocks coarsened(const LevelSystem& system) {
-    const Level& fine = system.finest();
-    const std::int32_t parents = system.levels[fine.depth - 1].element_count();
-    MatrixBlocks coarse(parents);
-    coarsen_element_matrices(fine, Groups(fine.parents, parents), system.matrices, coarse);
+    MatrixBlocks coarse;
+    ElementTransfer(system.finest(), system.levels[system.levels.size() - 2])
+        .coarsen(system.matrices, coarse);
     return coarse;
 }
 

@@ -10,23 +10,8 @@
 
 namespace tracked_mcf {
 
-namespace {
-
-std::vector<std::int32_t> flatten(const std::vector<std::array<std::int32_t, 8>>& unknowns) {
-    std::vector<std::int32_t> flat;
-    flat.reserve(8 * unknowns.size());
-    for (const auto& of_element : unknowns) {
-        flat.insert(flat.end(), of_element.begin(), of_element.end());
-    }
-    return flat;
-}
-
-}  // namespace
-
 LevelMatrix::LevelMatrix(const Level& level)
-    : level_(level),
-      occurrences_(flatten(level.unknowns), level.unknown_count()),
-      matrix_(level.unknown_count(), level.unknown_count()) {
+    : level_(level), matrix_(level.unknown_count(), level.unknown_count()) {
     make_pattern();
 }
 
@@ -37,7 +22,7 @@ void LevelMatrix::make_pattern() {
         count, [&](std::int64_t begin, std::int64_t end, std::vector<std::int32_t>& out) {
             for (auto row = static_cast<std::int32_t>(begin); row < end; ++row) {
                 const auto first = static_cast<std::ptrdiff_t>(out.size());
-                for (const std::int32_t index : occurrences_.members(row)) {
+                for (const std::int32_t index : level_.corners.members(row)) {
                     const auto& unknowns = level_.unknowns[index / 8];
                     out.insert(out.end(), unknowns.begin(), unknowns.end());
                 }
@@ -81,11 +66,11 @@ void LevelMatrix::assemble(const MatrixBlocks& elements,
 
 void LevelMatrix::assemble_row(std::int32_t row, const MatrixBlocks& elements,
                                std::vector<float>& sums) const {
-    for (const std::int32_t index : occurrences_.members(row)) {
+    for (const std::int32_t index : level_.corners.members(row)) {
         const std::int32_t element = index / 8;
         const auto& unknowns = level_.unknowns[element];
         for (int corner = 0; corner < 8; ++corner) {
-            sums[unknowns[corner]] += elements.at(element, index % 8, corner);
+            sums[unknowns[corner]] += elements[element](index % 8, corner);
         }
     }
 }
@@ -97,19 +82,6 @@ void LevelMatrix::store_row(std::int32_t row, std::vector<float>& sums) {
         matrix_.valuePtr()[k] = sum;
         sum = 0;
     }
-}
-
-void LevelMatrix::assemble(const std::vector<ElementVector>& elements, Field& vector) const {
-    vector.resize(4, level_.unknown_count());
-    parallel_for_rows(level_.unknown_count(), [&](std::int32_t row) {
-        Eigen::Vector4f sum = Eigen::Vector4f::Zero();
-        for (const std::int32_t index : occurrences_.members(row)) {
-            const auto& entry = elements[index / 8].entry;
-            const int corner = index % 8;
-            sum += Eigen::Vector4f(entry[0][corner], entry[1][corner], entry[2][corner], 0);
-        }
-        vector.col(row) = sum;
-    });
 }
 
 void LevelMatrix::residual(const Field& right_side, const Field& x, Field& residual) const {

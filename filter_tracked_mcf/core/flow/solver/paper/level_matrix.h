@@ -7,9 +7,7 @@
 #include "filter_tracked_mcf/core/flow/octree/octree.h"
 #include "filter_tracked_mcf/core/flow/solver/field.h"
 #include "filter_tracked_mcf/core/flow/solver/paper/sparse_matrix.h"
-#include "filter_tracked_mcf/core/flow/system/element_matrices.h"
 #include "filter_tracked_mcf/core/flow/system/matrix_blocks.h"
-#include "filter_tracked_mcf/core/parallel/sorting.h"
 
 namespace tracked_mcf {
 
@@ -29,9 +27,6 @@ public:
     const SparseMatrix& matrix() const { return matrix_; }
     const std::vector<float>& inverse_diagonal() const { return inverse_diagonal_; }
 
-    /// Sums element vectors.
-    void assemble(const std::vector<ElementVector>& elements, Field& vector) const;
-
     /// Computes residual = right_side - A x, zero for unknowns that are not free.
     void residual(const Field& right_side, const Field& x, Field& residual) const;
 
@@ -42,7 +37,6 @@ private:
     void store_row(std::int32_t row, std::vector<float>& sums);
 
     const Level& level_;
-    Groups occurrences_;  ///< corner indices of each unknown
     SparseMatrix matrix_;
     std::vector<float> inverse_diagonal_;
 };

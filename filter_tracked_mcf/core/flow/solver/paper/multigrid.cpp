@@ -25,14 +25,10 @@ constexpr double kHardlySmaller = 0.9;
 Multigrid::LevelData::LevelData(const TrackedElements& elements, std::size_t level)
     : matrix(elements.levels[level]), smoother(elements.levels[level]) {
     if (level > 0) {
+        transfer = ElementTransfer(elements.levels[level], elements.levels[level - 1]);
         prolongation =
             tracked_mcf::prolongation(elements.levels[level], elements.levels[level - 1]);
         restriction = prolongation.transpose();
-    }
-    if (level + 1 < elements.levels.size()) {
-        const std::int32_t count = elements.levels[level].element_count();
-        children = Groups(elements.levels[level + 1].parents, count);
-        element_matrices.resize(count);
     }
 }
 
@@ -54,8 +50,7 @@ void Multigrid::refresh(MatrixBlocks& finest) {
         levels_[level].matrix.assemble(*matrices, constrained_[level]);
         if (level == 0) break;
         MatrixBlocks& coarse = levels_[level - 1].element_matrices;
-        coarsen_element_matrices(elements_.levels[level], levels_[level - 1].children, *matrices,
-                                 coarse);
+        levels_[level].transfer.coarsen(*matrices, coarse);
         matrices = &coarse;
     }
     coarse_solver_.factorise(*matrices);

@@ -6,6 +6,7 @@
 
 #include "filter_tracked_mcf/core/flow/elements/tracked_elements.h"
 #include "filter_tracked_mcf/core/flow/solver/coarse_solver.h"
+#include "filter_tracked_mcf/core/flow/solver/element_transfer.h"
 #include "filter_tracked_mcf/core/flow/solver/paper/gauss_seidel.h"
 #include "filter_tracked_mcf/core/flow/solver/paper/level_matrix.h"
 #include "filter_tracked_mcf/core/flow/solver/paper/transfer.h"
@@ -40,7 +41,7 @@ private:
 
         LevelMatrix matrix;
         GaussSeidel smoother;
-        Groups children;                ///< elements of the next finer level, by parent
+        ElementTransfer transfer;       ///< to and from the next coarser level; empty at level 0
         SparseMatrix prolongation;      ///< from the next coarser level; empty at level 0
         SparseMatrix restriction;       ///< its transpose
         MatrixBlocks element_matrices;  ///< unused at the finest level
