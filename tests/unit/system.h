@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "filter_tracked_mcf/core/flow/cells/bspline.h"
 #include "filter_tracked_mcf/core/flow/solver/paper/multigrid.h"
 #include "filter_tracked_mcf/core/flow/solver/vertex_octree.h"
 #include "filter_tracked_mcf/core/flow/system/constrained_cells.h"
@@ -106,6 +107,21 @@ using Dense = Eigen::MatrixXd;
 
 inline Dense dense(const SparseMatrix& matrix) {
     return Eigen::MatrixXf(matrix).cast<double>();
+}
+
+/// Returns P, with the refinement weights of each octant.
+inline Dense prolongation(const Level& fine, const Level& coarse) {
+    Dense p = Dense::Zero(fine.unknown_count(), coarse.unknown_count());
+    for (std::int32_t element = 0; element < fine.element_count(); ++element) {
+        const auto weights = refinement_weights(octant_of(fine.cells[element]));
+        for (int i = 0; i < 8; ++i) {
+            for (int j = 0; j < 8; ++j) {
+                p(fine.unknowns[element][i], coarse.unknowns[fine.parents[element]][j]) =
+                    weights(i, j);
+            }
+        }
+    }
+    return p;
 }
 
 /// Returns the sum of a level's element matrices.

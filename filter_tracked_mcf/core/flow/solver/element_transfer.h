@@ -29,7 +29,7 @@ const RefinementTable& refinement_table();
 
 /// The prolongation P from a level's unknowns to those of the next finer level, and its transpose,
 /// without a matrix. Each fine unknown is interpolated in one of its elements, from the eight
-/// unknowns of that element's parent. prolongation() (paper/transfer.h) has the same P.
+/// unknowns of that element's parent.
 class ElementTransfer {
 public:
     ElementTransfer() = default;

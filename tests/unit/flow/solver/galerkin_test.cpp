@@ -6,8 +6,6 @@
 #include <limits>
 #include <vector>
 
-#include "filter_tracked_mcf/core/flow/cells/bspline.h"
-#include "filter_tracked_mcf/core/flow/solver/paper/transfer.h"
 #include "filter_tracked_mcf/core/flow/system/constrained_cells.h"
 #include "tests/unit/system.h"
 
@@ -25,7 +23,7 @@ MatrixBlocks coarsened(const LevelSystem& system) {
 TEST(Galerkin, CoarsenedMatricesAddUpToTheGalerkinProduct) {
     const LevelSystem system = vertex_system(two_shells(), 4, 0.5);
     const Level& coarse = system.levels[3];
-    const Dense p = dense(prolongation(system.finest(), coarse));
+    const Dense p = prolongation(system.finest(), coarse);
     const Dense product = p.transpose() * assembled(system) * p;
     EXPECT_LT((assembled(coarse, coarsened(system)) - product).norm(), 1e-6 * product.norm());
 }

@@ -49,6 +49,7 @@ void LevelMatrix::make_pattern() {
 void LevelMatrix::assemble(const MatrixBlocks& elements,
                            const std::vector<std::uint8_t>& constrained) {
     inverse_diagonal_.resize(static_cast<std::size_t>(level_.unknown_count()));
+    free_unknowns_.resize(inverse_diagonal_.size());
     // A workspace for the entries of a row, one number per unknown.
     const auto no_sums = [&] {
         return std::vector<float>(static_cast<std::size_t>(level_.unknown_count()), 0.0F);
@@ -57,6 +58,7 @@ void LevelMatrix::assemble(const MatrixBlocks& elements,
         for (auto row = static_cast<std::int32_t>(begin); row < end; ++row) {
             assemble_row(row, elements, sums);
             const bool free = constrained[row] == 0 && is_free(sums[row]);
+            free_unknowns_[row] = free ? 1 : 0;
             inverse_diagonal_[row] = free ? 1 / sums[row] : 0;
             store_row(row, sums);
         }
@@ -87,7 +89,7 @@ void LevelMatrix::store_row(std::int32_t row, std::vector<float>& sums) {
 void LevelMatrix::residual(const Field& right_side, const Field& x, Field& residual) const {
     residual.resize(4, level_.unknown_count());
     parallel_for_rows(level_.unknown_count(), [&](std::int32_t row) {
-        if (inverse_diagonal_[row] == 0) {
+        if (free_unknowns_[row] == 0) {
             residual.col(row).setZero();
         } else {
             residual.col(row) = right_side.col(row) - row_times(matrix_, row, x);
