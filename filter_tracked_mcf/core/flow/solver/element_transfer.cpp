@@ -1,12 +1,25 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "filter_tracked_mcf/core/flow/solver/element_transfer.h"
 
+#include <array>
+
 #include "filter_tracked_mcf/core/flow/cells/bspline.h"
 #include "filter_tracked_mcf/core/parallel/parallel.h"
 
 namespace tracked_mcf {
 
 namespace {
+
+/// The functions of a parent cell that contain the function at one corner of a child cell. They all
+/// have the same weight.
+struct ContainingFunctions {
+    int count;
+    std::array<std::uint8_t, 8> corners;  ///< of the parent
+    float weight;
+};
+
+/// The containing functions for each octant and each corner of it.
+using RefinementTable = std::array<std::array<ContainingFunctions, 8>, 8>;
 
 RefinementTable make_refinement_table() {
     RefinementTable table{};
@@ -21,6 +34,12 @@ RefinementTable make_refinement_table() {
             }
         }
     }
+    return table;
+}
+
+/// Returns the table of the refinement weights (bspline.h).
+const RefinementTable& refinement_table() {
+    static const RefinementTable table = make_refinement_table();
     return table;
 }
 
@@ -84,11 +103,6 @@ void coarsen_axis(Matrix& m, bool upper_child) {
 }
 
 }  // namespace
-
-const RefinementTable& refinement_table() {
-    static const RefinementTable table = make_refinement_table();
-    return table;
-}
 
 ElementTransfer::ElementTransfer(const Level& fine, const Level& coarse)
     : fine_(&fine),

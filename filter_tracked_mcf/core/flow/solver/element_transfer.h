@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -12,20 +11,6 @@
 #include "filter_tracked_mcf/core/parallel/sorting.h"
 
 namespace tracked_mcf {
-
-/// The functions of a parent cell that contain the function at one corner of a child cell. They all
-/// have the same weight.
-struct ContainingFunctions {
-    int count;
-    std::array<std::uint8_t, 8> corners;  ///< of the parent
-    float weight;
-};
-
-/// The containing functions for each octant and each corner of it.
-using RefinementTable = std::array<std::array<ContainingFunctions, 8>, 8>;
-
-/// Returns the table of the refinement weights (bspline.h).
-const RefinementTable& refinement_table();
 
 /// The prolongation P from a level's unknowns to those of the next finer level, and its transpose,
 /// without a matrix. Each fine unknown is interpolated in one of its elements, from the eight

@@ -60,7 +60,7 @@ void VertexOctree::find_elements(const Stars& stars, const std::vector<MortonCod
     const auto is_left_out = [&](std::int32_t vertex) {
         return !has_functions.empty() && has_functions[vertex] == 0;
     };
-    ConcurrentSets sets(stars.count());
+    DisjointSets sets(stars.count());
     parallel_for_rows(stars.count(), [&](std::int32_t vertex) {
         if (is_left_out(vertex)) return;
         for (auto i = stars.neighbour_begin[vertex]; i < stars.neighbour_begin[vertex + 1]; ++i) {
