@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "filter_tracked_mcf/core/flow/cells/bspline.h"
 #include "filter_tracked_mcf/core/flow/solver/paper/multigrid.h"
 #include "filter_tracked_mcf/core/flow/solver/vertex_octree.h"
 #include "filter_tracked_mcf/core/flow/system/constrained_cells.h"
@@ -62,7 +63,7 @@ struct System : FirstStep {
     System(const TriangleMesh& mesh, int depth, double step, bool lock = false)
         : FirstStep(mesh, depth, step, lock), multigrid(elements, constrained) {
         multigrid.refresh(systems.matrices);
-        multigrid.finest().assemble(systems.right_sides, right_side);
+        sum_at_unknowns(elements.finest(), systems.right_sides, right_side);
     }
 
     double residual(const Field& x) const {
@@ -89,7 +90,7 @@ inline Field times(const LevelSystem& system, const Field& x) {
         for (int i = 0; i < 8; ++i) {
             for (int j = 0; j < 8; ++j) {
                 sum.col(unknowns[i]) +=
-                    system.matrices.at(element, i, j) * x.col(unknowns[j]).cast<double>();
+                    system.matrices[element](i, j) * x.col(unknowns[j]).cast<double>();
             }
         }
     }
@@ -108,6 +109,21 @@ inline Dense dense(const SparseMatrix& matrix) {
     return Eigen::MatrixXf(matrix).cast<double>();
 }
 
+/// Returns P, with the refinement weights of each octant.
+inline Dense prolongation(const Level& fine, const Level& coarse) {
+    Dense p = Dense::Zero(fine.unknown_count(), coarse.unknown_count());
+    for (std::int32_t element = 0; element < fine.element_count(); ++element) {
+        const auto weights = refinement_weights(octant_of(fine.cells[element]));
+        for (int i = 0; i < 8; ++i) {
+            for (int j = 0; j < 8; ++j) {
+                p(fine.unknowns[element][i], coarse.unknowns[fine.parents[element]][j]) =
+                    weights(i, j);
+            }
+        }
+    }
+    return p;
+}
+
 /// Returns the sum of a level's element matrices.
 inline Dense assembled(const Level& level, const MatrixBlocks& matrices) {
     Dense sum = Dense::Zero(level.unknown_count(), level.unknown_count());
@@ -115,7 +131,7 @@ inline Dense assembled(const Level& level, const MatrixBlocks& matrices) {
         const auto& unknowns = level.unknowns[element];
         for (int i = 0; i < 8; ++i) {
             for (int j = 0; j < 8; ++j) {
-                sum(unknowns[i], unknowns[j]) += matrices.at(element, i, j);
+                sum(unknowns[i], unknowns[j]) += matrices[element](i, j);
             }
         }
     }

@@ -120,7 +120,7 @@ RawVector<Triangle> renumbered(const TriangleMesh& mesh, const Selection& select
 /// a part in the present order.
 Numbers number_by_part(const RawVector<Triangle>& triangles, Surface& surface) {
     const auto count = static_cast<std::int32_t>(surface.mesh_vertices.size());
-    ConcurrentSets sets(count);
+    DisjointSets sets(count);
     parallel_for_items(triangles, [&](const Triangle& t) {
         sets.unite(t[0], t[1]);
         sets.unite(t[1], t[2]);

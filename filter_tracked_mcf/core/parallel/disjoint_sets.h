@@ -3,57 +3,19 @@
 
 #include <atomic>
 #include <cstdint>
-#include <numeric>
 #include <utility>
-#include <vector>
 
 #include "filter_tracked_mcf/core/parallel/parallel.h"
 #include "filter_tracked_mcf/core/parallel/raw_vector.h"
 
 namespace tracked_mcf {
 
-/// A union-find structure over the numbers below a count. The smallest member represents a set, so
-/// the result does not depend on the order of the unions.
+/// A union-find structure over the numbers below a count, in which any number of threads may unite
+/// at once. The smallest member represents a set, so the result does not depend on the order of the
+/// unions.
 class DisjointSets {
 public:
-    explicit DisjointSets(std::int32_t count) { reset(count); }
-
-    /// Starts again with `count` sets of one member each.
-    void reset(std::int32_t count) {
-        parents_.resize(static_cast<std::size_t>(count));
-        std::iota(parents_.begin(), parents_.end(), 0);
-    }
-
-    /// Returns the smallest member of the set of `member`.
-    std::int32_t find(std::int32_t member) {
-        while (parents_[member] != member) {
-            parents_[member] = parents_[parents_[member]];
-            member = parents_[member];
-        }
-        return member;
-    }
-
-    /// Unites the sets of a and b. Returns false if they were one set before.
-    bool unite(std::int32_t a, std::int32_t b) {
-        a = find(a);
-        b = find(b);
-        if (a < b) {
-            parents_[b] = a;
-        } else {
-            parents_[a] = b;
-        }
-        return a != b;
-    }
-
-private:
-    std::vector<std::int32_t> parents_;  ///< invariant: parents_[i] <= i
-};
-
-/// A union-find structure that any number of threads may unite in at once. The smallest member
-/// represents a set, so the result does not depend on the order of the unions.
-class ConcurrentSets {
-public:
-    explicit ConcurrentSets(std::int32_t count) : parents_(static_cast<std::size_t>(count)) {
+    explicit DisjointSets(std::int32_t count) : parents_(static_cast<std::size_t>(count)) {
         parallel_for_rows(count, [&](std::int32_t i) { parents_[i].store(i, kOrder); });
     }
 

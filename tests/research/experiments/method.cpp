@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "filter_tracked_mcf/core/flow/solver/field.h"
 #include "filter_tracked_mcf/core/flow/stepping/paper_flow.h"
 #include "filter_tracked_mcf/core/flow/system/constrained_cells.h"
 #include "filter_tracked_mcf/core/mesh/grid.h"
@@ -102,11 +103,13 @@ void draw_samples(int count, TrackedElements& elements) {
     std::mt19937 random(1);
     for (std::size_t element = 0; element + 1 < elements.sample_begin.size(); ++element) {
         const std::int64_t begin = elements.sample_begin[element];
-        const float* weights = elements.samples.weights() + begin;
         const auto size = elements.sample_begin[element + 1] - begin;
-        const double area = std::accumulate(weights, weights + size, 0.0);
-        std::vector<int> drawn(static_cast<std::size_t>(size));
-        std::discrete_distribution<std::size_t> distribution(weights, weights + size);
+        std::vector<float> weights;
+        for (std::int64_t i = 0; i < size; ++i)
+            weights.push_back(elements.samples.weight(begin + i));
+        const double area = std::accumulate(weights.begin(), weights.end(), 0.0);
+        std::vector<int> drawn(weights.size());
+        std::discrete_distribution<std::size_t> distribution(weights.begin(), weights.end());
         for (int i = 0; i < count; ++i) ++drawn[distribution(random)];
         for (std::int64_t i = 0; i < size; ++i) {
             elements.samples.set(begin + i, elements.samples.local(begin + i),
@@ -130,7 +133,7 @@ public:
     bool step() override {
         assemble_elements(elements_, displacement_, step_size_, false, systems_);
         multigrid_.refresh(systems_.matrices);
-        multigrid_.finest().assemble(systems_.right_sides, right_side_);
+        sum_at_unknowns(elements_.finest(), systems_.right_sides, right_side_);
         set_zero(x_, right_side_.cols());
         for (int i = 0; i < cycles_; ++i) multigrid_.cycle(right_side_, x_);
         displacement_ += x_.topRows<3>().transpose().cast<double>();

@@ -4,6 +4,8 @@
 #include <Eigen/Dense>
 
 #include "filter_tracked_mcf/core/flow/cells/bspline.h"
+#include "filter_tracked_mcf/core/flow/elements/tracked_elements.h"
+#include "filter_tracked_mcf/core/flow/system/matrix_blocks.h"
 #include "tests/support/bspline_gradients.h"
 
 namespace tracked_mcf {
@@ -40,5 +42,33 @@ struct Equation4 {
         area += stretched * weight;
     }
 };
+
+/// Returns equation 4 for an element with its samples.
+inline Equation4 integrate(const TrackedElements& elements, const Matrix83& embedding,
+                           std::int32_t element) {
+    Equation4 equation;
+    std::int64_t sample = elements.sample_begin[element];
+    for (std::int64_t f = elements.fragment_begin[element];
+         f < elements.fragment_begin[element + 1]; ++f) {
+        const Fragment& fragment = elements.fragments[f];
+        const Eigen::Vector3d normal =
+            Eigen::Map<const Eigen::Vector3f>(fragment.normal).cast<double>();
+        for (std::int32_t i = 0; i < fragment.sample_count; ++i, ++sample) {
+            equation.add_sample(normal, elements.samples.local(sample),
+                                elements.samples.weight(sample), embedding);
+        }
+    }
+    return equation;
+}
+
+/// Returns all entries of a matrix.
+inline Matrix8 whole(const ElementMatrix& matrix) {
+    Matrix8 entries;
+    for (int row = 0; row < 8; ++row) {
+        for (int column = 0; column < 8; ++column)
+            entries(row, column) = double{matrix(row, column)};
+    }
+    return entries;
+}
 
 }  // namespace tracked_mcf

@@ -3,24 +3,6 @@
 
 namespace tracked_mcf {
 
-namespace {
-
-double hat(int bit, double x) {
-    return bit ? x : 1 - x;
-}
-
-}  // namespace
-
-CornerValues bspline_values(const Eigen::Vector3d& local) {
-    CornerValues values;
-    for (int corner = 0; corner < 8; ++corner) {
-        values[corner] = hat(corner_bit(corner, 0), local[0]) *
-                         hat(corner_bit(corner, 1), local[1]) *
-                         hat(corner_bit(corner, 2), local[2]);
-    }
-    return values;
-}
-
 Eigen::Matrix<double, 8, 8> refinement_weights(int octant) {
     Eigen::Matrix<double, 8, 8> weights;
     for (int child_corner = 0; child_corner < 8; ++child_corner) {

@@ -15,10 +15,22 @@ constexpr int corner_bit(int corner, int axis) {
     return (corner >> axis) & 1;
 }
 
-using CornerValues = Eigen::Matrix<double, 8, 1>;
+template <class Number>
+using Values = Eigen::Matrix<Number, 8, 1>;
+using CornerValues = Values<double>;
 
-/// Returns the values of the eight functions at a point. They sum to 1.
-CornerValues bspline_values(const Eigen::Vector3d& local);
+/// Returns the values of the eight functions at a point, continued beyond the cell where it lies
+/// outside. They sum to 1.
+template <class Number>
+Values<Number> bspline_values(const Eigen::Matrix<Number, 3, 1>& local) {
+    const Eigen::Matrix<Number, 3, 1> hats[2] = {1 - local.array(), local};
+    Values<Number> values;
+    for (int corner = 0; corner < 8; ++corner) {
+        values[corner] = hats[corner_bit(corner, 0)][0] * hats[corner_bit(corner, 1)][1] *
+                         hats[corner_bit(corner, 2)][2];
+    }
+    return values;
+}
 
 /// Returns the weights with which the functions of a child cell make up those of its parent: entry
 /// (i, J) belongs to corner i of the child in `octant` and corner J of the parent. Entries are 0,

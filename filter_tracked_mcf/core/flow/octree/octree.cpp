@@ -51,6 +51,11 @@ void number_classes_of_corners(Level& level, const First& first) {
     level.number_of_unknowns = number_classes(
         8 * std::int64_t{level.element_count()},
         first, [&](std::int64_t index) -> auto& { return level.unknowns[index / 8][index % 8]; });
+    std::vector<std::int32_t> unknowns;
+    unknowns.reserve(8 * level.unknowns.size());
+    for (const auto& of_element : level.unknowns)
+        unknowns.insert(unknowns.end(), of_element.begin(), of_element.end());
+    level.corners = Groups(unknowns, level.number_of_unknowns);
 }
 
 /// Gives each distinct corner of the occupied cells one unknown.
@@ -79,7 +84,7 @@ void number_unknowns(Level& level) {
 }
 
 /// Unites the corner indices of two linked elements at all corners that their cells share.
-void unite_shared_corners(const Link& link, const Level& level, ConcurrentSets& corners) {
+void unite_shared_corners(const Link& link, const Level& level, DisjointSets& corners) {
     const Cell offset = cell_at(level.cells[link.second]) - cell_at(level.cells[link.first]);
     // Along an axis with an offset, shared corners have a fixed bit in either cell. Along an axis
     // without one, their bit is the same in both cells, and 0 or 1.
@@ -101,7 +106,7 @@ void unite_shared_corners(const Link& link, const Level& level, ConcurrentSets& 
 /// Gives each set of corners that links unite one unknown.
 void number_unknowns(Level& level, const RawVector<Link>& links) {
     check_size(level);
-    ConcurrentSets corners(8 * level.element_count());
+    DisjointSets corners(8 * level.element_count());
     parallel_for_items(links,
                        [&](const Link& link) { unite_shared_corners(link, level, corners); });
     number_classes_of_corners(level, [&](std::int32_t index) { return corners.find(index); });
@@ -126,7 +131,7 @@ std::vector<MortonCode> make_parents(Level& fine, const First& first) {
 
 /// Unites linked elements with the same parent cell.
 std::vector<MortonCode> coarsen_elements(Level& fine, const RawVector<Link>& links) {
-    ConcurrentSets siblings(fine.element_count());
+    DisjointSets siblings(fine.element_count());
     parallel_for_items(links, [&](const Link& link) {
         if (parent_of(fine.cells[link.first]) == parent_of(fine.cells[link.second])) {
             siblings.unite(link.first, link.second);

@@ -7,6 +7,7 @@
 
 #include "filter_tracked_mcf/core/mesh/grid.h"
 #include "filter_tracked_mcf/core/parallel/raw_vector.h"
+#include "filter_tracked_mcf/core/parallel/sorting.h"
 
 namespace tracked_mcf {
 
@@ -26,6 +27,7 @@ struct Level {
     /// Unknowns are numbered in the order in which elements and their corners first have them. What
     /// is near in space is near in memory.
     std::int32_t number_of_unknowns = 0;
+    Groups corners;  ///< by unknown: 8 * element + corner of the cells' corners that have it
 
     std::int32_t element_count() const { return static_cast<std::int32_t>(cells.size()); }
     std::int32_t unknown_count() const { return number_of_unknowns; }

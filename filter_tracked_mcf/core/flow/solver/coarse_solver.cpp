@@ -29,9 +29,11 @@ void CoarseSolver::factorise(const MatrixBlocks& matrices) {
     pseudo_inverses_.resize(level_.unknowns.size());
     parallel_for_chunks(level_.element_count(), [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t element = begin; element < end; ++element) {
-            const ElementMatrix whole = matrices.of(element);
-            const Eigen::Map<const Eigen::Matrix<float, 8, 8>> matrix(whole.entry[0]);
-            pseudo_inverses_[element] = pseudo_inverse(matrix.cast<double>());
+            Matrix8 matrix;
+            for (int i = 0; i < 8; ++i) {
+                for (int j = 0; j < 8; ++j) matrix(i, j) = double{matrices[element](i, j)};
+            }
+            pseudo_inverses_[element] = pseudo_inverse(matrix);
         }
     });
 }

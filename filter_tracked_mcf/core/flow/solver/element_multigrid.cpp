@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-#include "filter_tracked_mcf/core/flow/kernels/element_products.h"
 #include "filter_tracked_mcf/core/pi.h"
 
 namespace tracked_mcf {
@@ -30,18 +29,11 @@ constexpr double kStiff = 4;
 
 }  // namespace
 
-ElementMultigrid::LevelData::LevelData(const Level& of_level)
-    : level(of_level),
-      bricks(of_level),
-      partition(of_level),
-      smoother(of_level, bricks, partition) {}
-
 ElementMultigrid::ElementMultigrid(const std::vector<Level>& levels)
     : largest_(kUsuallyLargest), coarse_solver_(levels.front()) {
     for (const Level& level : levels) levels_.emplace_back(level);
     for (std::size_t l = 1; l < levels_.size(); ++l) {
         levels_[l].transfer = ElementTransfer(levels_[l].level, levels_[l - 1].level);
-        levels_[l - 1].own_matrices.resize(levels_[l - 1].level.element_count());
     }
 }
 
@@ -51,7 +43,7 @@ void ElementMultigrid::refresh(const MatrixBlocks& finest, double stiffness_to_m
         LevelData& here = levels_[coarsest_];
         here.matrices = matrices;
         if (coarsest_ == 0) break;
-        here.smoother.refresh(*matrices, couplings_);
+        here.smoother.refresh(*matrices);
         // With a coarse correction, the smoother covers the upper part of the spectrum; on the
         // coarsest level of the cycle, it covers nearly all of it.
         if (stiffness_to_mass > kStiff) {
@@ -61,7 +53,7 @@ void ElementMultigrid::refresh(const MatrixBlocks& finest, double stiffness_to_m
             return;
         }
         MatrixBlocks& coarser = levels_[coarsest_ - 1].own_matrices;
-        coarsen_element_matrices(here.level, here.transfer.children(), *matrices, coarser);
+        here.transfer.coarsen(*matrices, coarser);
         matrices = &coarser;
     }
     coarse_solver_.factorise(*matrices);
@@ -104,10 +96,7 @@ void ElementMultigrid::LevelData::smooth(float step, const Field& right_side, Fi
 }
 
 void ElementMultigrid::LevelData::make_residual(const Field& right_side, const Field& x) {
-    // A = Σ_e R_eᵀ M_e R_e, with the matrix M_e of an element and its eight unknowns R_e.
-    partition.sum(&right_side, residual, [&](const ElementRange& range, float* sum) {
-        add_element_products(range, matrices->blocks(), -1, x.data(), sum);
-    });
+    partition.add_products(*matrices, -1, x, &right_side, residual);
 }
 
 }  // namespace tracked_mcf

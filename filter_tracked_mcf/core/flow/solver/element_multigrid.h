@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "filter_tracked_mcf/core/flow/solver/coarse_solver.h"
-#include "filter_tracked_mcf/core/flow/solver/element_bricks.h"
 #include "filter_tracked_mcf/core/flow/solver/element_partition.h"
 #include "filter_tracked_mcf/core/flow/solver/element_smoother.h"
 #include "filter_tracked_mcf/core/flow/solver/element_transfer.h"
@@ -47,7 +46,8 @@ public:
 
 private:
     struct LevelData {
-        explicit LevelData(const Level& level);
+        explicit LevelData(const Level& of_level)
+            : level(of_level), partition(of_level), smoother(of_level, partition) {}
         LevelData(const LevelData&) = delete;
         LevelData& operator=(const LevelData&) = delete;
 
@@ -57,7 +57,6 @@ private:
         void make_residual(const Field& right_side, const Field& x);
 
         const Level& level;
-        ElementBricks bricks;
         ElementPartition partition;
         ElementSmoother smoother;
         ElementTransfer transfer;  ///< to and from the next coarser level; unused at level 0
@@ -74,7 +73,6 @@ private:
     std::size_t coarsest_ = 0;  ///< level at which the cycle ends
     std::deque<LevelData> levels_;
     CoarseSolver coarse_solver_;
-    std::vector<Couplings> couplings_;  ///< workspace of refresh()
 };
 
 }  // namespace tracked_mcf

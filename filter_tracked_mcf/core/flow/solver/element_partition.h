@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <array>
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
-#include "filter_tracked_mcf/core/flow/kernels/element_products.h"
 #include "filter_tracked_mcf/core/flow/octree/octree.h"
 #include "filter_tracked_mcf/core/flow/solver/field.h"
+#include "filter_tracked_mcf/core/flow/system/matrix_blocks.h"
 #include "filter_tracked_mcf/core/parallel/parallel.h"
 
 namespace tracked_mcf {
@@ -22,69 +22,57 @@ public:
     /// `level` must outlive this.
     explicit ElementPartition(const Level& level);
 
-    /// Sets the result to the base, and adds the contributions of all subsets by calling
-    /// contribute(range, result's data). A null base is zero; the base may be the result itself.
-    /// contribute() may access the result only to add to targets.
+    /// Sets the result to the base, and adds the contributions of all elements by calling
+    /// contribute(element, at): at(unknown) is the column to add to. A null base is zero; the base
+    /// may be the result itself.
     template <class Contribute>
     void sum(const Field* base, Field& result, const Contribute& contribute) const {
         result.resize(4, level_.unknown_count());
         const auto contribute_subset = [&](std::int64_t i) {
-            initialize(subsets_[i], base, result);
-            contribute(range(subsets_[i]), result.data());
+            const Subset& subset = subsets_[i];
+            initialize(subset, base, result);
+            const auto at = [&](std::int32_t unknown) {
+                return unknown >= subset.unknown_begin ? result.col(unknown)
+                                                       : slots_.col(slot_of(subset, unknown));
+            };
+            for (std::int32_t element = subset.begin; element < subset.end; ++element)
+                contribute(element, at);
         };
         parallel_for(static_cast<std::int64_t>(subsets_.size()), contribute_subset,
                      kSubsetsWorthThreads);
-        add_slots(result);
+        for (Eigen::Index slot = 0; slot < slots_.cols(); ++slot)
+            result.col(unknown_of_slot_[slot]) += slots_.col(slot);
     }
+
+    /// Computes result = base + factor Σ_e R_eᵀ M_e R_e x with these element matrices M_e, where
+    /// R_e selects an element's eight unknowns. The base as in sum().
+    void add_products(const MatrixBlocks& matrices, float factor, const Field& x, const Field* base,
+                      Field& result) const;
 
 private:
     /// Number of elements per subset: the columns of their unknowns fit into a second-level cache.
     static constexpr std::int32_t kSubsetSize = 4096;
-    static_assert(kSubsetSize % kBlockElements == 0);
 
     /// With this many subsets or more, threads save more time than they cost.
     static constexpr std::int64_t kSubsetsWorthThreads = 4;
 
-    /// An unknown of several subsets. Its slots are shared_slots_[begin] to shared_slots_[end - 1].
-    struct Shared {
-        std::int32_t unknown;
-        std::int64_t begin, end;
-    };
-
     struct Subset {
         std::int32_t begin, end;                  ///< elements
         std::int32_t unknown_begin, unknown_end;  ///< unknowns that it owns
-        std::int32_t slot_begin, slot_end;        ///< slots for unknowns of earlier subsets
+        std::int64_t slot_begin, slot_end;        ///< slots for unknowns of earlier subsets
     };
 
-    void find_subsets();
-    void assign_slots();
     void initialize(const Subset& subset, const Field* base, Field& result) const;
-    void add_slots(Field& result) const;
-    ElementRange range(const Subset& subset) const;
+    std::int64_t slot_of(const Subset& subset, std::int32_t unknown) const {
+        const auto first = unknown_of_slot_.begin();
+        return std::lower_bound(first + subset.slot_begin, first + subset.slot_end, unknown) -
+               first;
+    }
 
     const Level& level_;
     std::vector<Subset> subsets_;
-    std::vector<std::int64_t> target_offsets_;  ///< see ElementRange
-    std::vector<std::int32_t> targets_;
-    std::vector<Shared> shared_;
-    std::vector<std::int32_t> shared_slots_;
-    mutable Field slots_;  ///< workspace of sum()
+    std::vector<std::int32_t> unknown_of_slot_;  ///< increasing within a subset
+    mutable Field slots_;                        ///< workspace of sum()
 };
-
-/// Returns the addresses of the eight targets of an element; `sums` is the result's data.
-inline std::array<float*, 8> targets_of(const ElementRange& range, std::int32_t element,
-                                        float* sums) {
-    const std::int64_t offset = range.target_offsets[element / kBlockElements];
-    const std::int32_t* const targets =
-        offset == ElementRange::kDirect ? range.unknowns + std::int64_t{8} * element
-                                        : range.targets + offset + 8 * (element % kBlockElements);
-    std::array<float*, 8> addresses;
-    for (int i = 0; i < 8; ++i) {
-        const std::int64_t target = targets[i];
-        addresses[i] = target >= 0 ? sums + 4 * target : range.slots + 4 * (-1 - target);
-    }
-    return addresses;
-}
 
 }  // namespace tracked_mcf

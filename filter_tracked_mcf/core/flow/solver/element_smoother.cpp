@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "filter_tracked_mcf/core/flow/kernels/element_products.h"
 #include "filter_tracked_mcf/core/flow/system/constrained_cells.h"
 #include "filter_tracked_mcf/core/parallel/parallel.h"
 
@@ -28,80 +27,111 @@ std::vector<float> damping_of(const Level& level) {
     return damping;
 }
 
-/// Finds the entries without an index of their own in Couplings, see CoupledElements. An unknown
-/// may be coupled with two unknowns at the same corner, if two sheets of the surface in that
-/// corner's support connect outside it. The index belongs to the first of the two.
-std::vector<std::uint32_t> find_without_place(const Level& level, const ElementBricks& bricks) {
-    constexpr std::int32_t none = -1;
-    constexpr std::int64_t size = sizeof(Couplings) / sizeof(float);
-    RawVector<std::int32_t> coupled_with(size * level.unknown_count());
-    parallel_for_rows(level.unknown_count(), [&](std::int32_t unknown) {
-        std::fill_n(coupled_with.begin() + size * unknown, size, none);
-    });
-    const auto for_each_entry = [&](std::int32_t element, const auto& visit) {
-        const auto& unknowns = level.unknowns[element];
-        for (int i = 0; i < 8; ++i) {
-            for (int j = i + 1; j < 8; ++j) {
-                visit(coupled_with[size * unknowns[i] + kCouplingIndices.of[i][j]], unknowns[j],
-                      kCouplingIndices.bit[i][j]);
+/// A pivot below this fraction of its diagonal entry is a rounding error: its function depends on
+/// the functions before it, and its row is left out.
+constexpr float kDependent = 1e-5F;
+
+/// Four floats, one for each of four elements.
+using Lanes = Eigen::Array4f;
+constexpr int kLanes = 4;
+
+/// Reads the lower triangle of the assembled matrix, restricted to the unknowns of one element.
+void restrict(const Level& level, const MatrixBlocks& matrices, std::int32_t element,
+              Lanes (&m)[8][8], int lane) {
+    const auto& unknowns = level.unknowns[element];
+    for (int i = 0; i < 8; ++i) {
+        for (int j = i; j < 8; ++j) m[j][i][lane] = 0;
+        for (const std::int32_t index : level.corners.members(unknowns[i])) {
+            // The other cell has corner j, too, unless it is on the far side along an axis in which
+            // the cells differ. Close sheets have other unknowns there.
+            const std::int32_t other = index / 8;
+            const int moved = i ^ (index % 8);
+            for (int j = i; j < 8; ++j) {
+                if (((i ^ j) & moved) != 0 || level.unknowns[other][j ^ moved] != unknowns[j])
+                    continue;
+                m[j][i][lane] += matrices[other](i ^ moved, j ^ moved);
             }
         }
-    };
-    bricks.for_each([&](std::int32_t begin, std::int32_t end) {
-        for (std::int32_t element = begin; element < end; ++element) {
-            for_each_entry(element, [&](std::int32_t& owner, std::int32_t unknown, int /*bit*/) {
-                if (owner == none) owner = unknown;
-            });
+    }
+}
+
+/// Inverts kLanes symmetric positive semi-definite matrices in place, as L⁻ᵀ D⁻¹ L⁻¹. This is a sum
+/// of squares, so it is positive despite rounding errors; an inverse by elimination need not be.
+/// Rows that are left out become zero.
+void invert(Lanes (&m)[8][8]) {
+    Lanes least[8];
+    Lanes inverse_pivot[8];
+    for (int k = 0; k < 8; ++k) least[k] = kDependent * m[k][k];
+    // Factorise into L, below the diagonal, and D.
+    for (int k = 0; k < 8; ++k) {
+        const Lanes pivot = m[k][k];
+        // Written so that a NaN propagates.
+        for (int lane = 0; lane < kLanes; ++lane) {
+            inverse_pivot[k][lane] = pivot[lane] <= least[k][lane] ? 0 : 1 / pivot[lane];
         }
-    });
-    std::vector<std::uint32_t> without_place(level.unknowns.size(), 0);
-    parallel_for_rows(level.element_count(), [&](std::int32_t element) {
-        for_each_entry(element, [&](std::int32_t owner, std::int32_t unknown, int bit) {
-            if (owner != unknown) without_place[element] |= std::uint32_t{1} << bit;
-        });
-    });
-    return without_place;
+        Lanes column[8];
+        for (int i = k + 1; i < 8; ++i) column[i] = m[i][k];
+        for (int i = k + 1; i < 8; ++i) {
+            const Lanes factor = column[i] * inverse_pivot[k];
+            for (int j = k + 1; j <= i; ++j) m[i][j] -= factor * column[j];
+            m[i][k] = factor;
+        }
+    }
+    // Replace L by L⁻¹ below the diagonal.
+    for (int i = 0; i < 8; ++i) {
+        for (int j = 0; j < i; ++j) {
+            Lanes sum = m[i][j];
+            for (int k = j + 1; k < i; ++k) sum = m[i][k] * m[k][j] + sum;
+            m[i][j] = -sum;
+        }
+    }
+    for (int i = 0; i < 8; ++i) {
+        for (int j = 0; j <= i; ++j) {
+            Lanes sum = j < i ? inverse_pivot[i] * m[i][j] : inverse_pivot[i];
+            for (int k = i + 1; k < 8; ++k) {
+                sum = inverse_pivot[k] * m[k][i] * m[k][j] + sum;
+            }
+            m[i][j] = sum;
+        }
+    }
 }
 
 }  // namespace
 
-ElementSmoother::ElementSmoother(const Level& level, const ElementBricks& bricks,
-                                 const ElementPartition& partition)
+ElementSmoother::ElementSmoother(const Level& level, const ElementPartition& partition)
     : level_(level),
-      bricks_(bricks),
       partition_(partition),
       damping_(damping_of(level)),
-      without_place_(find_without_place(level, bricks)),
-      inverses_(level.element_count()),
+      inverses_(level.unknowns.size()),
       free_unknowns_(level.unknown_count()) {}
 
-CoupledElements ElementSmoother::coupled(std::int32_t begin, std::int32_t end) const {
-    return {level_.unknowns.front().data(), without_place_.data(), begin, end};
-}
-
-void ElementSmoother::refresh(const MatrixBlocks& matrices, std::vector<Couplings>& workspace) {
-    if (static_cast<std::int64_t>(workspace.size()) < level_.unknown_count()) {
-        workspace.resize(level_.unknown_count());
-    }
-    parallel_for_rows(level_.unknown_count(),
-                      [&](std::int32_t unknown) { workspace[unknown] = Couplings{}; });
-    bricks_.for_each([&](std::int32_t begin, std::int32_t end) {
-        sum_couplings(coupled(begin, end), matrices.blocks(), workspace.data());
-    });
+void ElementSmoother::refresh(const MatrixBlocks& matrices) {
     parallel_for_rows(level_.unknown_count(), [&](std::int32_t unknown) {
-        free_unknowns_[unknown] = is_free(workspace[unknown].sum[0]) ? 1 : 0;
+        float diagonal = 0;
+        for (const std::int32_t index : level_.corners.members(unknown))
+            diagonal += matrices[index / 8](index % 8, index % 8);
+        free_unknowns_[unknown] = is_free(diagonal) ? 1 : 0;
     });
     parallel_for_chunks(level_.element_count(), [&](std::int64_t begin, std::int64_t end) {
-        invert_locally(coupled(static_cast<std::int32_t>(begin), static_cast<std::int32_t>(end)),
-                       matrices.blocks(), workspace.data(), damping_.data(), inverses_.blocks());
+        Lanes m[8][8] = {};
+        for (auto first = static_cast<std::int32_t>(begin); first < end; first += kLanes) {
+            const int count = std::min(kLanes, static_cast<std::int32_t>(end) - first);
+            for (int lane = 0; lane < count; ++lane)
+                restrict(level_, matrices, first + lane, m, lane);
+            invert(m);
+            for (int lane = 0; lane < count; ++lane) {
+                for (int i = 0; i < 8; ++i) {
+                    for (int j = i; j < 8; ++j)
+                        inverses_[first + lane](i, j) = damping_[first + lane] * m[j][i][lane];
+                }
+            }
+        }
     });
 }
 
 void ElementSmoother::correct(const Field* base, float factor, const Field& residual,
                               Field& x) const {
-    partition_.sum(base, x, [&](const ElementRange& range, float* sum) {
-        add_element_products(range, inverses_.blocks(), factor, residual.data(), sum);
-    });
+    partition_.add_products(inverses_, factor, residual, base, x);
 }
 
 }  // namespace tracked_mcf

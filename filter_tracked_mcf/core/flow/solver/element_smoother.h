@@ -4,9 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "filter_tracked_mcf/core/flow/kernels/local_systems.h"
 #include "filter_tracked_mcf/core/flow/octree/octree.h"
-#include "filter_tracked_mcf/core/flow/solver/element_bricks.h"
 #include "filter_tracked_mcf/core/flow/solver/element_partition.h"
 #include "filter_tracked_mcf/core/flow/solver/field.h"
 #include "filter_tracked_mcf/core/flow/system/matrix_blocks.h"
@@ -25,12 +23,11 @@ namespace tracked_mcf {
 /// functions.
 class ElementSmoother {
 public:
-    /// All arguments must outlive this.
-    ElementSmoother(const Level& level, const ElementBricks& bricks,
-                    const ElementPartition& partition);
+    /// Both arguments must outlive this.
+    ElementSmoother(const Level& level, const ElementPartition& partition);
 
-    /// Takes the level's element matrices. `workspace` is only used during the call.
-    void refresh(const MatrixBlocks& matrices, std::vector<Couplings>& workspace);
+    /// Takes the level's element matrices.
+    void refresh(const MatrixBlocks& matrices);
 
     /// Computes x = base + factor * S residual. A null base is zero; the base may be x itself. Only
     /// free unknowns differ from the base.
@@ -40,13 +37,9 @@ public:
     const std::vector<std::uint8_t>& free_unknowns() const { return free_unknowns_; }
 
 private:
-    CoupledElements coupled(std::int32_t begin, std::int32_t end) const;
-
     const Level& level_;
-    const ElementBricks& bricks_;
     const ElementPartition& partition_;
-    std::vector<float> damping_;                ///< 1 / m_e for each element
-    std::vector<std::uint32_t> without_place_;  ///< for each element, see CoupledElements
+    std::vector<float> damping_;  ///< 1 / m_e for each element
     MatrixBlocks inverses_;
     std::vector<std::uint8_t> free_unknowns_;
 };

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -13,23 +12,9 @@
 
 namespace tracked_mcf {
 
-/// The functions of a parent cell that contain the function at one corner of a child cell. They all
-/// have the same weight.
-struct ContainingFunctions {
-    int count;
-    std::array<std::uint8_t, 8> corners;  ///< of the parent
-    float weight;
-};
-
-/// The containing functions for each octant and each corner of it.
-using RefinementTable = std::array<std::array<ContainingFunctions, 8>, 8>;
-
-/// Returns the table of the refinement weights (bspline.h).
-const RefinementTable& refinement_table();
-
 /// The prolongation P from a level's unknowns to those of the next finer level, and its transpose,
 /// without a matrix. Each fine unknown is interpolated in one of its elements, from the eight
-/// unknowns of that element's parent. prolongation() (paper/transfer.h) has the same P.
+/// unknowns of that element's parent.
 class ElementTransfer {
 public:
     ElementTransfer() = default;
@@ -40,27 +25,21 @@ public:
     void add_prolongated(const Field& correction, const std::vector<std::uint8_t>& free_unknowns,
                          Field& x) const;
 
-    /// Computes coarse_residual = Pᵀ residual; `coarse_partition` is the partition of the coarse
-    /// level.
+    /// Computes coarse_residual = Pᵀ residual; `coarse_partition` is that of the coarse level.
     void restrict(const Field& residual, const ElementPartition& coarse_partition,
                   Field& coarse_residual) const;
 
-    /// Returns the fine elements, grouped by parent.
-    const Groups& children() const { return children_; }
+    /// Computes the element matrices of the coarser level: each parent's is Σ P_cᵀ K_c P_c over its
+    /// children c, with the refinement weights P_c of the child's octant. Assembled, they are the
+    /// Galerkin product PᵀAP, at a fraction of its cost.
+    void coarsen(const MatrixBlocks& fine, MatrixBlocks& coarse) const;
 
 private:
     const Level* fine_ = nullptr;
     const Level* coarse_ = nullptr;
-    Groups children_;
+    Groups children_;  ///< fine elements, by parent
     /// For each fine element a mask of corners whose unknowns are interpolated in this element.
     std::vector<std::uint8_t> owned_;
 };
-
-/// Computes the element matrices of the next coarser level: each parent's is Σ P_cᵀ K_c P_c over
-/// its children c, with the refinement weights P_c of the child's octant. Assembled, they are the
-/// Galerkin product PᵀAP, at a fraction of its cost. `children` are the elements of the fine level,
-/// grouped by parent.
-void coarsen_element_matrices(const Level& fine, const Groups& children,
-                              const MatrixBlocks& fine_matrices, MatrixBlocks& coarse_matrices);
 
 }  // namespace tracked_mcf

@@ -13,6 +13,16 @@ void set_zero(Field& field, Eigen::Index count) {
     parallel_for_rows(count, [&](std::int32_t i) { field.col(i).setZero(); });
 }
 
+void sum_at_unknowns(const Level& level, const Field& at_corners, Field& sums) {
+    sums.resize(4, level.unknown_count());
+    parallel_for_rows(level.unknown_count(), [&](std::int32_t unknown) {
+        Eigen::Vector4f sum = Eigen::Vector4f::Zero();
+        for (const std::int32_t index : level.corners.members(unknown))
+            sum += at_corners.col(index);
+        sums.col(unknown) = sum;
+    });
+}
+
 void copy(const Field& from, Field& to) {
     to.resize(4, from.cols());
     parallel_for_rows(from.cols(), [&](std::int32_t i) { to.col(i) = from.col(i); });

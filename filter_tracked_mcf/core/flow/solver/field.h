@@ -3,6 +3,8 @@
 
 #include <Eigen/Core>
 
+#include "filter_tracked_mcf/core/flow/octree/octree.h"
+
 namespace tracked_mcf {
 
 /// A vector of the linear system for the three coordinates at once. Each unknown has a column: x,
@@ -11,6 +13,10 @@ using Field = Eigen::Matrix<float, 4, Eigen::Dynamic>;
 
 /// Sets `field` to `count` zero columns.
 void set_zero(Field& field, Eigen::Index count);
+
+/// Sums what the elements of a level contribute to each unknown, in their order. `at_corners` has
+/// eight columns for each element.
+void sum_at_unknowns(const Level& level, const Field& at_corners, Field& sums);
 
 /// Copies `from` to `to`.
 void copy(const Field& from, Field& to);

@@ -13,26 +13,9 @@ namespace tracked_mcf {
 
 namespace {
 
-using Values = Eigen::Matrix<float, 8, 1>;
-
 /// Added to diagonals, relative to them: much more than rounding, much less than what the longest
 /// waves need. It keeps matrices positive where mass is lost beside stiffness.
 constexpr float kRegularisation = 1e-5F;
-
-/// Returns the trilinear functions of a cell at a point, which may lie outside.
-Values trilinear(const Eigen::Vector3f& local) {
-    const Eigen::Vector3f& upper = local;
-    const Eigen::Vector3f lower = 1 - local.array();
-    Values values;
-    for (int corner = 0; corner < 8; ++corner) {
-        float value = 1;
-        for (int axis = 0; axis < 3; ++axis) {
-            value *= corner_bit(corner, axis) != 0 ? upper[axis] : lower[axis];
-        }
-        values[corner] = value;
-    }
-    return values;
-}
 
 /// Returns the links between elements by sides of triangles, where their cells touch.
 RawVector<Link> links_of(const Stars& stars, const std::vector<std::int32_t>& element_of,
@@ -54,15 +37,6 @@ RawVector<Link> links_of(const Stars& stars, const std::vector<std::int32_t>& el
     return links;
 }
 
-std::vector<std::int32_t> corners_of_elements(const Level& level) {
-    std::vector<std::int32_t> unknowns;
-    unknowns.reserve(8 * level.unknowns.size());
-    for (const auto& of_element : level.unknowns) {
-        unknowns.insert(unknowns.end(), of_element.begin(), of_element.end());
-    }
-    return unknowns;
-}
-
 }  // namespace
 
 VertexOctree::VertexOctree(const Stars& stars, const std::vector<Eigen::Vector3d>& positions,
@@ -79,7 +53,6 @@ VertexOctree::VertexOctree(const Stars& stars, const std::vector<Eigen::Vector3d
     find_elements(stars, cells, grid.depth, has_functions);
     // The last group has no functions.
     vertices_ = Groups(element_of_, finest().element_count() + 1);
-    corners_ = Groups(corners_of_elements(finest()), finest().unknown_count());
 }
 
 void VertexOctree::find_elements(const Stars& stars, const std::vector<MortonCode>& cells,
@@ -87,7 +60,7 @@ void VertexOctree::find_elements(const Stars& stars, const std::vector<MortonCod
     const auto is_left_out = [&](std::int32_t vertex) {
         return !has_functions.empty() && has_functions[vertex] == 0;
     };
-    ConcurrentSets sets(stars.count());
+    DisjointSets sets(stars.count());
     parallel_for_rows(stars.count(), [&](std::int32_t vertex) {
         if (is_left_out(vertex)) return;
         for (auto i = stars.neighbour_begin[vertex]; i < stars.neighbour_begin[vertex + 1]; ++i) {
@@ -120,13 +93,13 @@ void VertexOctree::find_elements(const Stars& stars, const std::vector<MortonCod
 }
 
 VertexOctree::Values VertexOctree::values_at(std::int32_t vertex) const {
-    return trilinear(local_[vertex]);
+    return bspline_values(local_[vertex]);
 }
 
 VertexOctree::Values VertexOctree::values_at(std::int32_t vertex, std::int32_t element) const {
     const std::vector<MortonCode>& cells = finest().cells;
     const Cell offset = cell_at(cells[element_of_[vertex]]) - cell_at(cells[element]);
-    return trilinear(local_[vertex] + offset.cast<float>());
+    return bspline_values<float>(local_[vertex] + offset.cast<float>());
 }
 
 void VertexOctree::assemble(const MeshSystem& system, const TriangleElements& elements,
@@ -163,7 +136,7 @@ void VertexOctree::assemble(const MeshSystem& system, const TriangleElements& el
         }
         for (int row = 0; row < 8; ++row) {
             for (int column = row; column < 8; ++column) {
-                matrices.at(element, row, column) =
+                matrices[element](row, column) =
                     (row == column ? 1 + kRegularisation : 1) * sum(row, column);
             }
         }
@@ -174,24 +147,17 @@ void VertexOctree::assemble(const MeshSystem& system, const TriangleElements& el
 }
 
 void VertexOctree::restrict(const Field& r, Field& coarse) {
-    sums_.resize(finest().cells.size());
+    sums_.resize(4, 8 * finest().element_count());
     const auto sum_element = [&](std::int32_t element) {
-        sums_[element].setZero();
-        for (const std::int32_t vertex : vertices_.members(element)) {
-            sums_[element] += r.col(vertex) * values_at(vertex).transpose();
-        }
+        Eigen::Matrix<float, 4, 8> sum = Eigen::Matrix<float, 4, 8>::Zero();
+        for (const std::int32_t vertex : vertices_.members(element))
+            sum += r.col(vertex) * values_at(vertex).transpose();
+        sums_.middleCols<8>(8 * std::int64_t{element}) = sum;
     };
     parallel_for_chunks(finest().element_count(), [&](std::int64_t begin, std::int64_t end) {
         for (auto i = static_cast<std::int32_t>(begin); i < end; ++i) sum_element(i);
     });
-    coarse.resize(4, finest().unknown_count());
-    parallel_for_rows(finest().unknown_count(), [&](std::int32_t unknown) {
-        Eigen::Vector4f sum = Eigen::Vector4f::Zero();
-        for (const std::int32_t index : corners_.members(unknown)) {
-            sum += sums_[index / 8].col(index % 8);
-        }
-        coarse.col(unknown) = sum;
-    });
+    sum_at_unknowns(finest(), sums_, coarse);
 }
 
 double VertexOctree::add_prolongated(const MeshSystem& system, const PartBlocks::Block& block,

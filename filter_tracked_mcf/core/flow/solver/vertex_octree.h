@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "filter_tracked_mcf/core/flow/cells/bspline.h"
 #include "filter_tracked_mcf/core/flow/octree/octree.h"
 #include "filter_tracked_mcf/core/flow/solver/field.h"
 #include "filter_tracked_mcf/core/flow/solver/mesh_system.h"
@@ -54,7 +55,8 @@ public:
                            const Field& coarse, const Field& r, Field& x) const;
 
 private:
-    using Values = Eigen::Matrix<float, 8, 1>;
+    /// One value for each function of an element.
+    using Values = tracked_mcf::Values<float>;
 
     void find_elements(const Stars& stars, const std::vector<MortonCode>& cells, int depth,
                        const std::vector<std::uint8_t>& has_functions);
@@ -65,11 +67,10 @@ private:
 
     double cell_size_;
     std::vector<Level> levels_;
-    std::vector<std::int32_t> element_of_;        ///< per vertex; without functions, their number
-    RawVector<Eigen::Vector3f> local_;            ///< per vertex, in the cell of its element
-    Groups vertices_;                             ///< by element
-    Groups corners_;                              ///< 8 × element + corner, by unknown
-    RawVector<Eigen::Matrix<float, 4, 8>> sums_;  ///< workspace, per element
+    std::vector<std::int32_t> element_of_;  ///< per vertex; without functions, their number
+    RawVector<Eigen::Vector3f> local_;      ///< per vertex, in the cell of its element
+    Groups vertices_;                       ///< by element
+    Field sums_;                            ///< workspace, eight columns per element
 };
 
 }  // namespace tracked_mcf

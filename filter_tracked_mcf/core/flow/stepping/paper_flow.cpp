@@ -91,9 +91,9 @@ bool PaperFlow::step() {
     return true;
 }
 
-void PaperFlow::solve(const std::vector<ElementVector>& right_sides, StepReport& report) {
+void PaperFlow::solve(const Field& right_sides, StepReport& report) {
     const LevelMatrix& finest = multigrid_.finest();
-    finest.assemble(right_sides, right_side_);
+    sum_at_unknowns(elements_.finest(), right_sides, right_side_);
     set_zero(x_, right_side_.cols());
     finest.residual(right_side_, x_, residual_);
     report.residual_before = std::hypot(report.residual_before, norm(residual_));

@@ -36,7 +36,7 @@ public:
 private:
     void take_last_step_back() override;
     /// Solves the system with these right-hand sides for d_.
-    void solve(const std::vector<ElementVector>& right_sides, StepReport& report);
+    void solve(const Field& right_sides, StepReport& report);
     /// Returns whether the vertices are where a step can lead.
     bool is_confined(const Coefficients& displacement) const;
 

@@ -77,7 +77,7 @@ void eliminate_constrained(const Level& level, const std::vector<std::uint8_t>& 
     parallel_for_rows(level.element_count(), [&](std::int32_t element) {
         for (int corner = 0; corner < 8; ++corner) {
             if (constrained[level.unknowns[element][corner]] == 0) continue;
-            for (int i = 0; i < 8; ++i) matrices.at(element, corner, i) = 0;
+            for (int i = 0; i < 8; ++i) matrices[element](corner, i) = 0;
         }
     });
 }

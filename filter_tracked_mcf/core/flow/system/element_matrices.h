@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "filter_tracked_mcf/core/flow/elements/tracked_elements.h"
-#include "filter_tracked_mcf/core/flow/kernels/element_matrix.h"
 #include "filter_tracked_mcf/core/flow/system/matrix_blocks.h"
 
 namespace tracked_mcf {
@@ -14,7 +13,8 @@ namespace tracked_mcf {
 struct ElementSystems {
     MatrixBlocks matrices;
     MatrixBlocks stiffnesses;  ///< δ S alone, if it was asked for
-    std::vector<ElementVector> right_sides;
+    Eigen::Matrix<float, 4, Eigen::Dynamic>
+        right_sides;           ///< x, y, z, 0 at each corner of an element
     std::vector<float> areas;  ///< of the embedded surface in each element, grid units²
     double area = 0;           ///< their sum
     std::int64_t collapsed_samples = 0;
@@ -31,14 +31,14 @@ struct ElementSystems {
 /// The step size δ is in squared sides of a finest cell. The solution d = X_{t+δ} - X_t is that of
 /// equation 2. `keep_stiffness` asks for ElementSystems::stiffnesses.
 ///
-/// The kernels compute in single precision. They take differences within a cell in double first, so
-/// rounding errors are relative to the size of the embedded cell. The result has the same bits for
-/// any number of threads.
+/// The integrals are computed in single precision. Differences within a cell are taken in double
+/// first, so rounding errors are relative to the size of the embedded cell. The result has the same
+/// bits for any number of threads.
 void assemble_elements(const TrackedElements& elements, const Coefficients& displacement,
                        double step_size, bool keep_stiffness, ElementSystems& systems);
 
 /// Computes the product of element matrices of the finest level and a vector, element by element.
 void multiply(const TrackedElements& elements, const MatrixBlocks& matrices,
-              const Coefficients& vector, std::vector<ElementVector>& products);
+              const Coefficients& vector, Eigen::Matrix<float, 4, Eigen::Dynamic>& products);
 
 }  // namespace tracked_mcf

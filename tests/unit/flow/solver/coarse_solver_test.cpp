@@ -32,7 +32,7 @@ TEST(CoarseSolver, ReturnsTheLeastSquaresSolutionOfLeastNormForEachComponent) {
         for (int i = 0; i < 8; ++i) {
             level.unknowns[element][i] = 8 * element + (3 * i + 5) % 8;
             for (int j = i; j < 8; ++j) {
-                matrices.at(element, i, j) = static_cast<float>(matrix(i, j));
+                matrices[element](i, j) = static_cast<float>(matrix(i, j));
             }
         }
     }
@@ -53,10 +53,9 @@ TEST(CoarseSolver, ReturnsTheLeastSquaresSolutionOfLeastNormForEachComponent) {
 TEST(CoarseSolver, SolvesASingularSystemInTheLeastSquaresSense) {
     // A flat patch in a grid plane: the four functions off the plane have zero rows.
     const System system(shapes::square(4), 1, 0.5F);
-    MatrixBlocks coarsest(1);
-    coarsen_element_matrices(system.elements.levels[1],
-                             Groups(system.elements.levels[1].parents, 1), system.systems.matrices,
-                             coarsest);
+    MatrixBlocks coarsest;
+    ElementTransfer(system.elements.levels[1], system.elements.levels[0])
+        .coarsen(system.systems.matrices, coarsest);
     CoarseSolver solver(system.elements.levels[0]);
     solver.factorise(coarsest);
     const Dense a = assembled(system.elements.levels[0], coarsest);

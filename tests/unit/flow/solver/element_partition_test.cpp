@@ -1,22 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Sums over elements in parallel: ElementPartition and ElementBricks.
-
 #include "filter_tracked_mcf/core/flow/solver/element_partition.h"
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <numeric>
 #include <vector>
 
-#include "filter_tracked_mcf/core/flow/solver/element_bricks.h"
+#include "tests/unit/system.h"
 
 namespace tracked_mcf {
 namespace {
 
-constexpr int kThreadCounts[] = {1, 2, 3, 8};
-
-/// Returns a level of 32³ cells, an element each: eight parts.
+/// Returns a level of 32³ cells, an element each: eight subsets.
 Level full_level() {
     std::vector<MortonCode> cells(32 * 32 * 32);
     std::iota(cells.begin(), cells.end(), MortonCode{0});
@@ -25,12 +20,9 @@ Level full_level() {
 
 /// Adds value(element, i) to the unknown i of each element.
 template <class Value>
-void sum(const ElementPartition& partition, const Field* base, Field& result, const Value& value) {
-    partition.sum(base, result, [&](const ElementRange& range, float* sums) {
-        for (std::int32_t element = range.begin; element < range.end; ++element) {
-            const auto targets = targets_of(range, element, sums);
-            for (int i = 0; i < 8; ++i) *targets[i] += value(element, i);
-        }
+void sum(const Level& level, const Field* base, Field& result, const Value& value) {
+    ElementPartition(level).sum(base, result, [&](std::int32_t element, const auto& at) {
+        for (int i = 0; i < 8; ++i) at(level.unknowns[element][i])[0] += value(element, i);
     });
 }
 
@@ -39,13 +31,8 @@ float whole_number(std::int32_t element, int i) {
     return static_cast<float>((element + 3 * i) % 11);
 }
 
-float fraction(std::int32_t element, int i) {
-    return 1 / (1 + whole_number(element, i));
-}
-
 TEST(ElementPartition, SumsWhatAllElementsAddToTheBase) {
     const Level level = full_level();
-    const ElementPartition partition(level);
     Field expected = Field::Zero(4, level.unknown_count());
     for (std::int32_t element = 0; element < level.element_count(); ++element) {
         for (int i = 0; i < 8; ++i) {
@@ -55,45 +42,33 @@ TEST(ElementPartition, SumsWhatAllElementsAddToTheBase) {
     const Field base = Field::Constant(4, level.unknown_count(), 7);
     Field result;
     for (int repetition = 0; repetition < 2; ++repetition) {
-        sum(partition, nullptr, result, whole_number);
+        sum(level, nullptr, result, whole_number);
         EXPECT_EQ(result, expected);
-        sum(partition, &base, result, whole_number);
+        sum(level, &base, result, whole_number);
         EXPECT_EQ(result, expected + base);
-        sum(partition, &result, result, whole_number);
+        sum(level, &result, result, whole_number);
         EXPECT_EQ(result, 2 * expected + base);
     }
 }
 
 TEST(ElementPartition, SumsToTheSameBitsWithAnyNumberOfThreads) {
     const Level level = full_level();
-    const ElementPartition partition(level);
     std::vector<Field> results;
-    for (const int count : kThreadCounts) {
+    for (const int count : {1, 2, 3, 8}) {
         const ThreadTeam threads(count);
-        sum(partition, nullptr, results.emplace_back(), fraction);
+        sum(level, nullptr, results.emplace_back(),
+            [](std::int32_t element, int i) { return 1 / (1 + whole_number(element, i)); });
         EXPECT_EQ(results.back(), results.front());
     }
 }
 
-TEST(ElementBricks, VisitEachElementOnceAndAddInTheSameOrderWithAnyNumberOfThreads) {
-    const Level level = full_level();
-    const ElementBricks bricks(level);
-    std::vector<std::vector<float>> results;
-    for (const int count : kThreadCounts) {
-        const ThreadTeam threads(count);
-        std::vector<int> visits(level.unknowns.size());
-        results.emplace_back(level.unknown_count());
-        bricks.for_each([&](std::int32_t begin, std::int32_t end) {
-            for (std::int32_t element = begin; element < end; ++element) {
-                ++visits[element];
-                for (int i = 0; i < 8; ++i) {
-                    results.back()[level.unknowns[element][i]] += fraction(element, i);
-                }
-            }
-        });
-        EXPECT_EQ(std::count(visits.begin(), visits.end(), 1), level.element_count());
-        EXPECT_EQ(results.back(), results.front());
-    }
+TEST(ElementPartition, AddsAMultipleOfTheAssembledProductToTheBase) {
+    const LevelSystem system = vertex_system(two_shells(), 4, 0.5);
+    const Field x = random_field(system.finest()), base = random_field(system.finest());
+    const Field product = times(system, x);
+    Field result;
+    ElementPartition(system.finest()).add_products(system.matrices, -2, x, &base, result);
+    EXPECT_LT((result - base + 2 * product).norm(), 1e-5 * product.norm());
 }
 
 }  // namespace

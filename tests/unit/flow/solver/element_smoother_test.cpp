@@ -15,11 +15,8 @@ namespace {
 /// A smoother for the finest level of a system.
 struct Smoother {
     explicit Smoother(const LevelSystem& system)
-        : bricks(system.finest()),
-          partition(system.finest()),
-          smoother(system.finest(), bricks, partition) {
-        std::vector<Couplings> workspace;
-        smoother.refresh(system.matrices, workspace);
+        : partition(system.finest()), smoother(system.finest(), partition) {
+        smoother.refresh(system.matrices);
     }
     Field apply(const Field& residual) const {
         Field x;
@@ -27,7 +24,6 @@ struct Smoother {
         return x;
     }
 
-    ElementBricks bricks;
     ElementPartition partition;
     ElementSmoother smoother;
 };

@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include "filter_tracked_mcf/core/flow/solver/paper/transfer.h"
 #include "tests/unit/system.h"
 
 namespace tracked_mcf {
@@ -14,7 +13,7 @@ TEST(ElementTransfer, EqualsTheProlongationMatrixAndItsTranspose) {
     for (std::size_t l = 1; l < system.levels.size(); ++l) {
         const Level& fine = system.levels[l];
         const Level& coarse = system.levels[l - 1];
-        const Dense p = dense(prolongation(fine, coarse));
+        const Dense p = prolongation(fine, coarse);
         const ElementTransfer transfer(fine, coarse);
 
         const Field correction = Field::Random(4, coarse.unknown_count());

@@ -6,8 +6,6 @@
 #include <limits>
 #include <vector>
 
-#include "filter_tracked_mcf/core/flow/cells/bspline.h"
-#include "filter_tracked_mcf/core/flow/solver/paper/transfer.h"
 #include "filter_tracked_mcf/core/flow/system/constrained_cells.h"
 #include "tests/unit/system.h"
 
@@ -16,17 +14,16 @@ namespace {
 
 /// Returns the element matrices of the level below the finest one.
 MatrixBlocks coarsened(const LevelSystem& system) {
-    const Level& fine = system.finest();
-    const std::int32_t parents = system.levels[fine.depth - 1].element_count();
-    MatrixBlocks coarse(parents);
-    coarsen_element_matrices(fine, Groups(fine.parents, parents), system.matrices, coarse);
+    MatrixBlocks coarse;
+    ElementTransfer(system.finest(), system.levels[system.levels.size() - 2])
+        .coarsen(system.matrices, coarse);
     return coarse;
 }
 
 TEST(Galerkin, CoarsenedMatricesAddUpToTheGalerkinProduct) {
     const LevelSystem system = vertex_system(two_shells(), 4, 0.5);
     const Level& coarse = system.levels[3];
-    const Dense p = dense(prolongation(system.finest(), coarse));
+    const Dense p = prolongation(system.finest(), coarse);
     const Dense product = p.transpose() * assembled(system) * p;
     EXPECT_LT((assembled(coarse, coarsened(system)) - product).norm(), 1e-6 * product.norm());
 }

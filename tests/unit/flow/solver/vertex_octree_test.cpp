@@ -172,11 +172,11 @@ TEST(VertexOctree, MatricesOfElementsArePositive) {
     MatrixBlocks matrices;
     of.octree.assemble(of.system, of.elements, matrices);
     ASSERT_EQ(matrices.size(), of.octree.finest().element_count());
-    for (std::int64_t element = 0; element < matrices.size(); ++element) {
+    for (std::size_t element = 0; element < matrices.size(); ++element) {
         Dense matrix(8, 8);
         for (int row = 0; row < 8; ++row) {
             for (int column = 0; column < 8; ++column) {
-                matrix(row, column) = matrices.at(element, row, column);
+                matrix(row, column) = matrices[element](row, column);
             }
         }
         const Eigen::SelfAdjointEigenSolver<Dense> solver(matrix, Eigen::EigenvaluesOnly);

@@ -14,11 +14,6 @@
 namespace tracked_mcf {
 namespace {
 
-Matrix8 to_matrix(const MatrixBlocks& matrices, std::int64_t element) {
-    const ElementMatrix whole = matrices.of(element);
-    return Eigen::Map<const Eigen::Matrix<float, 8, 8>>(whole.entry[0]).cast<double>();
-}
-
 TrackedElements bumpy_elements() {
     const TriangleMesh mesh = shapes::bumpy_sphere(10);
     return build_tracked_elements(mesh, enclosing_grid(mesh, 4), Cubature::ThreePoints);
@@ -43,23 +38,6 @@ Coefficients wobble(const TrackedElements& elements) {
     return displacement;
 }
 
-Equation4 integrate(const TrackedElements& elements, const Matrix83& embedding,
-                    std::int32_t element) {
-    Equation4 equation;
-    std::int64_t sample = elements.sample_begin[element];
-    for (std::int64_t f = elements.fragment_begin[element];
-         f < elements.fragment_begin[element + 1]; ++f) {
-        const Fragment& fragment = elements.fragments[f];
-        const Eigen::Vector3d normal =
-            Eigen::Map<const Eigen::Vector3f>(fragment.normal).cast<double>();
-        for (std::int32_t i = 0; i < fragment.sample_count; ++i, ++sample) {
-            equation.add_sample(normal, elements.samples.local(sample),
-                                elements.samples.weight(sample), embedding);
-        }
-    }
-    return equation;
-}
-
 void expect_paper(const TrackedElements& elements, const Coefficients& displacement) {
     const ElementSystems mass = assemble(elements, displacement, 0);
     const ElementSystems both = assemble(elements, displacement, 1);
@@ -73,15 +51,15 @@ void expect_paper(const TrackedElements& elements, const Coefficients& displacem
         const Equation4 expected = integrate(elements, x, element);
         const Matrix83 stiffness_times_x = expected.stiffness * x;
         area += expected.area;
-        EXPECT_LT((to_matrix(mass.matrices, element) - expected.mass).norm(),
+        EXPECT_LT((whole(mass.matrices[element]) - expected.mass).norm(),
                   1e-5 * expected.mass.norm());
-        EXPECT_LT((to_matrix(both.stiffnesses, element) - expected.stiffness).norm(),
+        EXPECT_LT((whole(both.stiffnesses[element]) - expected.stiffness).norm(),
                   1e-5 * expected.stiffness.norm());
         const Matrix8 sum = expected.mass + expected.stiffness;
-        EXPECT_LT((to_matrix(both.matrices, element) - sum).norm(), 1e-5 * sum.norm());
+        EXPECT_LT((whole(both.matrices[element]) - sum).norm(), 1e-5 * sum.norm());
         for (int axis = 0; axis < 3; ++axis) {
             for (int corner = 0; corner < 8; ++corner) {
-                EXPECT_NEAR(-both.right_sides[element].entry[axis][corner],
+                EXPECT_NEAR(-both.right_sides(axis, 8 * element + corner),
                             stiffness_times_x(corner, axis), 1e-5 * stiffness_times_x.norm());
             }
         }
@@ -109,9 +87,7 @@ TEST(ElementMatrices, CollapsedSamplesContributeNothing) {
         const ElementSystems systems = assemble(elements, collapse, 1);
         EXPECT_EQ(systems.collapsed_samples, elements.samples.size());
         EXPECT_EQ(systems.area, 0);
-        for (std::int64_t element = 0; element < systems.matrices.size(); ++element) {
-            EXPECT_EQ(to_matrix(systems.matrices, element).norm(), 0);
-        }
+        for (const ElementMatrix& matrix : systems.matrices) EXPECT_EQ(whole(matrix).norm(), 0);
     }
 }
 

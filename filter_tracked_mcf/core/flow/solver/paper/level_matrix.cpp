@@ -10,23 +10,8 @@
 
 namespace tracked_mcf {
 
-namespace {
-
-std::vector<std::int32_t> flatten(const std::vector<std::array<std::int32_t, 8>>& unknowns) {
-    std::vector<std::int32_t> flat;
-    flat.reserve(8 * unknowns.size());
-    for (const auto& of_element : unknowns) {
-        flat.insert(flat.end(), of_element.begin(), of_element.end());
-    }
-    return flat;
-}
-
-}  // namespace
-
 LevelMatrix::LevelMatrix(const Level& level)
-    : level_(level),
-      occurrences_(flatten(level.unknowns), level.unknown_count()),
-      matrix_(level.unknown_count(), level.unknown_count()) {
+    : level_(level), matrix_(level.unknown_count(), level.unknown_count()) {
     make_pattern();
 }
 
@@ -37,7 +22,7 @@ void LevelMatrix::make_pattern() {
         count, [&](std::int64_t begin, std::int64_t end, std::vector<std::int32_t>& out) {
             for (auto row = static_cast<std::int32_t>(begin); row < end; ++row) {
                 const auto first = static_cast<std::ptrdiff_t>(out.size());
-                for (const std::int32_t index : occurrences_.members(row)) {
+                for (const std::int32_t index : level_.corners.members(row)) {
                     const auto& unknowns = level_.unknowns[index / 8];
                     out.insert(out.end(), unknowns.begin(), unknowns.end());
                 }
@@ -64,6 +49,7 @@ void LevelMatrix::make_pattern() {
 void LevelMatrix::assemble(const MatrixBlocks& elements,
                            const std::vector<std::uint8_t>& constrained) {
     inverse_diagonal_.resize(static_cast<std::size_t>(level_.unknown_count()));
+    free_unknowns_.resize(inverse_diagonal_.size());
     // A workspace for the entries of a row, one number per unknown.
     const auto no_sums = [&] {
         return std::vector<float>(static_cast<std::size_t>(level_.unknown_count()), 0.0F);
@@ -72,6 +58,7 @@ void LevelMatrix::assemble(const MatrixBlocks& elements,
         for (auto row = static_cast<std::int32_t>(begin); row < end; ++row) {
             assemble_row(row, elements, sums);
             const bool free = constrained[row] == 0 && is_free(sums[row]);
+            free_unknowns_[row] = free ? 1 : 0;
             inverse_diagonal_[row] = free ? 1 / sums[row] : 0;
             store_row(row, sums);
         }
@@ -81,11 +68,11 @@ void LevelMatrix::assemble(const MatrixBlocks& elements,
 
 void LevelMatrix::assemble_row(std::int32_t row, const MatrixBlocks& elements,
                                std::vector<float>& sums) const {
-    for (const std::int32_t index : occurrences_.members(row)) {
+    for (const std::int32_t index : level_.corners.members(row)) {
         const std::int32_t element = index / 8;
         const auto& unknowns = level_.unknowns[element];
         for (int corner = 0; corner < 8; ++corner) {
-            sums[unknowns[corner]] += elements.at(element, index % 8, corner);
+            sums[unknowns[corner]] += elements[element](index % 8, corner);
         }
     }
 }
@@ -99,23 +86,10 @@ void LevelMatrix::store_row(std::int32_t row, std::vector<float>& sums) {
     }
 }
 
-void LevelMatrix::assemble(const std::vector<ElementVector>& elements, Field& vector) const {
-    vector.resize(4, level_.unknown_count());
-    parallel_for_rows(level_.unknown_count(), [&](std::int32_t row) {
-        Eigen::Vector4f sum = Eigen::Vector4f::Zero();
-        for (const std::int32_t index : occurrences_.members(row)) {
-            const auto& entry = elements[index / 8].entry;
-            const int corner = index % 8;
-            sum += Eigen::Vector4f(entry[0][corner], entry[1][corner], entry[2][corner], 0);
-        }
-        vector.col(row) = sum;
-    });
-}
-
 void LevelMatrix::residual(const Field& right_side, const Field& x, Field& residual) const {
     residual.resize(4, level_.unknown_count());
     parallel_for_rows(level_.unknown_count(), [&](std::int32_t row) {
-        if (inverse_diagonal_[row] == 0) {
+        if (free_unknowns_[row] == 0) {
             residual.col(row).setZero();
         } else {
             residual.col(row) = right_side.col(row) - row_times(matrix_, row, x);

@@ -3,9 +3,7 @@
 
 #include <utility>
 
-#include "filter_tracked_mcf/core/flow/solver/element_transfer.h"
 #include "filter_tracked_mcf/core/flow/system/constrained_cells.h"
-#include "filter_tracked_mcf/core/parallel/parallel.h"
 
 namespace tracked_mcf {
 
@@ -22,20 +20,6 @@ constexpr double kHardlySmaller = 0.9;
 
 }  // namespace
 
-Multigrid::LevelData::LevelData(const TrackedElements& elements, std::size_t level)
-    : matrix(elements.levels[level]), smoother(elements.levels[level]) {
-    if (level > 0) {
-        prolongation =
-            tracked_mcf::prolongation(elements.levels[level], elements.levels[level - 1]);
-        restriction = prolongation.transpose();
-    }
-    if (level + 1 < elements.levels.size()) {
-        const std::int32_t count = elements.levels[level].element_count();
-        children = Groups(elements.levels[level + 1].parents, count);
-        element_matrices.resize(count);
-    }
-}
-
 Multigrid::Multigrid(const TrackedElements& elements,
                      std::vector<std::vector<std::uint8_t>> constrained)
     : elements_(elements),
@@ -43,7 +27,10 @@ Multigrid::Multigrid(const TrackedElements& elements,
       coarse_solver_(elements.levels.front()) {
     levels_.reserve(elements.levels.size());
     for (std::size_t level = 0; level < elements.levels.size(); ++level) {
-        levels_.emplace_back(elements, level);
+        levels_.emplace_back(elements.levels[level]);
+        if (level > 0)
+            levels_[level].transfer =
+                ElementTransfer(elements.levels[level], elements.levels[level - 1]);
     }
 }
 
@@ -54,8 +41,7 @@ void Multigrid::refresh(MatrixBlocks& finest) {
         levels_[level].matrix.assemble(*matrices, constrained_[level]);
         if (level == 0) break;
         MatrixBlocks& coarse = levels_[level - 1].element_matrices;
-        coarsen_element_matrices(elements_.levels[level], levels_[level - 1].children, *matrices,
-                                 coarse);
+        levels_[level].transfer.coarsen(*matrices, coarse);
         matrices = &coarse;
     }
     coarse_solver_.factorise(*matrices);
@@ -76,14 +62,14 @@ void Multigrid::cycle(std::size_t level, const Field& right_side, Field& x) {
     }
     smooth(level, right_side, x);
     here.matrix.residual(right_side, x, here.residual);
-    restrict_residual(level);
     LevelData& coarser = levels_[level - 1];
+    here.transfer.restrict(here.residual, coarser.partition, coarser.right_side);
     set_zero(coarser.x, elements_.levels[level - 1].unknown_count());
     const int visits = worth_revisiting(level - 1) ? 2 : 1;
     for (int visit = 0; visit < visits; ++visit) {
         cycle(level - 1, coarser.right_side, coarser.x);
     }
-    add_correction(level, x);
+    here.transfer.add_prolongated(coarser.x, here.matrix.free_unknowns(), x);
     smooth(level, right_side, x);
 }
 
@@ -99,22 +85,6 @@ bool Multigrid::worth_revisiting(std::size_t level) const {
     const std::int32_t here = elements_.levels[level].unknown_count();
     const std::int32_t finer = elements_.levels[level + 1].unknown_count();
     return here < kCheapToVisit || here < kHardlySmaller * finer;
-}
-
-void Multigrid::restrict_residual(std::size_t level) {
-    Field& coarse = levels_[level - 1].right_side;
-    coarse.resize(4, elements_.levels[level - 1].unknown_count());
-    parallel_for_rows(coarse.cols(), [&](std::int32_t row) {
-        coarse.col(row) = row_times(levels_[level].restriction, row, levels_[level].residual);
-    });
-}
-
-void Multigrid::add_correction(std::size_t level, Field& x) const {
-    parallel_for_rows(x.cols(), [&](std::int32_t row) {
-        // An unknown that is constrained, or whose support has collapsed, stays (section 5.1).
-        if (levels_[level].matrix.inverse_diagonal()[row] == 0) return;
-        x.col(row) += row_times(levels_[level].prolongation, row, levels_[level - 1].x);
-    });
 }
 
 }  // namespace tracked_mcf

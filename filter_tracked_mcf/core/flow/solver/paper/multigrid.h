@@ -6,9 +6,10 @@
 
 #include "filter_tracked_mcf/core/flow/elements/tracked_elements.h"
 #include "filter_tracked_mcf/core/flow/solver/coarse_solver.h"
+#include "filter_tracked_mcf/core/flow/solver/element_partition.h"
+#include "filter_tracked_mcf/core/flow/solver/element_transfer.h"
 #include "filter_tracked_mcf/core/flow/solver/paper/gauss_seidel.h"
 #include "filter_tracked_mcf/core/flow/solver/paper/level_matrix.h"
-#include "filter_tracked_mcf/core/flow/solver/paper/transfer.h"
 #include "filter_tracked_mcf/core/flow/system/matrix_blocks.h"
 
 namespace tracked_mcf {
@@ -36,13 +37,12 @@ public:
 
 private:
     struct LevelData {
-        LevelData(const TrackedElements& elements, std::size_t level);
+        explicit LevelData(const Level& level) : matrix(level), smoother(level), partition(level) {}
 
         LevelMatrix matrix;
         GaussSeidel smoother;
-        Groups children;                ///< elements of the next finer level, by parent
-        SparseMatrix prolongation;      ///< from the next coarser level; empty at level 0
-        SparseMatrix restriction;       ///< its transpose
+        ElementPartition partition;
+        ElementTransfer transfer;       ///< to and from the next coarser level; empty at level 0
         MatrixBlocks element_matrices;  ///< unused at the finest level
         Field right_side, x, residual;  ///< the coarse problem of a cycle
     };
@@ -50,8 +50,6 @@ private:
     void cycle(std::size_t level, const Field& right_side, Field& x);
     void smooth(std::size_t level, const Field& right_side, Field& x) const;
     bool worth_revisiting(std::size_t level) const;
-    void restrict_residual(std::size_t level);
-    void add_correction(std::size_t level, Field& x) const;
 
     const TrackedElements& elements_;
     std::vector<std::vector<std::uint8_t>> constrained_;

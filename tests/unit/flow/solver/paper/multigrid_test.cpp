@@ -6,14 +6,13 @@
 #include <Eigen/Dense>
 #include <cmath>
 
-#include "filter_tracked_mcf/core/flow/solver/paper/transfer.h"
 #include "tests/unit/system.h"
 
 namespace tracked_mcf {
 namespace {
 
 Dense prolongation(const FirstStep& step, int level) {
-    return dense(prolongation(step.elements.levels[level], step.elements.levels[level - 1]));
+    return prolongation(step.elements.levels[level], step.elements.levels[level - 1]);
 }
 
 TEST(Multigrid, CoarseMatricesAreTheGalerkinProducts) {
