@@ -54,7 +54,7 @@ private:
     /// errors at most.
     static std::uint64_t rounded(double number) {
         const auto below = static_cast<std::int32_t>(number);
-        return static_cast<std::uint64_t>(below + (number - below >= 0.5 ? 1 : 0));
+        return static_cast<std::uint64_t>(below) + (number - below >= 0.5 ? 1 : 0);
     }
 
     RawVector<std::uint64_t> steps_;  ///< of the three coordinates, x lowest
