@@ -35,7 +35,7 @@ class Comparison:
         mesh, ours, theirs = (work / name for name in ("in.ply", "program.ply", "host.ply"))
         theirs.unlink(missing_ok=True)
         options = [*runs.program_options(settings), "--quiet", *(["--double"] if self.scalar == "double" else [])]
-        code, message = run([self.program, command, mesh, ours, *options])
+        code, message = run([self.program, command, mesh, ours, "--overwrite", *options])
         if self.takes_options:
             host_code, log = run([*self.host, command, mesh, theirs, *options])
         else:

@@ -153,7 +153,7 @@ class WithFolder(unittest.TestCase):
 
     def program(self, mesh, *options):
         """Returns the bytes of the vertices, the qualities and the report."""
-        command = [TOOL, *self.subcommand, mesh, self.folder / "out.ply", "--quiet"]
+        command = [TOOL, *self.subcommand, mesh, self.folder / "out.ply", "--quiet", "--overwrite"]
         subprocess.run([*command, "--report", self.folder / "out.json", *options], check=True, text=True,
                        stderr=subprocess.PIPE)
         report = json.loads((self.folder / "out.json").read_text(encoding="utf-8"))

@@ -93,7 +93,7 @@ def parameters_of(command, settings):
 
 def same_as_the_program(way, program, path, work, command, settings):
     """Returns the bits of a run's result, which must be the program's, and its numbers."""
-    done = subprocess.run([program, command, path, work / "out.ply", "--quiet", "--double",
+    done = subprocess.run([program, command, path, work / "out.ply", "--quiet", "--overwrite", "--double",
                            *runs.program_options(settings)], stderr=subprocess.PIPE, text=True, check=False)
     meshes, parameters = load(path), dict(parameters_of(command, settings))
     if done.returncode != 0:
@@ -265,7 +265,7 @@ def check_script(way, program, page, mesh, work):
         (work / "libfilter_tracked_mcf.so").symlink_to(pathlib.Path(way).resolve())
     load(mesh).save_current_mesh(str(work / "scan.ply"))
     subprocess.run([sys.executable, "-c", script], cwd=work, check=True)
-    subprocess.run([program, work / "scan.ply", work / "out.ply", "--quiet", "--double", "--detail-size", "2%"],
+    subprocess.run([program, work / "scan.ply", work / "out.ply", "--quiet", "--overwrite", "--double", "--detail-size", "2%"],
                    check=True)
     found, expected = vertices(load(work / "smooth.ply")), vertices(load(work / "out.ply"))
     if abs(found - expected).max() > 1e-6 * abs(expected).max():

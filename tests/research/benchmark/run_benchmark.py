@@ -145,7 +145,7 @@ class Benchmark:
         tool = self._arguments.build / "tracked_mcf"
         python = TOP / "build" / "pymeshlab" / "bin" / "python"
         edge = mean_edge(tool, mesh, self._output)
-        commands = [(sys.executable, (tool, *words))
+        commands = [(sys.executable, (tool, *words, "--overwrite"))
                     for words in ((), ("--threads", 1), ("--detail-size", 10 * edge), ("--detail-size", 40 * edge),
                                   ("remove-noise",), ("remove-noise", "--threads", 1))]
         if python.exists():
@@ -186,7 +186,7 @@ def relief(side, folder):
 def mean_edge(tool, mesh, folder):
     """Returns the mesh's mean edge length, a third of the default detail size."""
     report = folder / "mean_edge.json"
-    subprocess.run([tool, "--quiet", "--iterations", "1", "--report", report, mesh, folder / f"mean_edge{mesh.suffix}"],
+    subprocess.run([tool, "--quiet", "--overwrite", "--iterations", "1", "--report", report, mesh, folder / f"mean_edge{mesh.suffix}"],
                    check=True)
     return json.loads(report.read_text(encoding="utf-8"))["detail_size"] / 3
 
