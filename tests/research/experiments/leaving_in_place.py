@@ -215,6 +215,7 @@ def ours(experiment, case, words):
         source, target = pathlib.Path(folder) / "in.ply", pathlib.Path(folder) / "out.ply"
         for surface, noisy in case.pieces:
             write_ply(source, noisy, surface.faces)
+            target.unlink(missing_ok=True)
             done = subprocess.run([experiment.program, "remove-noise", source, target, *words], check=False,
                                   capture_output=True, text=True)
             if done.returncode not in (0, REFUSED):
