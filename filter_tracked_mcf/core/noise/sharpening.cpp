@@ -102,8 +102,11 @@ void sharpen(const NoisySurface& surface, const Sharpening& sharpening, double s
     const Vectors planes = means_over_stars(surface.stars, normals);
     for (int i = 0; i < kFits; ++i) {
         Positions fitted = fitted_to(normals, surface, positions);
-        limit_sideways(surface, planes, sideways, fitted);
-        const auto leaves = [&](std::int64_t vertex) { return !box.contains(fitted[vertex]); };
+        const auto leaves = [&](std::int64_t row) {
+            const auto vertex = static_cast<std::int32_t>(row);
+            limit_sideways(surface, vertex, planes[vertex], sideways, fitted[vertex]);
+            return !box.contains(fitted[vertex]);
+        };
         if (parallel_count(surface.stars.count(), leaves) > 0) break;
         positions.swap(fitted);
     }
