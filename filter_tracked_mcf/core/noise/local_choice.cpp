@@ -47,21 +47,24 @@ double height_of(const NoisySurface& surface, const Vectors& normals, const Posi
         .dot(normals[vertex].head<3>().cast<double>());
 }
 
-/// Returns the risks of candidates, in units of the noise's square.
+/// Returns the risks of candidates, in units of the noise's square. Their responses lack what the
+/// metric makes of noise, whose mean a sample has shown.
 std::vector<Risks> risks_of(const NoisySurface& surface, const Perturbation& perturbation,
                             const Results& results) {
-    std::vector<Risks> risks(results.positions.size(), Risks(surface.positions.size()));
-    parallel_for_rows(surface.stars.count(), [&](std::int32_t vertex) {
-        const double height = double{perturbation.heights[vertex]};  // of the noise
-        for (std::size_t i = 0; i < risks.size(); ++i) {
-            const auto moved = [&](const std::vector<Positions>& positions) {
-                return height_of(surface, perturbation.normals, positions[i], vertex) / height;
-            };
-            const double plain = moved(results.positions);
-            const double divergence = (moved(results.perturbed) - plain) / perturbation.scale;
-            risks[i][vertex] = static_cast<float>(plain * plain + 2 * divergence);
-        }
-    });
+    const std::int32_t count = surface.stars.count();
+    std::vector<Risks> risks(results.positions.size());
+    for (std::size_t i = 0; i < risks.size(); ++i) {
+        risks[i].resize(surface.positions.size());
+        parallel_for_rows(count, [&](std::int32_t vertex) {
+            const double moved =
+                height_of(surface, perturbation.normals, results.positions[i], vertex) /
+                double{perturbation.heights[vertex]};
+            const double divergence =
+                double{results.responses[i][vertex] / perturbation.heights[vertex]} +
+                results.made[i].divergence_of_metric;
+            risks[i][vertex] = static_cast<float>(moved * moved + 2 * divergence);
+        });
+    }
     return risks;
 }
 
