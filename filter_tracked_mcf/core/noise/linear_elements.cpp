@@ -11,17 +11,17 @@ namespace tracked_mcf {
 
 namespace {
 
-/// The error of the filter t / (1 + t²), and that of what waves keep, to which it adds up to the
-/// largest t times as much. 60 meshes with noise are as near to the clean ones as with an exact
-/// solution.
+/// The error of the filter t / (1 + t²). It changes what a wave keeps by up to the largest t times
+/// as much, which has a bound, too. With both, distances and angles of 60 noisy parts and scans are
+/// on average within 0.3 % of those with conjugate gradients to 1e-3.
 constexpr double kErrorOfFilter = 3e-3, kErrorOfWaves = 5e-2;
 /// Conjugate gradients for displacements stop at this residual, relative to the first one.
 constexpr double kToleranceOfPositions = 3e-3;
 constexpr int kMostIterations = 500;
 
-/// The largest eigenvalue of δ L on a triangle, relative to its mass: this one, or twice that of an
-/// equilateral triangle if that is more. Waves keep less than 1 / 250 there, but each product with
-/// the matrix would divide the error by less.
+/// The bound of the largest eigenvalue of δ L on a triangle, relative to its mass: this one, or
+/// twice that of an equilateral triangle if that is more. Waves keep less than 1 / 250 there, and
+/// stiffer triangles would only make the series longer. Chosen on the same meshes.
 constexpr float kStiffest = 16, kTwiceEquilateral = 12;
 
 /// The share of the squared lengths of sides along the surface in the metric of the stiffness.

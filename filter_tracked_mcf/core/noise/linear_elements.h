@@ -25,8 +25,8 @@ public:
     explicit LinearElements(const NoisySurface& surface);
 
     /// Takes the metric of normals N and the length s, in edges, and of `positions` if there are
-    /// any, and the flux of these. A triangle that would be far stiffer in a step of size δ than
-    /// others is made softer.
+    /// any, and the flux of these, for systems with the step size δ. A triangle that is far stiffer
+    /// than others is made softer.
     void assemble(const Vectors& normals, double normal_length, double step_size,
                   const Positions* positions = nullptr);
 
@@ -45,7 +45,7 @@ public:
     int displace(const Positions& positions, const Vectors& normals,
                  const std::vector<float>& heights, Vectors& d);
 
-    /// Returns a bound of the eigenvalues of δ M⁻¹ L, from below and above near the largest one.
+    /// Returns a bound of the eigenvalues of δ M⁻¹ L.
     double largest_eigenvalue() const { return largest_eigenvalue_; }
     /// Returns row `vertex` of δ M⁻¹ L x.
     Eigen::Vector4f curvature(const Vectors& x, std::int32_t vertex) const {

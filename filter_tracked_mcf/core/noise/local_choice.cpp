@@ -47,8 +47,9 @@ double height_of(const NoisySurface& surface, const Vectors& normals, const Posi
         .dot(normals[vertex].head<3>().cast<double>());
 }
 
-/// Returns the risks of candidates, in units of the noise's square. Their responses lack what the
-/// metric makes of noise, whose mean a sample has shown.
+/// Returns the risks of candidates, in units of the noise's square. A response is that in the
+/// metric of the plain surface. What vertices keep because the metric follows the noise has the
+/// mean that the sample has shown.
 std::vector<Risks> risks_of(const NoisySurface& surface, const Perturbation& perturbation,
                             const Results& results) {
     const std::int32_t count = surface.stars.count();
