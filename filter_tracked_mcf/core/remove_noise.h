@@ -107,7 +107,7 @@ struct NoiseReport : SmoothingReport {
     double median_turn = kNoNumber;
     int smoothing_steps = 0;
     int sharpening_steps = 0;   ///< of the bilateral filter after these; 0 if it was worse
-    int solver_iterations = 0;  ///< of conjugate gradients, in all steps
+    int solver_iterations = 0;  ///< in all steps; each has one or two products with a matrix
 
     /// The height of stairs, as of voxels, slices or whole numbers, mesh units; 0: there are none.
     double stairs = 0;

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <string>
+#include <utility>
 
 namespace tracked_mcf {
 
@@ -18,41 +20,101 @@ double square_of_halved_waves(int steps) {
     return std::expm1(std::log(2.0) / steps);
 }
 
-/// Makes the steps of `candidates[first]` and of all that share them.
-void make_steps(const NoisySurface& surface, const std::vector<Candidate>& candidates,
-                std::size_t first, const Positions& start, Perturbation perturbation,
-                Results& results) {
-    const auto shares = [&](const Candidate& other) {
-        return share_steps(candidates[first], other);
-    };
-    int steps = 0;
-    for (const Candidate& candidate : candidates) {
-        if (shares(candidate)) steps = std::max(steps, candidate.steps);
+/// Indices of candidates.
+using Group = std::vector<std::size_t>;
+
+/// Returns groups of those candidates that are alike.
+template <class Alike>
+std::vector<Group> groups_of(const std::vector<Candidate>& candidates, const Alike& are_alike) {
+    std::vector<Group> groups;
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+        const auto found = std::find_if(groups.begin(), groups.end(), [&](const Group& group) {
+            return are_alike(candidates[group[0]], candidates[i]);
+        });
+        if (found == groups.end()) {
+            groups.push_back({i});
+        } else {
+            found->push_back(i);
+        }
     }
+    return groups;
+}
+
+/// Calls body(i) for groups. Loops over a small surface do not share their work among threads, so
+/// its groups do.
+template <class Body>
+void for_each_group(const NoisySurface& surface, std::size_t count, const Body& body) {
+    const bool is_small = chunk_count(surface.stars.count()) < 2 * kChunksWorthThreads;
+    const auto groups = static_cast<std::int64_t>(count);
+    parallel_for(groups, body, is_small ? 2 : groups + 1);
+}
+
+/// Makes the steps of candidates that share them. Returns the number of the solvers' iterations.
+int make_steps(const NoisySurface& surface, const std::vector<Candidate>& candidates,
+               const Group& group, const Perturbation& perturbation, Results& results) {
+    int steps = 0;
+    for (const std::size_t i : group) steps = std::max(steps, candidates[i].steps);
     Smoothing smoothing(surface);
     const Eigen::AlignedBox3d box = confinement(surface.positions);
-    StepSettings settings = candidates[first].settings;
-    Positions positions = start;
+    StepSettings settings = candidates[group[0]].settings;
+    Positions positions = surface.positions;
+    std::vector<float> heights = perturbation.heights;
     int made = 0;
-    for (int step = 1; step <= steps; ++step) {
-        enter_phase((step - 1.0) / steps,
-                    "Step " + std::to_string(step) + " of " + std::to_string(steps));
-        if (make_step(settings, [&] {
-                return smoothing.step(settings, box, positions, perturbation.heights);
-            })) {
-            ++made;
+    for (int step = 0; step <= steps; ++step) {
+        if (step > 0) {
+            enter_phase((step - 1.0) / steps,
+                        "Step " + std::to_string(step) + " of " + std::to_string(steps));
+            const bool is_made = make_step(
+                settings, [&] { return smoothing.step(settings, box, positions, heights); });
+            made += is_made ? 1 : 0;
         }
-        for (std::size_t i = 0; i < candidates.size(); ++i) {
-            if (candidates[i].steps != step || !shares(candidates[i])) continue;
+        for (const std::size_t i : group) {
+            if (candidates[i].steps != step) continue;
             results.positions[i] = positions;
             results.made[i].settings.step_size = settings.step_size;
             results.made[i].steps = made;
-            if (!results.perturbed.empty())
-                results.perturbed[i] = perturbed(positions, perturbation);
+            if (!heights.empty()) results.responses[i] = heights;
             if (i == 0) results.normals = smoothing.normals();
         }
     }
-    results.iterations += smoothing.iterations();
+    return smoothing.iterations();
+}
+
+/// Sharpens candidates that are the same positions until then, and have the same width.
+void sharpen_group(const NoisySurface& surface, const std::vector<Candidate>& candidates,
+                   Group group, const Perturbation& perturbation, Results& results) {
+    const Candidate& first = candidates[group[0]];
+    std::stable_sort(group.begin(), group.end(), [&](std::size_t a, std::size_t b) {
+        return candidates[a].sharpening.iterations < candidates[b].sharpening.iterations;
+    });
+    std::vector<int> iterations;
+    for (const std::size_t i : group) iterations.push_back(candidates[i].sharpening.iterations);
+    Positions start = std::move(results.positions[group[0]]);
+    const auto sharpen_start = [&](const auto& take) {
+        sharpen(surface, first.sharpening.width, iterations, first.settings.sideways,
+                confinement(surface.positions), start, take);
+    };
+    sharpen_start([&](std::size_t i, Positions sharpened) {
+        results.positions[group[i]] = std::move(sharpened);
+    });
+    if (perturbation.heights.empty()) return;
+    const std::vector<float> heights = std::move(results.responses[group[0]]);
+    const auto along = [&](std::int32_t vertex) -> Eigen::Vector3d {
+        return perturbation.scale * perturbation.normals[vertex].head<3>().cast<double>();
+    };
+    parallel_for_rows(surface.stars.count(), [&](std::int32_t vertex) {
+        start[vertex] += double{heights[vertex]} * along(vertex);
+    });
+    const double square = perturbation.scale * perturbation.scale;
+    sharpen_start([&](std::size_t i, const Positions& sharpened) {
+        const Positions& plain = results.positions[group[i]];
+        std::vector<float>& response = results.responses[group[i]];
+        response.resize(plain.size());
+        parallel_for_rows(surface.stars.count(), [&](std::int32_t vertex) {
+            response[vertex] =
+                static_cast<float>((sharpened[vertex] - plain[vertex]).dot(along(vertex)) / square);
+        });
+    });
 }
 
 }  // namespace
@@ -74,44 +136,30 @@ double detail_size_of(const Candidate& candidate) {
                      std::sqrt(square_of_halved_waves(candidate.steps)));
 }
 
-Positions perturbed(const Positions& positions, const Perturbation& perturbation) {
-    Positions moved(positions.size());
-    parallel_for_rows(static_cast<std::int64_t>(moved.size()), [&](std::int32_t vertex) {
-        moved[vertex] =
-            positions[vertex] + perturbation.scale * perturbation.heights[vertex] *
-                                    perturbation.normals[vertex].head<3>().cast<double>();
-    });
-    return moved;
-}
-
 Results apply(const NoisySurface& surface, const std::vector<Candidate>& candidates,
-              const Positions& start, const Perturbation& perturbation) {
-    const auto count = static_cast<double>(candidates.size());
-    Results results{std::vector<Positions>(candidates.size(), start), candidates, {}, {}, 0};
-    if (!perturbation.heights.empty()) {
-        results.perturbed.assign(candidates.size(), perturbed(start, perturbation));
-    }
-    for (std::size_t i = 0; i < candidates.size(); ++i) {
-        const auto is_made = [&](const Candidate& other) {
-            return share_steps(candidates[i], other);
-        };
-        const auto begin = candidates.begin(), end = begin + static_cast<std::ptrdiff_t>(i);
-        if (std::any_of(begin, end, is_made)) continue;
-        const auto done = static_cast<double>(i);
-        const ProgressSpan span(kShareOfSteps * done / count, kShareOfSteps * (done + 1) / count);
-        make_steps(surface, candidates, i, start, perturbation, results);
-    }
-    for (std::size_t i = 0; i < candidates.size(); ++i) {
-        if (candidates[i].sharpening.iterations == 0) continue;
-        enter_phase(kShareOfSteps + (1 - kShareOfSteps) * static_cast<double>(i) / count,
-                    "Sharpening the creases");
-        const Eigen::AlignedBox3d box = confinement(surface.positions);
-        for (std::vector<Positions>* const of : {&results.positions, &results.perturbed}) {
-            if (of->empty()) continue;
-            sharpen(surface, candidates[i].sharpening, candidates[i].settings.sideways, box,
-                    (*of)[i]);
-        }
-    }
+              const Perturbation& perturbation) {
+    Results results;
+    results.positions.resize(candidates.size());
+    results.made = candidates;
+    if (!perturbation.heights.empty()) results.responses.resize(candidates.size());
+    const std::vector<Group> groups = groups_of(candidates, share_steps);
+    std::vector<int> iterations(groups.size());
+    for_each_group(surface, groups.size(), [&](std::int64_t i) {
+        const auto done = static_cast<double>(i), all = static_cast<double>(groups.size());
+        const ProgressSpan span(kShareOfSteps * done / all, kShareOfSteps * (done + 1) / all);
+        iterations[i] = make_steps(surface, candidates, groups[i], perturbation, results);
+    });
+    results.iterations = std::accumulate(iterations.begin(), iterations.end(), 0);
+    const std::vector<Group> sharpened = groups_of(candidates, [](const Candidate& a,
+                                                                  const Candidate& b) {
+        return share_steps(a, b) && a.steps == b.steps && a.sharpening.width == b.sharpening.width;
+    });
+    for_each_group(surface, sharpened.size(), [&](std::int64_t i) {
+        if (candidates[sharpened[i][0]].sharpening.iterations == 0) return;
+        const double done = static_cast<double>(i) / static_cast<double>(sharpened.size());
+        enter_phase(kShareOfSteps + (1 - kShareOfSteps) * done, "Sharpening the creases");
+        sharpen_group(surface, candidates, sharpened[i], perturbation, results);
+    });
     return results;
 }
 

@@ -13,6 +13,9 @@ struct Candidate {
     StepSettings settings;  ///< of every step
     int steps = 0;          ///< 0: there is hardly any noise
     Sharpening sharpening;
+    /// The mean over a sample of what a vertex keeps of its height because the metric of the steps
+    /// follows the noise.
+    double divergence_of_metric = 0;
 };
 
 /// Returns whether candidates have the same settings, so that they begin alike.
@@ -45,25 +48,23 @@ bool make_step(StepSettings& settings, const Step& step) {
     return false;
 }
 
-/// Returns positions with a perturbation.
-Positions perturbed(const Positions& positions, const Perturbation& perturbation);
-
 /// What candidates make of a surface.
 struct Results {
     std::vector<Positions> positions;  ///< per candidate
     /// What was made of each candidate: fewer steps, or shorter ones, where they would have taken a
     /// vertex far away.
     std::vector<Candidate> made;
-    std::vector<Positions> perturbed;  ///< the same from a perturbed start; or empty
-    Vectors normals;                   ///< of the last step of the first candidate
-    int iterations = 0;                ///< of conjugate gradients
+    /// Per candidate and vertex: what becomes of the heights of a perturbation; or empty.
+    std::vector<std::vector<float>> responses;
+    Vectors normals;     ///< of the last step of the first candidate
+    int iterations = 0;  ///< of the solvers
 };
 
-/// Applies candidates to a surface whose vertices are at `start`. Candidates that share their steps
-/// are made together. A step that would take a vertex far away is made with a smaller size. A
+/// Applies candidates to a surface, whose positions they start from. Candidates that share their
+/// steps are made together. A step that would take a vertex far away is made with a smaller size. A
 /// perturbation costs little, as it does not change the metric of the steps: it is a part of the
 /// response only.
 Results apply(const NoisySurface& surface, const std::vector<Candidate>& candidates,
-              const Positions& start, const Perturbation& perturbation = {});
+              const Perturbation& perturbation = {});
 
 }  // namespace tracked_mcf

@@ -83,6 +83,9 @@ double noise_of(const Effect& effect) {
 /// Positions of the sample, and of the sample with perturbed heights, before or after a candidate.
 struct PerturbedPair {
     Positions plain, perturbed;
+    /// What becomes of the perturbation's heights, in units of the perturbation, in the metric of
+    /// the plain positions.
+    std::vector<float> heights;
 };
 
 /// A candidate that was tried.
@@ -107,6 +110,7 @@ public:
           signs_(sample.signs),
           box_(confinement(sample.surface.positions)),
           smoothing_(sample.surface),
+          smoothing_of_perturbed_(sample.surface),
           unit_length_(request.crease > 0
                            ? std::max(1.0, detail_size_ / kDetailOfNormalLengths) / request.crease
                            : 0),
@@ -139,9 +143,8 @@ public:
         }
         if (best_.candidate.steps == 0) return choice;
         if (request_.crease > 0) {
-            const Attempt smooth = best_;
-            for (const Sharpening& sharpening : kSharpenings) {
-                keep(sharpened(smooth, sharpening));
+            for (Attempt& attempt : sharpened(best_, {kSharpenings.begin(), kSharpenings.end()})) {
+                keep(std::move(attempt));
             }
         }
         choice.candidate = best_.candidate;
@@ -187,10 +190,11 @@ private:
         const Positions& positions = sample_.surface.positions;
         normals_ = smoothing_.smooth_normals(positions, settings_for(kTrialNormalLength, 0));
         perturbation_ = perturbation;
-        before_ = {positions, positions};
+        before_ = {positions, positions, signs_};
         parallel_for_rows(sample_.surface.stars.count(), [&](std::int32_t vertex) {
             before_.perturbed[vertex] +=
                 perturbation / root(vertex) * signs_[vertex] * normal(vertex);
+            before_.heights[vertex] /= static_cast<float>(root(vertex));
         });
     }
 
@@ -200,7 +204,8 @@ private:
             for (const double ratio : {1 / kBetweenStepSizes, kBetweenStepSizes}) {
                 const Attempt* const neighbour = best_with_step_size(ratio);
                 if (neighbour == nullptr) continue;
-                attempts_.push_back(sharpened(*neighbour, kSharpenings[kSharpeningOfOthers]));
+                attempts_.push_back(
+                    sharpened(*neighbour, {kSharpenings[kSharpeningOfOthers]}).front());
             }
         }
         const auto is_slow = [&](const Attempt& attempt) {
@@ -256,10 +261,16 @@ private:
     /// Makes a step of the pair. Returns false and makes none if it would take a vertex away.
     bool step(const StepSettings& settings, PerturbedPair& pair) {
         PerturbedPair moved = pair;
-        if (!smoothing_.step(settings, box_, moved.plain) ||
-            !smoothing_.step(settings, box_, moved.perturbed)) {
-            return false;
-        }
+        bool is_plain_made = false, is_perturbed_made = false;
+        // Loops over a sample are too short to share.
+        parallel_for(2, [&](std::int64_t i) {
+            if (i == 0) {
+                is_plain_made = smoothing_.step(settings, box_, moved.plain, moved.heights);
+            } else {
+                is_perturbed_made = smoothing_of_perturbed_.step(settings, box_, moved.perturbed);
+            }
+        });
+        if (!is_plain_made || !is_perturbed_made) return false;
         pair = std::move(moved);
         return true;
     }
@@ -313,8 +324,12 @@ private:
     }
 
     /// Judges an attempt.
-    Attempt attempt_of(const Candidate& candidate, const PerturbedPair& pair) const {
+    Attempt attempt_of(Candidate candidate, const PerturbedPair& pair) const {
         const Effect effect = effect_of(pair);
+        candidate.divergence_of_metric =
+            effect.divergence - mean_of([&](std::int32_t vertex) {
+                return signs_[vertex] * root(vertex) * double{pair.heights[vertex]};
+            });
         return {candidate, pair, effect, score_of(effect)};
     }
 
@@ -383,17 +398,54 @@ private:
         }
     }
 
-    Attempt sharpened(const Attempt& smooth, Sharpening sharpening) const {
-        sharpening.width *= request_.crease;
-        sharpening.iterations =
-            static_cast<int>(std::lround(sharpening.iterations * width_ * width_));
-        Candidate candidate = smooth.candidate;
-        candidate.sharpening = sharpening;
-        PerturbedPair pair = smooth.pair;
-        const double no_limit = candidate.settings.sideways;
-        sharpen(sample_.surface, sharpening, no_limit, box_, pair.plain);
-        sharpen(sample_.surface, sharpening, no_limit, box_, pair.perturbed);
-        return attempt_of(candidate, pair);
+    /// Returns a smooth attempt with each of some sharpenings. Those in a row that have the same
+    /// width share iterations.
+    std::vector<Attempt> sharpened(const Attempt& smooth,
+                                   const std::vector<Sharpening>& sharpenings) const {
+        std::vector<Attempt> attempts(sharpenings.size(), smooth);
+        std::vector<std::array<std::size_t, 2>> runs;  // begin and end
+        for (std::size_t i = 0; i < attempts.size(); ++i) {
+            Sharpening& sharpening = attempts[i].candidate.sharpening;
+            sharpening = sharpenings[i];
+            sharpening.width *= request_.crease;
+            sharpening.iterations =
+                static_cast<int>(std::lround(sharpening.iterations * width_ * width_));
+            if (i == 0 || sharpenings[i].width != sharpenings[i - 1].width) runs.push_back({i, i});
+            ++runs.back()[1];
+        }
+        const auto vertices = static_cast<std::int64_t>(signs_.size());
+        Positions by_heights = smooth.pair.plain;
+        parallel_for_rows(vertices, [&](std::int32_t vertex) {
+            by_heights[vertex] +=
+                perturbation_ * double{smooth.pair.heights[vertex]} * normal(vertex);
+        });
+        const std::array<const Positions*, 3> starts = {&smooth.pair.plain, &smooth.pair.perturbed,
+                                                        &by_heights};
+        std::vector<std::array<Positions, 3>> ends(attempts.size());
+        parallel_for(static_cast<std::int64_t>(starts.size() * runs.size()), [&](std::int64_t i) {
+            const std::size_t start = static_cast<std::size_t>(i) % starts.size();
+            const auto [begin, end] = runs[static_cast<std::size_t>(i) / starts.size()];
+            std::vector<int> iterations;
+            for (std::size_t k = begin; k < end; ++k)
+                iterations.push_back(attempts[k].candidate.sharpening.iterations);
+            const double no_limit = std::numeric_limits<double>::infinity();
+            sharpen(sample_.surface, attempts[begin].candidate.sharpening.width, iterations,
+                    no_limit, box_, *starts[start],
+                    [&, first = begin](std::size_t k, Positions positions) {
+                        ends[first + k][start] = std::move(positions);
+                    });
+        });
+        for (std::size_t i = 0; i < attempts.size(); ++i) {
+            PerturbedPair& pair = attempts[i].pair;
+            pair.plain = std::move(ends[i][0]);
+            pair.perturbed = std::move(ends[i][1]);
+            parallel_for_rows(vertices, [&](std::int32_t vertex) {
+                pair.heights[vertex] = static_cast<float>(
+                    (ends[i][2][vertex] - pair.plain[vertex]).dot(normal(vertex)) / perturbation_);
+            });
+            attempts[i] = attempt_of(attempts[i].candidate, pair);
+        }
+        return attempts;
     }
 
     const Sample& sample_;
@@ -402,7 +454,7 @@ private:
     const double detail_size_;
     std::vector<float> signs_;  ///< per vertex; with a width, averaged over it
     const Eigen::AlignedBox3d box_;
-    Smoothing smoothing_;
+    Smoothing smoothing_, smoothing_of_perturbed_;
     double unit_length_;  ///< s at which the least crease is as wide as an edge
     double noise_;
     std::int64_t count_ = 0;

@@ -93,8 +93,7 @@ private:
                 perturbation = perturbation_of(surface_, choice.candidate.settings, choice.noise);
             }
             const ProgressSpan span(0.2, 0.5);
-            apply_candidates(candidates,
-                             decision_.request.is_quick ? perturbation : Perturbation());
+            apply_candidates(candidates, perturbation);
         }
         if (report_.stop != NoiseStop::None) return;
         const ProgressSpan span(0.5, 1);
@@ -102,7 +101,7 @@ private:
             if (is_uneven(surface_, perturbation, results_.positions[0])) {
                 kind = NoiseKind::Varying;
             } else {
-                choose_locally(perturbation);
+                results_.positions[0] = chosen_locally(surface_, perturbation, results_);
             }
         }
         if (kind == NoiseKind::Varying) {
@@ -137,9 +136,8 @@ private:
     void apply_candidates(std::vector<Candidate> candidates,
                           const Perturbation& perturbation = {}) {
         for (Candidate& candidate : candidates) candidate.settings.sideways = sideways_;
-        candidates_ = std::move(candidates);
         const int iterations = results_.iterations;
-        results_ = apply(surface_, candidates_, surface_.positions, perturbation);
+        results_ = apply(surface_, candidates, perturbation);
         results_.iterations += iterations;
         if (decision_.request.crease == 0) return;
         Turns turns(surface_.stars, results_.positions[0], results_.normals);
@@ -196,22 +194,11 @@ private:
         }
     }
 
-    void choose_locally(const Perturbation& perturbation) {
-        if (results_.perturbed.empty()) {
-            Results again =
-                apply(surface_, candidates_, perturbed(surface_.positions, perturbation));
-            results_.perturbed.swap(again.positions);
-            results_.iterations += again.iterations;
-        }
-        results_.positions[0] = chosen_locally(surface_, perturbation, results_);
-    }
-
     NoisySurface& surface_;
     const double edge_;
     const Decision decision_;
     const double sideways_;
     NoiseReport& report_;
-    std::vector<Candidate> candidates_;  ///< of results_
     Results results_;
 };
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "filter_tracked_mcf/core/mesh/triangle_elements.h"
 #include "filter_tracked_mcf/core/noise/noisy_surface.h"
 
 namespace tracked_mcf {
@@ -24,33 +25,50 @@ public:
     explicit LinearElements(const NoisySurface& surface);
 
     /// Takes the metric of normals N and the length s, in edges, and of `positions` if there are
-    /// any, and the flux of these.
-    void assemble(const Vectors& normals, double normal_length,
+    /// any, and the flux of these, for systems with the step size δ. A triangle that is far stiffer
+    /// than others is made softer.
+    void assemble(const Vectors& normals, double normal_length, double step_size,
                   const Positions* positions = nullptr);
 
-    /// Solves (M + δ L) x = M b, from the given x, until the residual is `tolerance` times as large
-    /// as M b. Returns the number of iterations.
-    int smooth(double step_size, const Vectors& b, double tolerance, Vectors& x);
+    /// Solves (M + δ L) x = M b, from the given x, so far that the error is about `reduction` times
+    /// what it was. Returns the number of iterations.
+    int smooth(const Vectors& b, double reduction, Vectors& x);
+
+    /// Does the same in the metric with s = 0, where every side is an edge long. Needs no assembly.
+    int smooth_evenly(double step_size, const Vectors& b, double reduction, Vectors& x);
 
     /// Finds the displacements d that solve (F M + δ² L M⁻¹ L) d = -δ² L M⁻¹ (L X - f), where F are
     /// the fidelities, f is the flux at right angles to `normals`, and vertices without a fidelity
     /// stay: a wave with the eigenvalue k keeps 1 / (1 + (δ k)²) where F is 1. The elements must
     /// have the metric of `positions`. Returns the number of iterations.
     /// The fourth component of d is what becomes of `heights` in the same way, if there are any.
-    int displace(double step_size, const Positions& positions, const Vectors& normals,
+    int displace(const Positions& positions, const Vectors& normals,
                  const std::vector<float>& heights, Vectors& d);
 
+    /// Returns a bound of the eigenvalues of δ M⁻¹ L.
+    double largest_eigenvalue() const { return largest_eigenvalue_; }
+    /// Returns row `vertex` of δ M⁻¹ L x.
+    Eigen::Vector4f curvature(const Vectors& x, std::int32_t vertex) const {
+        return delta_ / masses_[vertex] * stiffness(x, vertex);
+    }
+
 private:
+    void find_curvatures(const Positions& positions, const Vectors& normals,
+                         const std::vector<float>& heights, Vectors& curvatures) const;
+    int displace_by_series(Vectors& d);
+    int displace_by_conjugate_gradients(Vectors& d);
     Eigen::Vector4f stiffness(const Vectors& x, std::int32_t vertex) const;
-    template <class Product>
-    int solve(const Product& multiply, double limit, Vectors& x);
-    double residual_square() const;
+    template <class Jacobi>
+    int accelerate(const Jacobi& jacobi, double low, double high, double reduction, Vectors& x);
 
     const NoisySurface& surface_;
+    float delta_ = 0;
+    TriangleElements triangles_;
     RawVector<float> values_;             ///< per entry of Stars::neighbours: -L
     RawVector<float> masses_, diagonal_;  ///< of M and of L
-    Vectors flux_;                        ///< per vertex; empty without a rim
-    RawVector<float> inverse_;            ///< the preconditioner: of a diagonal, or 0
+    double largest_eigenvalue_ = 0;
+    Vectors flux_;              ///< per vertex; empty without a rim
+    RawVector<float> inverse_;  ///< the preconditioner: of a diagonal, or 0
     Vectors residual_, direction_, product_, inner_;
 };
 

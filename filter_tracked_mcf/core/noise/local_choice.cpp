@@ -12,10 +12,10 @@ namespace {
 
 /// A window is the solution of a smoothing step of this size: it averages over about so many
 /// vertices. The accuracy is that of a mean.
-constexpr double kWindowOfChoice = 40, kVerticesOfWindow = 580, kToleranceOfMeans = 5e-3,
-                 kToleranceOfSquares = 2e-2;
+constexpr double kWindowOfChoice = 40, kVerticesOfWindow = 580, kReductionOfMeans = 2e-2,
+                 kReductionOfSquares = 8e-2;
 /// Weights change over so much less.
-constexpr double kTransition = 5, kToleranceOfWeights = 2e-2;
+constexpr double kTransition = 5, kReductionOfWeights = 8e-2;
 /// Four fields are averaged at a time.
 constexpr std::size_t kFields = 4;
 
@@ -29,13 +29,11 @@ constexpr double kLocalPerturbation = 0.05;
 /// Averages four fields over windows of a surface.
 class Windows {
 public:
-    explicit Windows(const NoisySurface& surface) : elements_(surface) {
-        elements_.assemble(Vectors(surface.positions.size(), Eigen::Vector4f::Zero()), 0);
-    }
+    explicit Windows(const NoisySurface& surface) : elements_(surface) {}
 
-    void average(double size, double tolerance, Vectors& fields) {
+    void average(double size, double reduction, Vectors& fields) {
         const Vectors before = fields;
-        elements_.smooth(size, before, tolerance, fields);
+        elements_.smooth_evenly(size, before, reduction, fields);
     }
 
 private:
@@ -49,21 +47,25 @@ double height_of(const NoisySurface& surface, const Vectors& normals, const Posi
         .dot(normals[vertex].head<3>().cast<double>());
 }
 
-/// Returns the risks of candidates, in units of the noise's square.
+/// Returns the risks of candidates, in units of the noise's square. A response is that in the
+/// metric of the plain surface. What vertices keep because the metric follows the noise has the
+/// mean that the sample has shown.
 std::vector<Risks> risks_of(const NoisySurface& surface, const Perturbation& perturbation,
                             const Results& results) {
-    std::vector<Risks> risks(results.positions.size(), Risks(surface.positions.size()));
-    parallel_for_rows(surface.stars.count(), [&](std::int32_t vertex) {
-        const double height = double{perturbation.heights[vertex]};  // of the noise
-        for (std::size_t i = 0; i < risks.size(); ++i) {
-            const auto moved = [&](const std::vector<Positions>& positions) {
-                return height_of(surface, perturbation.normals, positions[i], vertex) / height;
-            };
-            const double plain = moved(results.positions);
-            const double divergence = (moved(results.perturbed) - plain) / perturbation.scale;
-            risks[i][vertex] = static_cast<float>(plain * plain + 2 * divergence);
-        }
-    });
+    const std::int32_t count = surface.stars.count();
+    std::vector<Risks> risks(results.positions.size());
+    for (std::size_t i = 0; i < risks.size(); ++i) {
+        risks[i].resize(surface.positions.size());
+        parallel_for_rows(count, [&](std::int32_t vertex) {
+            const double moved =
+                height_of(surface, perturbation.normals, results.positions[i], vertex) /
+                double{perturbation.heights[vertex]};
+            const double divergence =
+                double{results.responses[i][vertex] / perturbation.heights[vertex]} +
+                results.made[i].divergence_of_metric;
+            risks[i][vertex] = static_cast<float>(moved * moved + 2 * divergence);
+        });
+    }
     return risks;
 }
 
@@ -84,7 +86,7 @@ std::vector<std::uint8_t> best_of(const NoisySurface& surface, const std::vector
                 fields[vertex][field + 1] = difference * difference;
             }
         });
-        windows.average(kWindowOfChoice, kToleranceOfMeans, fields);
+        windows.average(kWindowOfChoice, kReductionOfMeans, fields);
         parallel_for_rows(surface.stars.count(), [&](std::int32_t vertex) {
             for (std::size_t i = first; i < end; ++i) {
                 const auto field = static_cast<Eigen::Index>(2 * (i - first));
@@ -117,7 +119,7 @@ std::vector<std::size_t> best_few(const Sample& sample, const std::vector<Risks>
                     risks[i][vertex] - risks[first][vertex];
             }
         });
-        windows.average(kWindowOfChoice, kToleranceOfMeans, fields);
+        windows.average(kWindowOfChoice, kReductionOfMeans, fields);
         parallel_for_rows(count, [&](std::int32_t vertex) {
             for (std::size_t i = begin; i < end; ++i) {
                 averages[i][vertex] = fields[vertex][static_cast<Eigen::Index>(i - begin)];
@@ -164,7 +166,7 @@ bool is_uneven(const NoisySurface& surface, const Perturbation& perturbation,
         const double moved = height_of(surface, perturbation.normals, smoothed, vertex);
         squares[vertex] << static_cast<float>(moved * moved), 0, 0, 0;
     });
-    Windows(surface).average(kWindowOfChoice, kToleranceOfSquares, squares);
+    Windows(surface).average(kWindowOfChoice, kReductionOfSquares, squares);
     const auto logarithm = [&](std::int32_t vertex) {
         return std::log(std::max(double{squares[vertex][0]}, 1e-12)) / 2;
     };
@@ -186,7 +188,7 @@ Positions chosen_locally(const NoisySurface& surface, const Perturbation& pertur
         weights[vertex].setZero();
         if (best[vertex] > 0) weights[vertex][best[vertex] - 1] = 1;
     });
-    windows.average(kTransition, kToleranceOfWeights, weights);
+    windows.average(kTransition, kReductionOfWeights, weights);
     Positions between = results.positions[0];
     parallel_for_rows(surface.stars.count(), [&](std::int32_t vertex) {
         for (std::size_t i = 1; i < results.positions.size(); ++i) {

@@ -28,7 +28,7 @@ bool is_uneven(const NoisySurface& surface, const Perturbation& perturbation,
 
 /// Returns positions between those of several candidates: near each vertex, those of the first one
 /// unless another one's risk, averaged over a window around it, is less by more than its standard
-/// error. `results` are those of the candidates, with their perturbed positions.
+/// error. `results` are those of the candidates, with their responses to the perturbation.
 Positions chosen_locally(const NoisySurface& surface, const Perturbation& perturbation,
                          const Results& results);
 

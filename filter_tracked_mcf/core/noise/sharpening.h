@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
+#include <functional>
+#include <vector>
+
 #include "filter_tracked_mcf/core/noise/smoothing.h"
 
 namespace tracked_mcf {
@@ -12,12 +16,16 @@ struct Sharpening {
 };
 
 /// Sharpens the creases of a smooth surface, which a step leaves a little round: averages the
-/// normals of neighbouring triangles, those alike by the width with most weight (Zheng, Fu, Au and
+/// normals of neighbouring triangles, those alike by `width` with most weight (Zheng, Fu, Au and
 /// Tai, "Bilateral Normal Filtering for Mesh Denoising", 2011), and moves the vertices to fit them
 /// (Sun, Rosin, Martin and Langbein, "Fast and Effective Feature-Preserving Mesh Denoising", 2007).
-/// Vertices start at the surface's positions, and are as far from these as StepSettings::sideways
+/// Vertices start at `start`, and stay as near to the surface's positions as StepSettings::sideways
 /// allows. They stop before one of them would leave `box`.
-void sharpen(const NoisySurface& surface, const Sharpening& sharpening, double sideways,
-             const Eigen::AlignedBox3d& box, Positions& positions);
+///
+/// Calls take(i, positions) for each number of iterations. These increase, and share the first
+/// ones.
+void sharpen(const NoisySurface& surface, double width, const std::vector<int>& iterations,
+             double sideways, const Eigen::AlignedBox3d& box, const Positions& start,
+             const std::function<void(std::size_t, Positions)>& take);
 
 }  // namespace tracked_mcf

@@ -18,10 +18,10 @@ struct StepSettings {
     double sideways = std::numeric_limits<double>::infinity();
 };
 
-/// Takes vertices back that are farther from their start, the surface's positions, than
-/// StepSettings::sideways allows.
-void limit_sideways(const NoisySurface& surface, const Vectors& normals, double sideways,
-                    Positions& positions);
+/// Takes a vertex back that is farther from its start, the surface's position, than
+/// StepSettings::sideways allows. `plane` is the normal of its tangent plane.
+void limit_sideways(const NoisySurface& surface, std::int32_t vertex, const Eigen::Vector4f& plane,
+                    double sideways, Eigen::Vector3d& position);
 
 /// Smooths surfaces that differ from one another only in their positions. Vertices start at the
 /// positions of the given surface.
@@ -51,7 +51,7 @@ public:
 
     /// Returns the normals of the latest call above.
     const Vectors& normals() const { return normals_; }
-    /// Returns the iterations of conjugate gradients so far.
+    /// Returns the iterations of the solvers so far.
     int iterations() const { return iterations_; }
 
 private:
@@ -59,7 +59,7 @@ private:
 
     const NoisySurface& surface_;
     LinearElements elements_;
-    Vectors normals_;
+    Vectors triangle_normals_, normals_;
     Vectors planes_;   ///< see normals_of_planes(); empty without a rim
     Vectors vectors_;  ///< mean normals, and then displacements
     int iterations_ = 0;

@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Dense>
 #include <cmath>
 #include <random>
 
+#include "filter_tracked_mcf/core/noise/smoothing.h"
 #include "tests/support/shapes.h"
 #include "tests/unit/noise/noisy.h"
 
@@ -30,9 +32,9 @@ std::vector<double> smoothed(const NoisySurface& surface, double step_size,
     Positions positions = surface.positions;
     for (std::size_t i = 0; i < heights.size(); ++i) positions[i][2] = heights[i];
     LinearElements elements(surface);
-    elements.assemble(upright(surface), 5);
+    elements.assemble(upright(surface), 5, step_size);
     Vectors d;
-    elements.displace(step_size, positions, upright(surface), {}, d);
+    elements.displace(positions, upright(surface), {}, d);
     std::vector<double> result = heights;
     for (std::size_t i = 0; i < heights.size(); ++i) result[i] += double{d[i][2]};
     return result;
@@ -124,9 +126,9 @@ TEST(LinearElements, SmoothMoreAlongShortSides) {
             position[2] = 0.1 * std::cos(position[axis] / (axis == 0 ? 1 : 3));
         }
         LinearElements elements(surface);
-        elements.assemble(upright(surface), 5, with_positions ? &positions : nullptr);
+        elements.assemble(upright(surface), 5, 0.3, with_positions ? &positions : nullptr);
         Vectors d;
-        elements.displace(0.3, positions, upright(surface), {}, d);
+        elements.displace(positions, upright(surface), {}, d);
         double squares = 0;
         for (const Eigen::Vector4f& vector : d) squares += double{vector[2] * vector[2]};
         return std::sqrt(squares);
@@ -147,21 +149,156 @@ TEST(LinearElements, LeaveAFlatSheetAsItIs) {
         normal.head<3>() = (turn * Eigen::Vector3d::UnitZ()).cast<float>();
     }
     LinearElements elements(surface);
-    elements.assemble(normals, 0, &surface.positions);
+    elements.assemble(normals, 0, 2, &surface.positions);
     Vectors d;
-    elements.displace(2, surface.positions, normals, {}, d);
+    elements.displace(surface.positions, normals, {}, d);
     for (const Eigen::Vector4f& vector : d) EXPECT_LT(vector.norm(), 1e-4);
 }
 
 TEST(LinearElements, KeepConstantNormals) {
     const NoisySurface surface = square();
     LinearElements elements(surface);
-    elements.assemble(upright(surface), 5);
-    Vectors x(surface.positions.size(), Eigen::Vector4f::Zero());
-    elements.smooth(2, upright(surface), 2e-2, x);
-    for (const Eigen::Vector4f& vector : x) EXPECT_NEAR(vector[2], 1, 0.05);
-    x = upright(surface);
-    EXPECT_EQ(elements.smooth(2, upright(surface), 2e-2, x), 0);
+    elements.assemble(upright(surface), 5, 2);
+    for (const bool evenly : {false, true}) {
+        const auto smooth = [&](double reduction, Vectors& x) {
+            return evenly ? elements.smooth_evenly(2, upright(surface), reduction, x)
+                          : elements.smooth(upright(surface), reduction, x);
+        };
+        Vectors x(surface.positions.size(), Eigen::Vector4f::Zero());
+        EXPECT_GT(smooth(2e-2, x), 1);
+        for (const Eigen::Vector4f& vector : x) EXPECT_NEAR(vector[2], 1, 0.05);
+        x = upright(surface);
+        smooth(2e-2, x);
+        for (const Eigen::Vector4f& vector : x) EXPECT_NEAR(vector[2], 1, 1e-5);
+    }
+}
+
+/// Meshes with needles, a rim, a fan of many triangles, and sides with three triangles. They are
+/// small enough for dense matrices.
+std::vector<TriangleMesh> nasty_meshes() {
+    TriangleMesh sphere = with_isotropic_noise(shapes::geodesic_sphere(4), 0.4);
+    TriangleMesh stretched = with_noise(shapes::square(12), 0.3);
+    for (Eigen::Vector3d& p : stretched.positions) p[0] *= 30 * (1 + p[0] * p[0]);
+    TriangleMesh fan;
+    fan.positions.emplace_back(0, 0, 0);
+    for (int i = 0; i < 80; ++i) {
+        fan.positions.emplace_back(std::cos(0.01 * i * i), std::sin(0.01 * i * i), 0.1 * (i % 3));
+        if (i > 0) fan.triangles.push_back({0, i, i + 1});
+    }
+    TriangleMesh book = shapes::square(6);
+    const auto spine = static_cast<std::int32_t>(book.positions.size());
+    for (int i = 0; i < 5; ++i) {
+        book.positions.emplace_back(0.1 * i, 0.3, 0.5);
+        book.triangles.push_back({book.triangles[0][0], book.triangles[0][1], spine + i});
+    }
+    return {sphere, stretched, fan, book};
+}
+
+/// Returns δ M⁻¹ L.
+Eigen::MatrixXd dense_curvature(const LinearElements& elements, std::int32_t count) {
+    Eigen::MatrixXd matrix(count, count);
+    Vectors unit(static_cast<std::size_t>(count), Eigen::Vector4f::Zero());
+    for (std::int32_t column = 0; column < count; ++column) {
+        unit[column][0] = 1;
+        for (std::int32_t row = 0; row < count; ++row)
+            matrix(row, column) = double{elements.curvature(unit, row)[0]};
+        unit[column][0] = 0;
+    }
+    return matrix;
+}
+
+TEST(LinearElements, KnowABoundOfTheirLargestEigenvalue) {
+    for (const TriangleMesh& mesh : nasty_meshes()) {
+        const NoisySurface surface = surface_of_mesh(mesh);
+        Smoothing smoothing(surface);
+        const Vectors normals = smoothing.smooth_normals(surface.positions, {3, 1, 2});
+        for (const double step_size : {0.04, 1.2, 40.0}) {
+            LinearElements elements(surface);
+            elements.assemble(normals, 3, step_size, &surface.positions);
+            const Eigen::VectorXcd eigenvalues =
+                dense_curvature(elements, surface.stars.count()).eigenvalues();
+            const double largest = eigenvalues.cwiseAbs().maxCoeff();
+            EXPECT_LE(largest, elements.largest_eigenvalue() * (1 + 1e-5));
+            EXPECT_GE(largest, elements.largest_eigenvalue() / 3);
+            EXPECT_LE(elements.largest_eigenvalue(), std::max(16.0, 12 * step_size) * (1 + 1e-5));
+        }
+    }
+}
+
+TEST(LinearElements, DisplaceAsADenseSolutionDoes) {
+    for (const TriangleMesh& mesh : nasty_meshes()) {
+        for (const double step_size : {0.3, 4.0, 1000.0}) {
+            // Conjugate gradients stop early where the condition number is large.
+            for (const bool holds : {false, step_size < 1}) {
+                NoisySurface surface = surface_of_mesh(mesh);
+                if (holds) surface.fidelity[1] = 0, surface.fidelity[3] = 2;
+                const std::int32_t count = surface.stars.count();
+                Smoothing smoothing(surface);
+                const Vectors normals = smoothing.smooth_normals(surface.positions, {3, 1, 2});
+                std::vector<float> heights(surface.positions.size());
+                for (std::int32_t i = 0; i < count; ++i)
+                    heights[i] = static_cast<float>(noise(heights.size(), 3)[i]);
+                LinearElements elements(surface);
+                elements.assemble(normals, 3, step_size, &surface.positions);
+                Vectors d;
+                elements.displace(surface.positions, normals, heights, d);
+
+                const Eigen::MatrixXd k = dense_curvature(elements, count);
+                Eigen::VectorXd before(count), fidelity(count), found(count);
+                for (std::int32_t i = 0; i < count; ++i) {
+                    before[i] = double{heights[i]};
+                    fidelity[i] = double{surface.fidelity[i]};
+                    found[i] = double{d[i][3]};
+                }
+                const Eigen::MatrixXd square = k * k;
+                Eigen::MatrixXd system = square;
+                system.diagonal() += fidelity;
+                Eigen::VectorXd right = -square * before;
+                for (std::int32_t i = 0; i < count; ++i) {
+                    if (fidelity[i] > 0) continue;
+                    system.row(i).setZero();
+                    system(i, i) = 1;
+                    right[i] = 0;
+                }
+                const Eigen::VectorXd exact = system.partialPivLu().solve(right);
+                EXPECT_LT((found - exact).norm(), 0.02 * exact.norm()) << step_size << holds;
+            }
+        }
+    }
+}
+
+TEST(LinearElements, SmoothAsADenseSolutionDoes) {
+    for (const TriangleMesh& mesh : nasty_meshes()) {
+        const NoisySurface surface = surface_of_mesh(mesh);
+        const std::int32_t count = surface.stars.count();
+        Vectors b(surface.positions.size());
+        const std::vector<double> heights = noise(b.size(), 1);
+        for (std::int32_t i = 0; i < count; ++i) b[i] << static_cast<float>(heights[i]), 0, 0, 0;
+        const Vectors normals = Smoothing(surface).smooth_normals(surface.positions, {3, 1, 2});
+        for (const double length : {0.0, 3.0}) {
+            LinearElements elements(surface);
+            elements.assemble(length > 0 ? normals : upright(surface), length, 2);
+            const auto error = [&](const Vectors& x) {
+                Eigen::MatrixXd system = dense_curvature(elements, count);
+                system.diagonal().array() += 1;
+                const Eigen::VectorXd exact = system.partialPivLu().solve(
+                    Eigen::Map<const Eigen::VectorXd>(heights.data(), count));
+                double square = 0;
+                for (std::int32_t i = 0; i < count; ++i) {
+                    const double difference = double{x[i][0]} - exact[i];
+                    square += difference * difference;
+                }
+                return std::sqrt(square) / exact.norm();
+            };
+            Vectors x = b;
+            elements.smooth(b, 1e-3, x);
+            EXPECT_LT(error(x), 5e-3) << length;
+            if (length > 0) continue;
+            Vectors even = b;
+            elements.smooth_evenly(2, b, 1e-3, even);
+            EXPECT_LT(error(even), 5e-3);
+        }
+    }
 }
 
 TEST(LinearElements, DoNotSmoothAcrossACrease) {
@@ -178,9 +315,9 @@ TEST(LinearElements, DoNotSmoothAcrossACrease) {
     }
     const auto moved = [&](double normal_length) {
         LinearElements elements(surface);
-        elements.assemble(normals, normal_length);
+        elements.assemble(normals, normal_length, 1);
         Vectors d;
-        elements.displace(1, positions, normals, {}, d);
+        elements.displace(positions, normals, {}, d);
         double squares = 0;
         for (const Eigen::Vector4f& vector : d) squares += double{vector[2] * vector[2]};
         return std::sqrt(squares);

@@ -70,8 +70,10 @@ TEST(Sharpening, StopsBeforeAVertexLeavesTheBox) {
     Eigen::AlignedBox3d box;
     for (const Eigen::Vector3d& position : surface.positions) box.extend(position);
     const auto sharpened_within = [&](const Eigen::AlignedBox3d& within) {
-        Positions positions = surface.positions;
-        sharpen(surface, {0.5, 15}, std::numeric_limits<double>::infinity(), within, positions);
+        Positions positions;
+        sharpen(surface, 0.5, {15}, std::numeric_limits<double>::infinity(), within,
+                surface.positions,
+                [&](std::size_t, Positions sharpened) { positions = std::move(sharpened); });
         return positions;
     };
     const Positions confined = sharpened_within(box);

@@ -11,12 +11,18 @@ namespace tracked_mcf {
 namespace {
 
 constexpr double kAnywhere = std::numeric_limits<double>::infinity();
-const Sharpening kBilateral = {0.4, 5};
+
+/// Returns positions after so many iterations.
+Positions sharpened(const NoisySurface& surface, const Positions& start, int iterations) {
+    Positions result;
+    sharpen(surface, 0.4, {iterations}, kAnywhere, confinement(surface.positions), start,
+            [&](std::size_t, Positions positions) { result = std::move(positions); });
+    return result;
+}
 
 TEST(Sharpening, KeepsACube) {
     const NoisySurface surface = surface_of_mesh(cube());
-    Positions positions = surface.positions;
-    sharpen(surface, kBilateral, kAnywhere, confinement(positions), positions);
+    const Positions positions = sharpened(surface, surface.positions, 5);
     for (std::size_t i = 0; i < positions.size(); ++i)
         EXPECT_LT((positions[i] - surface.positions[i]).norm(), 1e-12) << i;
 }
@@ -27,8 +33,7 @@ TEST(Sharpening, LeavesAPlaneFlatAndItsFixedVerticesWhereTheyAre) {
     Positions positions = surface.positions;
     positions[17][2] += 0.1;
     const Eigen::Vector3d fixed = positions[17];
-    sharpen(surface, kBilateral, kAnywhere, confinement(positions), positions);
-    EXPECT_EQ(positions[17], fixed);
+    EXPECT_EQ(sharpened(surface, positions, 5)[17], fixed);
 }
 
 TEST(Sharpening, TurnsTheNormalsOfANoisyCubeTowardsItsFaces) {
@@ -46,8 +51,15 @@ TEST(Sharpening, TurnsTheNormalsOfANoisyCubeTowardsItsFaces) {
     Smoothing smoothing(surface);
     ASSERT_TRUE(smoothing.step({5, 1, 2, kAnywhere}, confinement(positions), positions));
     const double before = error();
-    sharpen(surface, {0.4, 10}, kAnywhere, confinement(surface.positions), positions);
+    const Positions smooth = positions;
+    positions = sharpened(surface, smooth, 10);
     EXPECT_LT(error(), 0.5 * before);
+
+    // More than one number of iterations share the first ones.
+    std::vector<Positions> both;
+    sharpen(surface, 0.4, {4, 10}, kAnywhere, confinement(surface.positions), smooth,
+            [&](std::size_t, Positions result) { both.push_back(std::move(result)); });
+    EXPECT_EQ(both, (std::vector<Positions>{sharpened(surface, smooth, 4), positions}));
 }
 
 }  // namespace
