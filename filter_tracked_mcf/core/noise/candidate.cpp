@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "filter_tracked_mcf/core/noise/candidate.h"
-#include "filter_tracked_mcf/core/pi.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <string>
 #include <utility>
+
+#include "filter_tracked_mcf/core/pi.h"
 
 namespace tracked_mcf {
 

@@ -13,7 +13,7 @@ import sys
 
 OURS, CGAL = "ours", "CGAL"
 # Of tracked_mcf_benchmark solvers.
-SOLVERS = (OURS, "IC(0)-CG", "LLT", "CHOLMOD")
+SOLVERS = (OURS, "IC(0)-CG", "CHOLMOD")
 # Of ours, then of PyMeshLab.
 WHOLE_JOBS = ("flow, default parameters", "flow, one thread", "flow, detail of 10 edges", "flow, detail of 40 edges",
               "remove noise, default parameters", "remove noise, one thread",

@@ -102,8 +102,8 @@ class Benchmark:
             measurements.run(self._whole_jobs(), self._repetitions)
             measurements.run(self._sizes(), self._repetitions)
             return
-        measurements.run(self._flows() + self._solvers(), self._repetitions)
-        measurements.run(self._cgal() + self._scale(), 1)
+        measurements.run(self._flows(), self._repetitions)
+        measurements.run(self._solvers() + self._cgal() + self._scale(), 1)
 
     def _flows(self):
         mesh = sphere(self._frequency)
