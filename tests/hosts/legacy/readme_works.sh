@@ -31,7 +31,7 @@ cd "$work"
 awk '/^```xml$/ { file = "script_" ++count ".mlx"; next } /^```$/ { file = "" } file { print > file }' "${pages[@]}"
 compare() { # SCRIPT LOG [SUBCOMMAND]
     "$prefix/bin/meshlabserver" -i scan.ply -s "$1" -o host.ply | grep "$2"
-    "$tool" "${@:3}" scan.ply tool.ply --quiet
+    "$tool" "${@:3}" scan.ply tool.ply --quiet --overwrite
     "$here/../compare_positions.py" host.ply tool.ply scan.ply 0.5
 }
 compare script_1.mlx "Smoothed"
@@ -41,7 +41,7 @@ sed -i 's/name="TargetLen" value="0.01"/name="TargetLen" value="0.2"/' script_3.
 sed '/Fair Selected Faces/,/<\/filter>/d' script_3.mlx > fill.mlx
 "$prefix/bin/meshlabserver" -i open.ply -s fill.mlx -o closed.ply -m ff
 "$prefix/bin/meshlabserver" -i open.ply -s script_3.mlx -o host.ply | grep "Faired"
-"$tool" fair closed.ply tool.ply --selected flags
+"$tool" fair closed.ply tool.ply --selected flags --overwrite
 "$here/../compare_positions.py" host.ply tool.ply closed.ply 0.5
 
 commands=$(sed -n '/^```sh$/,/^```$/p' "${pages[@]}" | grep '^tracked_mcf ')

@@ -166,7 +166,7 @@ TEST(Progress, PassesOnWhatTheCallbackThrows) {
     for (const int threads : {1, 2, 3}) {
         FlowParameters p = parameters(5, 1e-3, 1);
         p.threads = threads;
-        for (const int last : {1, 10, 100, 500}) {
+        for (const int last : {1, 10, 100, 300}) {
             TriangleMesh stopped = mesh;
             int made = 0;
             const auto fail = [&](double, std::string_view) {
