@@ -17,7 +17,7 @@ struct StepReport {
     /// solves as its order, and another one to preserve the volume.
     double residual_before = 0;
     double residual_after = 0;
-    int solver_iterations = 0;  ///< iterations of conjugate gradients, or W-cycles, of all solves
+    int solver_iterations = 0;  ///< iterations of the linear solvers, or W-cycles, of all solves
     /// Of the solver that converges: the largest estimated error of a solve in the energy norm,
     /// relative to its solution. kNoNumber with W-cycles, which have no tolerance.
     double error_estimate = 0;

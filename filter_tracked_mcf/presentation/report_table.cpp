@@ -20,7 +20,7 @@ constexpr const char* kStop =
     "grew` or `nothing moves`; or why no noise was removed: `nothing moves`, `too few vertices`, "
     "`too many creases` or `no noise`; else `none`";
 constexpr const char* kSolverIterations =
-    "iterations of conjugate gradients, or W-cycles; of a flow in each step, else in all";
+    "iterations of the linear solvers, or W-cycles; of a flow in each step, else in all";
 
 std::string name_of(Stop stop) {
     switch (stop) {

@@ -193,7 +193,7 @@ std::string solver_details(const FlowParameters& parameters, const FlowReport& r
 
 std::string solver_details(const NoiseParameters& /*parameters*/, const NoiseReport& report) {
     return steps(report.smoothing_steps) + " with " + std::to_string(report.solver_iterations) +
-           " iterations of conjugate gradients, and " + steps(report.sharpening_steps) +
+           " iterations of the solvers, and " + steps(report.sharpening_steps) +
            " of the bilateral filter.\n";
 }
 

@@ -59,7 +59,8 @@ RUNS = {
         "boundary=smooth",
         "selected=true",
         "quality=displacement",
-        "largest_movement=.1edges boundary=smooth selected=true quality=displacement",
+        # Hosts may differ by the rounding of what is computed before the limit, which must not be much less.
+        "largest_movement=.3edges boundary=smooth selected=true quality=displacement",
         "threads=1",
     ],
     "fair": [
