@@ -30,8 +30,9 @@ using IncompleteCholesky =
 using ConjugateGradients =
     Eigen::ConjugateGradient<Matrix, Eigen::Lower | Eigen::Upper, IncompleteCholesky>;
 
-/// A solver's tolerance is this, halved until it reaches the error, but not below the least one.
-constexpr double kFirstTolerance = 0.1, kLeastTolerance = 1e-8;
+/// A solver's tolerance is this, halved until it reaches the error.
+constexpr double kFirstTolerance = 0.1;
+constexpr int kMostHalvings = 24;
 
 struct Options {
     std::string mesh;
@@ -154,7 +155,8 @@ void run(const Options& options) {
         {"IC(0)-CG", [&](double t) { return solve_by_conjugate_gradients(system, t); }},
         {"CHOLMOD", [&](double) { return solve_directly(system); }}};
     print_header();
-    for (double tolerance = kFirstTolerance; tolerance > kLeastTolerance; tolerance /= 2) {
+    for (int halvings = 0; halvings <= kMostHalvings; ++halvings) {
+        const double tolerance = std::ldexp(kFirstTolerance, -halvings);
         const Solution solution = solvers.at(options.solver)(tolerance);
         const double error = system.error_of(solution.displacement);
         if (!(error <= options.error)) continue;

@@ -104,9 +104,8 @@ void draw_samples(int count, TrackedElements& elements) {
     for (std::size_t element = 0; element + 1 < elements.sample_begin.size(); ++element) {
         const std::int64_t begin = elements.sample_begin[element];
         const auto size = elements.sample_begin[element + 1] - begin;
-        std::vector<float> weights;
-        for (std::int64_t i = 0; i < size; ++i)
-            weights.push_back(elements.samples.weight(begin + i));
+        std::vector<float> weights(static_cast<std::size_t>(size));
+        for (std::int64_t i = 0; i < size; ++i) weights[i] = elements.samples.weight(begin + i);
         const double area = std::accumulate(weights.begin(), weights.end(), 0.0);
         std::vector<int> drawn(weights.size());
         std::discrete_distribution<std::size_t> distribution(weights.begin(), weights.end());
