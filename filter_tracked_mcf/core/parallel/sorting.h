@@ -131,11 +131,6 @@ public:
         return {items_.data() + begin_[group], items_.data() + begin_[group + 1]};
     }
 
-    /// Returns the members of all groups, group after group.
-    const std::int32_t* items() const { return items_.data(); }
-    /// Returns the offset of each group in items(), and the end of the last group.
-    const std::int64_t* begins() const { return begin_.data(); }
-
 private:
     std::vector<std::int64_t> begin_;
     std::vector<std::int32_t> items_;
