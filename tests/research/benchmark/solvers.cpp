@@ -120,30 +120,30 @@ Solution solve_ours(const TriangleMesh& mesh, const System& system, const Option
     return solution;
 }
 
-/// The time is that of the factors and of the solution; the matrix is there.
-Solution solve_by_conjugate_gradients(const System& system, double tolerance) {
-    ConjugateGradients solver;
-    solver.setTolerance(tolerance);
+/// The time is that of the factors and of the solution: the matrix, its order of elimination and
+/// the pattern of the factor are there.
+template <class Solver>
+Solution solve_by(Solver& solver, const System& system) {
     solver.analyzePattern(system.a);
     const ProcessStopwatch stopwatch;
     solver.factorize(system.a);
     Solution solution;
     solution.displacement = solver.solve(system.b);
     solution.seconds = stopwatch.seconds();
+    return solution;
+}
+
+Solution solve_by_conjugate_gradients(const System& system, double tolerance) {
+    ConjugateGradients solver;
+    solver.setTolerance(tolerance);
+    Solution solution = solve_by(solver, system);
     solution.iterations = solver.iterations();
     return solution;
 }
 
-/// Likewise; the order of elimination and the pattern of the factor are there.
 Solution solve_directly(const System& system) {
     Eigen::CholmodSupernodalLLT<Matrix> solver;
-    solver.analyzePattern(system.a);
-    const ProcessStopwatch stopwatch;
-    solver.factorize(system.a);
-    Solution solution;
-    solution.displacement = solver.solve(system.b);
-    solution.seconds = stopwatch.seconds();
-    return solution;
+    return solve_by(solver, system);
 }
 
 void run(const Options& options) {
